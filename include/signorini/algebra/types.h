@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_algebra_types_h
+#define signorini_algebra_types_h
+
+#include <deal.II/base/tensor.h>
+#include <deal.II/base/types.h>
+#include <deal.II/lac/la_parallel_vector.h>
+
+namespace Signorini
+{
+  /// The space dimension. The contact mapping and all kernels are written for 3.
+  constexpr unsigned int dim = 3;
+
+  /// A displacement-like field: 3 components per node, entry 3 * node + component.
+  /// Locally: owned nodes first, ghost nodes behind (see NodePartition).
+  using Vector = dealii::LinearAlgebra::distributed::Vector<double>;
+
+  /// Global number of a node (a mesh vertex that carries 3 displacement components).
+  using NodeIndex = dealii::types::global_dof_index;
+
+  constexpr NodeIndex invalid_node = dealii::numbers::invalid_dof_index;
+
+  using Vector3 = dealii::Tensor<1, 3>;
+  using Block   = dealii::Tensor<2, 3>;
+
+  /// Bit c is set if component c of the displacement of a node is prescribed.
+  using FixedMask = std::uint8_t;
+
+  constexpr FixedMask all_fixed = 7;
+
+  /// E_p of method.md: the projector onto the free directions of a node.
+  inline Vector3
+  project_free(const FixedMask fixed, const Vector3 &v)
+  {
+    Vector3 w = v;
+    for (unsigned int c = 0; c < dim; ++c)
+      if (fixed & (1u << c))
+        w[c] = 0.;
+    return w;
+  }
+} // namespace Signorini
+
+#endif

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_mesh_contact_surface_h
+#define signorini_mesh_contact_surface_h
+
+#include <signorini/algebra/types.h>
+#include <signorini/surface/surface_mesh.h>
+
+#include <array>
+#include <utility>
+#include <vector>
+
+namespace Signorini
+{
+  /// One side of a contact pair, gathered on all ranks: the faces, their triangles and nodes.
+  ///
+  /// A surface has the size N^(2/3) of the mesh; every rank holds the whole of it, in an order that
+  /// does not depend on the number of ranks.
+  struct ContactSurface
+  {
+    /// A boundary face of a cell (a bilinear quadrilateral).
+    struct Face
+    {
+      /// Corners as indices of mesh.vertices, counterclockwise seen from outside the body
+      /// (reference corners (0,0), (1,0), (1,1), (0,1)).
+      std::array<unsigned int, 4> corners;
+      /// The rank that owns the cell.
+      unsigned int owner;
+    };
+
+    /// Triangles of all faces. Hanging vertices on the edges of a face are corners of its triangles:
+    /// the mesh has no T-junctions. vertex_normals are outward, and already projected onto the free
+    /// directions of the vertex (renormalised) where something remains of them.
+    SurfaceMesh mesh;
+
+    std::vector<Face> faces;
+    /// The face of each triangle of mesh.
+    std::vector<unsigned int> triangle_face;
+    /// Global node number of each vertex of mesh.
+    std::vector<NodeIndex> vertex_node;
+    /// Prescribed components of each vertex.
+    std::vector<FixedMask> vertex_fixed;
+    /// |E_p n_p|: what the projection onto the free directions left of the unit normal, per vertex.
+    std::vector<double> normal_share;
+    /// For hanging vertices: parents (vertex indices) and weights of the closed constraint; else empty.
+    std::vector<std::vector<std::pair<unsigned int, double>>> hanging;
+  };
+} // namespace Signorini
+
+#endif

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_surface_surface_mesh_h
+#define signorini_surface_surface_mesh_h
+
+#include <deal.II/base/point.h>
+
+#include <array>
+#include <vector>
+
+namespace Signorini
+{
+  /// A triangulated surface in space as plain arrays. Triangles are oriented: the normal
+  /// (b - a) x (c - a) of a triangle (a, b, c) points out of the body.
+  struct SurfaceMesh
+  {
+    std::vector<dealii::Point<3>>            vertices;
+    std::vector<std::array<unsigned int, 3>> triangles;
+    /// One unit vector per vertex, pointing out of the body; linear in between. May be left empty:
+    /// then compute_vertex_normals() fills it.
+    std::vector<dealii::Tensor<1, 3>> vertex_normals;
+
+    /// Vertex normals as normalised, area weighted sum of the normals of the adjacent triangles.
+    void
+    compute_vertex_normals();
+  };
+} // namespace Signorini
+
+#endif
