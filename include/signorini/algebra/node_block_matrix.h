@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_algebra_node_block_matrix_h
+#define signorini_algebra_node_block_matrix_h
+
+#include <signorini/algebra/node_partition.h>
+
+#include <memory>
+#include <vector>
+
+namespace Signorini
+{
+  /// Rows of global column numbers, for building a NodeBlockMatrix.
+  struct NodePattern
+  {
+    /// Owned rows first (in order), then the foreign rows.
+    std::vector<std::size_t> row_start = {0};
+    std::vector<NodeIndex>   columns;
+    /// Global numbers of the foreign rows (owned by other ranks), sorted.
+    std::vector<NodeIndex> foreign_rows;
+  };
+
+  /// Sparse matrix of 3x3 blocks, one row and column per node, distributed by rows.
+  ///
+  /// Each row stores its diagonal block first, then the others by ascending local column. A rank may
+  /// also hold rows of other ranks ("foreign" rows): they collect contributions until compress()
+  /// adds them to the owner's row. Products use the owned rows only.
+  class NodeBlockMatrix
+  {
+  public:
+    /// Collective. Builds the structure: the union, on the owner, of what all ranks put into a row.
+    /// The diagonal is added. extra_ghosts become ghosts of the partition besides the columns.
+    void
+    reinit(const dealii::IndexSet &owned,
+           const NodePattern      &pattern,
+           const dealii::IndexSet &extra_ghosts,
+           const MPI_Comm          communicator);
+
+    const NodePartition &
+    partition() const
+    {
+      return *nodes;
+    }
+
+    std::shared_ptr<const NodePartition>
+    shared_partition() const
+    {
+      return nodes;
+    }
+
+    /// Owned rows.
+    unsigned int
+    n_rows() const
+    {
+      return nodes->n_owned();
+    }
+
+    std::size_t
+    n_blocks() const
+    {
+      return columns.size();
+    }
+
+    std::size_t
+    row_begin(const unsigned int row) const
+    {
+      return row_start[row];
+    }
+
+    std::size_t
+    row_end(const unsigned int row) const
+    {
+      return row_start[row + 1];
+    }
+
+    unsigned int
+    column(const std::size_t k) const
+    {
+      return columns[k];
+    }
+
+    const unsigned int *
+    column_data() const
+    {
+      return columns.data();
+    }
+
+    /// Nine numbers, row by row.
+    double *
+    block(const std::size_t k)
+    {
+      return values.data() + 9 * k;
+    }
+
+    const double *
+    block(const std::size_t k) const
+    {
+      return values.data() + 9 * k;
+    }
+
+    /// The row index (owned or foreign) in which this rank collects contributions to a local node,
+    /// or dealii::numbers::invalid_unsigned_int.
+    unsigned int
+    row_of(const unsigned int local_node) const
+    {
+      return local_node < nodes->n_owned() ? local_node : foreign_row_of_ghost[local_node - nodes->n_owned()];
+    }
+
+    /// Position of the block (row, local column) in a row given by row_of(). It must exist.
+    std::size_t
+    find(const unsigned int row, const unsigned int local_column) const;
+
+    /// Sets all blocks of a row given by row_of() to zero.
+    void
+    clear_row(const unsigned int row);
+
+    /// Rows given by row_of() that exist on this rank.
+    unsigned int
+    n_stored_rows() const
+    {
+      return static_cast<unsigned int>(row_start.size()) - 1;
+    }
+
+    /// Collective. Adds the foreign rows to the rows of their owners and clears them.
+    void
+    compress();
+
+    /// dst = A src. Updates the ghost values of src.
+    void
+    vmult(Vector &dst, const Vector &src) const;
+
+    std::size_t
+    memory_consumption() const;
+
+  private:
+    std::shared_ptr<const NodePartition> nodes;
+    std::vector<std::size_t>             row_start;
+    std::vector<unsigned int>            columns;
+    std::vector<double>                  values;
+
+    std::vector<unsigned int> foreign_row_of_ghost;
+    /// For each rank that gets contributions: the range of stored rows.
+    std::vector<std::pair<unsigned int, std::pair<unsigned int, unsigned int>>> send_rows;
+    /// For each rank that sends: the positions its blocks are added to.
+    std::vector<std::pair<unsigned int, std::vector<std::size_t>>> receive_positions;
+  };
+} // namespace Signorini
+
+#endif

@@ -1,0 +1,393 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/algebra/nodal_transfer.h>
+
+namespace Signorini
+{
+  using namespace dealii;
+
+  void
+  NodalTransfer::reinit(NodeRows rows, const std::vector<BlockRow> &block_rows, const unsigned int n_owned_fine)
+  {
+    n_owned = n_owned_fine;
+    block_start.assign(rows.n_rows(), no_blocks);
+    blocks.clear();
+    columns.clear();
+    coarse.reset();
+    if (block_rows.empty())
+      {
+        row_start      = std::move(rows.start);
+        global_columns = std::move(rows.columns);
+        weights        = std::move(rows.weights);
+        return;
+      }
+    row_start.assign(1, 0);
+    row_start.reserve(rows.start.size());
+    global_columns.clear();
+    weights.clear();
+    global_columns.reserve(rows.columns.size());
+    weights.reserve(rows.columns.size());
+    auto next = block_rows.begin();
+    for (unsigned int i = 0; i < rows.n_rows(); ++i)
+      {
+        if (next != block_rows.end() && next->row == i)
+          {
+            block_start[i] = static_cast<unsigned int>(blocks.size());
+            blocks.insert(blocks.end(), next->blocks.begin(), next->blocks.end());
+            global_columns.insert(global_columns.end(), next->columns.begin(), next->columns.end());
+            weights.resize(global_columns.size(), 0.);
+            ++next;
+          }
+        else
+          {
+            global_columns.insert(global_columns.end(),
+                                  rows.columns.begin() + rows.start[i],
+                                  rows.columns.begin() + rows.start[i + 1]);
+            weights.insert(weights.end(),
+                           rows.weights.begin() + rows.start[i],
+                           rows.weights.begin() + rows.start[i + 1]);
+          }
+        row_start.push_back(global_columns.size());
+      }
+    Assert(next == block_rows.end(), ExcInternalError());
+  }
+
+
+
+  void
+  NodalTransfer::set_block_row(const unsigned int row, const std::vector<Block> &new_blocks)
+  {
+    AssertDimension(new_blocks.size(), row_end(row) - row_begin(row));
+    std::copy(new_blocks.begin(), new_blocks.end(), blocks.begin() + block_start[row]);
+  }
+
+
+
+  IndexSet
+  NodalTransfer::coarse_nodes(const NodeIndex n_coarse_nodes) const
+  {
+    std::vector<NodeIndex> nodes(global_columns);
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    IndexSet set(n_coarse_nodes);
+    set.add_indices(nodes.begin(), nodes.end());
+    set.compress();
+    return set;
+  }
+
+
+
+  void
+  NodalTransfer::localize(std::shared_ptr<const NodePartition> new_coarse)
+  {
+    if (global_columns.empty())
+      for (unsigned int &column : columns)
+        column = new_coarse->to_local(coarse->to_global(column));
+    else
+      {
+        columns.resize(global_columns.size());
+        for (std::size_t k = 0; k < columns.size(); ++k)
+          columns[k] = new_coarse->to_local(global_columns[k]);
+        global_columns.clear();
+        global_columns.shrink_to_fit();
+      }
+    coarse = std::move(new_coarse);
+  }
+
+
+
+  void
+  NodalTransfer::prolongate(Vector &fine, const Vector &coarse_vector) const
+  {
+    coarse_vector.update_ghost_values();
+    const double *const x = coarse_vector.begin();
+    double *const       y = fine.begin();
+    for (unsigned int i = 0; i < n_owned; ++i)
+      {
+        double s[3] = {0., 0., 0.};
+        if (const Block *b = row_blocks(i))
+          {
+            for (std::size_t k = row_start[i]; k < row_start[i + 1]; ++k, ++b)
+              for (unsigned int c = 0; c < dim; ++c)
+                for (unsigned int d = 0; d < dim; ++d)
+                  s[c] += (*b)[c][d] * x[dim * static_cast<std::size_t>(columns[k]) + d];
+          }
+        else
+          for (std::size_t k = row_start[i]; k < row_start[i + 1]; ++k)
+            for (unsigned int c = 0; c < dim; ++c)
+              s[c] += weights[k] * x[dim * static_cast<std::size_t>(columns[k]) + c];
+        for (unsigned int c = 0; c < dim; ++c)
+          y[dim * i + c] = s[c];
+      }
+  }
+
+
+
+  void
+  NodalTransfer::restrict_and_add(Vector &coarse_vector, const Vector &fine) const
+  {
+    coarse_vector.zero_out_ghost_values();
+    const double *const x = fine.begin();
+    double *const       y = coarse_vector.begin();
+    for (unsigned int i = 0; i < n_owned; ++i)
+      {
+        const double *const v = x + dim * static_cast<std::size_t>(i);
+        if (const Block *b = row_blocks(i))
+          {
+            for (std::size_t k = row_start[i]; k < row_start[i + 1]; ++k, ++b)
+              for (unsigned int c = 0; c < dim; ++c)
+                for (unsigned int d = 0; d < dim; ++d)
+                  y[dim * static_cast<std::size_t>(columns[k]) + d] += (*b)[c][d] * v[c];
+          }
+        else
+          for (std::size_t k = row_start[i]; k < row_start[i + 1]; ++k)
+            for (unsigned int c = 0; c < dim; ++c)
+              y[dim * static_cast<std::size_t>(columns[k]) + c] += weights[k] * v[c];
+      }
+    coarse_vector.compress(VectorOperation::add);
+  }
+
+
+
+  namespace
+  {
+    /// The sparsity of the owned rows of A P, with local coarse columns.
+    void
+    product_pattern(std::vector<std::size_t>  &start,
+                    std::vector<unsigned int> &columns,
+                    const NodeBlockMatrix     &matrix,
+                    const NodalTransfer       &transfer,
+                    const unsigned int         n_coarse)
+    {
+      std::vector<unsigned int> seen(n_coarse, numbers::invalid_unsigned_int);
+      start.assign(1, 0);
+      start.reserve(matrix.n_rows() + 1);
+      columns.reserve(16 * static_cast<std::size_t>(matrix.n_rows()));
+      for (unsigned int i = 0; i < matrix.n_rows(); ++i)
+        {
+          for (std::size_t k = matrix.row_begin(i); k < matrix.row_end(i); ++k)
+            {
+              const unsigned int j = matrix.column(k);
+              for (std::size_t l = transfer.row_begin(j); l < transfer.row_end(j); ++l)
+                if (seen[transfer.column(l)] != i)
+                  {
+                    seen[transfer.column(l)] = i;
+                    columns.push_back(transfer.column(l));
+                  }
+            }
+          start.push_back(columns.size());
+        }
+    }
+
+
+
+    /// For each local coarse node the owned fine rows that depend on it.
+    void
+    transpose_pattern(std::vector<std::size_t>  &start,
+                      std::vector<unsigned int> &rows,
+                      const NodalTransfer       &transfer,
+                      const unsigned int         n_coarse)
+    {
+      start.assign(n_coarse + 1, 0);
+      const std::size_t end = transfer.row_end(transfer.n_owned_rows() - 1);
+      for (std::size_t k = 0; k < end; ++k)
+        ++start[transfer.column(k) + 1];
+      std::partial_sum(start.begin(), start.end(), start.begin());
+      rows.resize(end);
+      std::vector<std::size_t> next(start.begin(), start.end() - 1);
+      for (unsigned int i = 0; i < transfer.n_owned_rows(); ++i)
+        for (std::size_t k = transfer.row_begin(i); k < transfer.row_end(i); ++k)
+          rows[next[transfer.column(k)]++] = i;
+    }
+  } // namespace
+
+
+
+  void
+  reinit_galerkin(NodeBlockMatrix       &coarse_matrix,
+                  const NodeBlockMatrix &matrix,
+                  NodalTransfer         &transfer,
+                  const IndexSet        &owned_coarse_nodes)
+  {
+    const MPI_Comm communicator = matrix.partition().communicator();
+    const IndexSet coarse_nodes = transfer.coarse_nodes(owned_coarse_nodes.size());
+    const auto     coarse = std::make_shared<NodePartition>(owned_coarse_nodes, coarse_nodes, communicator);
+    transfer.localize(coarse);
+
+    std::vector<std::size_t>  product_start, fine_start;
+    std::vector<unsigned int> product_columns, fine_rows;
+    if (matrix.n_rows() > 0)
+      {
+        product_pattern(product_start, product_columns, matrix, transfer, coarse->n_local());
+        transpose_pattern(fine_start, fine_rows, transfer, coarse->n_local());
+      }
+    else
+      fine_start.assign(coarse->n_local() + 1, 0);
+
+    NodePattern               pattern;
+    std::vector<unsigned int> seen(coarse->n_local(), numbers::invalid_unsigned_int);
+    for (unsigned int row = 0; row < coarse->n_local(); ++row)
+      {
+        if (row >= coarse->n_owned())
+          {
+            if (fine_start[row] == fine_start[row + 1])
+              continue;
+            pattern.foreign_rows.push_back(coarse->to_global(row));
+          }
+        for (std::size_t l = fine_start[row]; l < fine_start[row + 1]; ++l)
+          for (std::size_t k = product_start[fine_rows[l]]; k < product_start[fine_rows[l] + 1]; ++k)
+            if (seen[product_columns[k]] != row)
+              {
+                seen[product_columns[k]] = row;
+                pattern.columns.push_back(coarse->to_global(product_columns[k]));
+              }
+        pattern.row_start.push_back(pattern.columns.size());
+      }
+    product_columns = std::vector<unsigned int>();
+    fine_rows       = std::vector<unsigned int>();
+    coarse_matrix.reinit(owned_coarse_nodes, pattern, coarse_nodes, communicator);
+    transfer.localize(coarse_matrix.shared_partition());
+  }
+
+
+
+  namespace
+  {
+    inline void
+    add_scaled(double *y, const double factor, const double *x)
+    {
+      for (unsigned int c = 0; c < 9; ++c)
+        y[c] += factor * x[c];
+    }
+
+    /// One row of A P, as blocks of the coarse nodes it touches.
+    class ProductRow
+    {
+    public:
+      explicit ProductRow(const unsigned int n_coarse)
+        : slot(n_coarse, -1)
+      {}
+
+      void
+      compute(const NodeBlockMatrix &matrix, const NodalTransfer &transfer, const unsigned int row)
+      {
+        for (const unsigned int column : columns)
+          slot[column] = -1;
+        columns.clear();
+        blocks.clear();
+        for (std::size_t k = matrix.row_begin(row); k < matrix.row_end(row); ++k)
+          {
+            const unsigned int j = matrix.column(k);
+            const double      *a = matrix.block(k);
+            const Block       *b = transfer.row_blocks(j);
+            for (std::size_t l = transfer.row_begin(j); l < transfer.row_end(j); ++l)
+              {
+                double *const target = entry(transfer.column(l));
+                if (b == nullptr)
+                  add_scaled(target, transfer.weight(l), a);
+                else
+                  {
+                    const Block &p = b[l - transfer.row_begin(j)];
+                    for (unsigned int c = 0; c < dim; ++c)
+                      for (unsigned int d = 0; d < dim; ++d)
+                        target[dim * c + d] +=
+                          a[dim * c] * p[0][d] + a[dim * c + 1] * p[1][d] + a[dim * c + 2] * p[2][d];
+                  }
+              }
+          }
+      }
+
+      /// Adds P_iI^T times this row to a row of the coarse matrix.
+      void
+      add_to(NodeBlockMatrix &coarse, const unsigned int coarse_row, const double weight, const Block *p) const
+      {
+        const std::size_t end = coarse.row_end(coarse_row);
+        for (std::size_t k = coarse.row_begin(coarse_row); k < end; ++k)
+          {
+            const int s = slot[coarse.column(k)];
+            if (s < 0)
+              continue;
+            const double *const x = blocks.data() + s;
+            double *const       y = coarse.block(k);
+            if (p == nullptr)
+              add_scaled(y, weight, x);
+            else
+              for (unsigned int c = 0; c < dim; ++c)
+                for (unsigned int d = 0; d < dim; ++d)
+                  y[dim * c + d] += (*p)[0][c] * x[d] + (*p)[1][c] * x[dim + d] + (*p)[2][c] * x[2 * dim + d];
+          }
+      }
+
+    private:
+      double *
+      entry(const unsigned int column)
+      {
+        if (slot[column] < 0)
+          {
+            slot[column] = static_cast<int>(blocks.size());
+            columns.push_back(column);
+            blocks.resize(blocks.size() + 9, 0.);
+          }
+        return blocks.data() + slot[column];
+      }
+
+      std::vector<int>          slot;
+      std::vector<unsigned int> columns;
+      std::vector<double>       blocks;
+    };
+  } // namespace
+
+
+
+  void
+  compute_galerkin(NodeBlockMatrix                  &coarse_matrix,
+                   const NodeBlockMatrix            &matrix,
+                   const NodalTransfer              &transfer,
+                   const std::vector<unsigned char> &marked)
+  {
+    const NodePartition &coarse = coarse_matrix.partition();
+    for (unsigned int i = 0; i < coarse.n_local(); ++i)
+      if (const unsigned int row = coarse_matrix.row_of(i);
+          row != numbers::invalid_unsigned_int && (marked.empty() || marked[i]))
+        coarse_matrix.clear_row(row);
+
+    ProductRow product(coarse.n_local());
+    for (unsigned int i = 0; i < matrix.n_rows(); ++i)
+      {
+        bool wanted = marked.empty();
+        for (std::size_t k = transfer.row_begin(i); !wanted && k < transfer.row_end(i); ++k)
+          wanted = marked[transfer.column(k)];
+        if (!wanted || transfer.row_begin(i) == transfer.row_end(i))
+          continue;
+        product.compute(matrix, transfer, i);
+        const Block *b = transfer.row_blocks(i);
+        for (std::size_t k = transfer.row_begin(i); k < transfer.row_end(i); ++k)
+          if (marked.empty() || marked[transfer.column(k)])
+            product.add_to(coarse_matrix,
+                           coarse_matrix.row_of(transfer.column(k)),
+                           transfer.weight(k),
+                           b == nullptr ? nullptr : b + (k - transfer.row_begin(i)));
+      }
+    coarse_matrix.compress();
+  }
+
+
+
+  std::vector<unsigned char>
+  mark_coarse_nodes(const NodalTransfer &transfer, const std::vector<unsigned int> &fine_rows)
+  {
+    const NodePartition &coarse = transfer.coarse_partition();
+    Vector               flags;
+    coarse.reinit(flags);
+    for (const unsigned int row : fine_rows)
+      for (std::size_t k = transfer.row_begin(row); k < transfer.row_end(row); ++k)
+        flags.local_element(dim * transfer.column(k)) = 1.;
+    flags.compress(VectorOperation::add);
+    flags.update_ghost_values();
+    std::vector<unsigned char> marked(coarse.n_local());
+    for (unsigned int i = 0; i < coarse.n_local(); ++i)
+      marked[i] = flags.local_element(dim * i) > 0.;
+    return marked;
+  }
+} // namespace Signorini

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/algebra/node_block_matrix.h>
+
+#include <deal.II/base/mpi.h>
+
+namespace Signorini
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Packs foreign rows for their owners: node, length, columns.
+    std::map<unsigned int, std::vector<NodeIndex>>
+    pack_foreign_rows(const NodePattern &pattern, const unsigned int n_owned, const NodePartition &numbering)
+    {
+      std::map<unsigned int, std::vector<NodeIndex>> packets;
+      for (std::size_t f = 0; f < pattern.foreign_rows.size(); ++f)
+        {
+          auto             &packet = packets[numbering.owner(pattern.foreign_rows[f])];
+          const std::size_t begin  = pattern.row_start[n_owned + f];
+          const std::size_t end    = pattern.row_start[n_owned + f + 1];
+          packet.push_back(pattern.foreign_rows[f]);
+          packet.push_back(static_cast<NodeIndex>(end - begin));
+          packet.insert(packet.end(), pattern.columns.begin() + begin, pattern.columns.begin() + end);
+        }
+      return packets;
+    }
+  } // namespace
+
+
+
+  void
+  NodeBlockMatrix::reinit(const IndexSet    &owned,
+                          const NodePattern &pattern,
+                          const IndexSet    &extra_ghosts,
+                          const MPI_Comm     communicator)
+  {
+    const NodePartition numbering(owned, IndexSet(owned.size()), communicator);
+    const unsigned int  n_owned = numbering.n_owned();
+    AssertDimension(pattern.row_start.size(), n_owned + pattern.foreign_rows.size() + 1);
+
+    std::map<unsigned int, std::vector<NodeIndex>> received;
+    if (numbering.n_ranks() > 1)
+      received = Utilities::MPI::some_to_some(communicator, pack_foreign_rows(pattern, n_owned, numbering));
+
+    // Rows that other ranks contribute to: columns besides our own pattern.
+    std::map<unsigned int, std::vector<NodeIndex>> additions;
+    for (const auto &[rank, packet] : received)
+      for (std::size_t i = 0; i < packet.size(); i += 2 + packet[i + 1])
+        {
+          auto &row = additions[static_cast<unsigned int>(packet[i] - numbering.first_owned())];
+          row.insert(row.end(), packet.begin() + i + 2, packet.begin() + i + 2 + packet[i + 1]);
+        }
+
+    std::vector<NodeIndex> ghost_columns(pattern.foreign_rows);
+    for (const NodeIndex column : pattern.columns)
+      if (!numbering.owns(column))
+        ghost_columns.push_back(column);
+    for (const auto &[row, columns] : additions)
+      for (const NodeIndex column : columns)
+        if (!numbering.owns(column))
+          ghost_columns.push_back(column);
+    std::sort(ghost_columns.begin(), ghost_columns.end());
+    ghost_columns.erase(std::unique(ghost_columns.begin(), ghost_columns.end()), ghost_columns.end());
+    IndexSet ghosts(numbering.n_global());
+    ghosts.add_indices(ghost_columns.begin(), ghost_columns.end());
+    ghosts.add_indices(extra_ghosts);
+    ghosts.compress();
+    nodes = std::make_shared<NodePartition>(owned, ghosts, communicator);
+
+    row_start.assign(1, 0);
+    row_start.reserve(pattern.row_start.size());
+    columns.clear();
+    columns.reserve(pattern.columns.size());
+    std::vector<unsigned int> row;
+    for (std::size_t r = 0; r + 1 < pattern.row_start.size(); ++r)
+      {
+        row.clear();
+        for (std::size_t k = pattern.row_start[r]; k < pattern.row_start[r + 1]; ++k)
+          row.push_back(nodes->to_local(pattern.columns[k]));
+        const bool is_owned = r < n_owned;
+        if (const auto it = additions.find(r); is_owned && it != additions.end())
+          for (const NodeIndex column : it->second)
+            row.push_back(nodes->to_local(column));
+        const unsigned int diagonal = is_owned ? r : nodes->to_local(pattern.foreign_rows[r - n_owned]);
+        row.push_back(diagonal);
+        std::sort(row.begin(), row.end());
+        row.erase(std::unique(row.begin(), row.end()), row.end());
+        // The diagonal block first: sweeps skip it and use its inverse.
+        std::rotate(row.begin(), std::lower_bound(row.begin(), row.end(), diagonal),
+                    std::lower_bound(row.begin(), row.end(), diagonal) + 1);
+        columns.insert(columns.end(), row.begin(), row.end());
+        row_start.push_back(columns.size());
+      }
+    columns.shrink_to_fit();
+    values.assign(9 * columns.size(), 0.);
+
+    foreign_row_of_ghost.assign(nodes->ghosts().size(), numbers::invalid_unsigned_int);
+    for (std::size_t f = 0; f < pattern.foreign_rows.size(); ++f)
+      foreign_row_of_ghost[nodes->to_local(pattern.foreign_rows[f]) - n_owned] = n_owned + f;
+
+    // The plan of compress(): our foreign rows are sorted by node, hence by owner.
+    send_rows.clear();
+    std::map<unsigned int, std::vector<NodeIndex>> headers;
+    for (std::size_t f = 0; f < pattern.foreign_rows.size(); ++f)
+      {
+        const unsigned int rank = nodes->owner(pattern.foreign_rows[f]);
+        if (send_rows.empty() || send_rows.back().first != rank)
+          send_rows.push_back({rank, {n_owned + f, n_owned + f}});
+        send_rows.back().second.second = n_owned + f + 1;
+        auto &header                   = headers[rank];
+        header.push_back(pattern.foreign_rows[f]);
+        header.push_back(row_start[n_owned + f + 1] - row_start[n_owned + f]);
+        for (std::size_t k = row_start[n_owned + f]; k < row_start[n_owned + f + 1]; ++k)
+          header.push_back(nodes->to_global(columns[k]));
+      }
+    receive_positions.clear();
+    if (numbering.n_ranks() == 1)
+      return;
+    for (const auto &[rank, header] : Utilities::MPI::some_to_some(communicator, headers))
+      {
+        receive_positions.push_back({rank, {}});
+        for (std::size_t i = 0; i < header.size(); i += 2 + header[i + 1])
+          for (std::size_t k = 0; k < header[i + 1]; ++k)
+            receive_positions.back().second.push_back(
+              find(header[i] - nodes->first_owned(), nodes->to_local(header[i + 2 + k])));
+      }
+  }
+
+
+
+  std::size_t
+  NodeBlockMatrix::find(const unsigned int row, const unsigned int local_column) const
+  {
+    const std::size_t begin = row_start[row];
+    if (columns[begin] == local_column)
+      return begin;
+    const auto it =
+      std::lower_bound(columns.begin() + begin + 1, columns.begin() + row_start[row + 1], local_column);
+    Assert(it != columns.begin() + row_start[row + 1] && *it == local_column, ExcInternalError());
+    return it - columns.begin();
+  }
+
+
+
+  void
+  NodeBlockMatrix::clear_row(const unsigned int row)
+  {
+    std::fill(values.begin() + 9 * row_start[row], values.begin() + 9 * row_start[row + 1], 0.);
+  }
+
+
+
+  void
+  NodeBlockMatrix::compress()
+  {
+    if (nodes->n_ranks() == 1)
+      return;
+    std::map<unsigned int, std::vector<double>> packets;
+    for (const auto &[rank, rows] : send_rows)
+      {
+        const auto begin = values.begin() + 9 * row_start[rows.first];
+        const auto end   = values.begin() + 9 * row_start[rows.second];
+        packets[rank].assign(begin, end);
+        std::fill(begin, end, 0.);
+      }
+    const auto received = Utilities::MPI::some_to_some(nodes->communicator(), packets);
+    for (const auto &[rank, positions] : receive_positions)
+      {
+        const std::vector<double> &data = received.at(rank);
+        AssertDimension(data.size(), 9 * positions.size());
+        for (std::size_t k = 0; k < positions.size(); ++k)
+          for (unsigned int c = 0; c < 9; ++c)
+            values[9 * positions[k] + c] += data[9 * k + c];
+      }
+  }
+
+
+
+  void
+  NodeBlockMatrix::vmult(Vector &dst, const Vector &src) const
+  {
+    src.update_ghost_values();
+    const double *const       x = src.begin();
+    double *const             y = dst.begin();
+    const unsigned int *const c = columns.data();
+    const double             *a = values.data();
+    const unsigned int        n = n_rows();
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        double            s0 = 0., s1 = 0., s2 = 0.;
+        const std::size_t end = row_start[i + 1];
+        for (std::size_t k = row_start[i]; k < end; ++k, a += 9)
+          {
+            const double *const v = x + dim * static_cast<std::size_t>(c[k]);
+            s0 += a[0] * v[0] + a[1] * v[1] + a[2] * v[2];
+            s1 += a[3] * v[0] + a[4] * v[1] + a[5] * v[2];
+            s2 += a[6] * v[0] + a[7] * v[1] + a[8] * v[2];
+          }
+        y[dim * i]     = s0;
+        y[dim * i + 1] = s1;
+        y[dim * i + 2] = s2;
+      }
+  }
+
+
+
+  std::size_t
+  NodeBlockMatrix::memory_consumption() const
+  {
+    return values.capacity() * sizeof(double) + columns.capacity() * sizeof(unsigned int) +
+           row_start.capacity() * sizeof(std::size_t);
+  }
+} // namespace Signorini

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/algebra/replicated_data.h>
+
+#include <deal.II/base/mpi.h>
+
+namespace Signorini
+{
+  using namespace dealii;
+
+  namespace
+  {
+    struct PackedRows
+    {
+      std::vector<unsigned int> lengths;
+      std::vector<NodeIndex>    columns;
+      std::vector<double>       weights;
+
+      template <class Archive>
+      void
+      serialize(Archive &archive, const unsigned int)
+      {
+        archive &lengths &columns &weights;
+      }
+
+      void
+      append(const NodeRows &rows, const std::size_t row)
+      {
+        const std::size_t begin = rows.start[row], end = rows.start[row + 1];
+        lengths.push_back(static_cast<unsigned int>(end - begin));
+        columns.insert(columns.end(), rows.columns.begin() + begin, rows.columns.begin() + end);
+        weights.insert(weights.end(), rows.weights.begin() + begin, rows.weights.begin() + end);
+      }
+
+      void
+      unpack(NodeRows &rows) const
+      {
+        rows.columns.insert(rows.columns.end(), columns.begin(), columns.end());
+        rows.weights.insert(rows.weights.end(), weights.begin(), weights.end());
+        for (const unsigned int length : lengths)
+          rows.start.push_back(rows.start.back() + length);
+      }
+    };
+
+    /// The part of a sorted list of nodes that this rank owns. The ranges of the ranks follow each
+    /// other, so the pieces of all ranks, in the order of the ranks, make up the list.
+    std::pair<std::size_t, std::size_t>
+    owned_range(const NodePartition &partition, const std::vector<NodeIndex> &nodes)
+    {
+      const auto begin = std::lower_bound(nodes.begin(), nodes.end(), partition.first_owned());
+      const auto end   = std::lower_bound(begin, nodes.end(), partition.first_owned() + partition.n_owned());
+      return {begin - nodes.begin(), end - nodes.begin()};
+    }
+
+    template <typename T>
+    std::vector<T>
+    concatenate(const NodePartition &partition, const std::vector<T> &mine)
+    {
+      if (partition.n_ranks() == 1)
+        return mine;
+      std::vector<T> all;
+      for (const std::vector<T> &piece : Utilities::MPI::all_gather(partition.communicator(), mine))
+        all.insert(all.end(), piece.begin(), piece.end());
+      return all;
+    }
+  } // namespace
+
+
+
+  NodeRows
+  import_ghost_rows(const NodePartition &partition, NodeRows rows)
+  {
+    AssertDimension(rows.n_rows(), partition.n_owned());
+    if (partition.n_ranks() == 1)
+      return rows;
+    std::map<unsigned int, std::vector<NodeIndex>> wanted;
+    for (const NodeIndex ghost : partition.ghosts())
+      wanted[partition.owner(ghost)].push_back(ghost);
+
+    std::map<unsigned int, PackedRows> answers;
+    for (const auto &[rank, nodes] : Utilities::MPI::some_to_some(partition.communicator(), wanted))
+      for (const NodeIndex node : nodes)
+        answers[rank].append(rows, node - partition.first_owned());
+
+    // Ghosts are sorted by node, so the pieces of the owners follow each other.
+    for (const auto &answer : Utilities::MPI::some_to_some(partition.communicator(), answers))
+      answer.second.unpack(rows);
+    AssertDimension(rows.n_rows(), partition.n_local());
+    return rows;
+  }
+
+
+
+  NodeRows
+  replicate_rows(const NodePartition &partition, const NodeRows &rows, const std::vector<NodeIndex> &nodes)
+  {
+    const auto [begin, end] = owned_range(partition, nodes);
+    PackedRows mine;
+    for (std::size_t i = begin; i < end; ++i)
+      mine.append(rows, nodes[i] - partition.first_owned());
+    NodeRows all;
+    if (partition.n_ranks() == 1)
+      mine.unpack(all);
+    else
+      for (const PackedRows &piece : Utilities::MPI::all_gather(partition.communicator(), mine))
+        piece.unpack(all);
+    return all;
+  }
+
+
+
+  std::vector<Vector3>
+  replicate_values(const NodePartition &partition, const Vector &field, const std::vector<NodeIndex> &nodes)
+  {
+    const auto [begin, end] = owned_range(partition, nodes);
+    std::vector<double> mine;
+    for (std::size_t i = begin; i < end; ++i)
+      for (unsigned int c = 0; c < dim; ++c)
+        mine.push_back(field.local_element(dim * (nodes[i] - partition.first_owned()) + c));
+    const std::vector<double> all = concatenate(partition, mine);
+    std::vector<Vector3>      values(nodes.size());
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      for (unsigned int c = 0; c < dim; ++c)
+        values[i][c] = all[dim * i + c];
+    return values;
+  }
+
+
+
+  std::vector<FixedMask>
+  replicate_masks(const NodePartition          &partition,
+                  const std::vector<FixedMask> &owned,
+                  const std::vector<NodeIndex> &nodes)
+  {
+    const auto [begin, end] = owned_range(partition, nodes);
+    std::vector<FixedMask> mine;
+    for (std::size_t i = begin; i < end; ++i)
+      mine.push_back(owned[nodes[i] - partition.first_owned()]);
+    return concatenate(partition, mine);
+  }
+
+
+
+  std::vector<FixedMask>
+  import_ghost_masks(const NodePartition &partition, const std::vector<FixedMask> &owned)
+  {
+    Vector flags;
+    partition.reinit(flags);
+    for (unsigned int i = 0; i < partition.n_owned(); ++i)
+      flags.local_element(dim * i) = owned[i];
+    flags.update_ghost_values();
+    std::vector<FixedMask> masks(partition.n_local());
+    for (unsigned int i = 0; i < partition.n_local(); ++i)
+      masks[i] = static_cast<FixedMask>(flags.local_element(dim * i));
+    return masks;
+  }
+} // namespace Signorini
