@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_solvers_coarse_cholesky_h
+#define signorini_solvers_coarse_cholesky_h
+
+#include <signorini/algebra/node_block_matrix.h>
+
+#include <memory>
+
+namespace Signorini
+{
+  /// Direct solver of level 0: sparse LDLᵀ (Eigen) on rank 0, where the small matrix is gathered.
+  class CoarseCholesky
+  {
+  public:
+    CoarseCholesky();
+    ~CoarseCholesky();
+
+    /// Collective. Factorizes; the ordering is reused while the structure stays the same.
+    void
+    factorize(const NodeBlockMatrix &matrix);
+
+    /// Collective. solution = A^-1 rhs.
+    void
+    solve(Vector &solution, const Vector &rhs) const;
+
+  private:
+    struct Factorization;
+    std::unique_ptr<Factorization> factorization;
+  };
+} // namespace Signorini
+
+#endif

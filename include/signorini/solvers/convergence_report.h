@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_solvers_convergence_report_h
+#define signorini_solvers_convergence_report_h
+
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace Signorini
+{
+  /// What a solver returns. Numbers start as NaN, so that a forgotten one is loud.
+  struct ConvergenceReport
+  {
+    bool         converged  = false;
+    /// Applications of the V-cycle.
+    unsigned int iterations = 0;
+    /// Energy norm of the correction, one entry per iteration.
+    std::vector<double> history;
+    /// Energy norm of the iterate after the last iteration: the scale of the stop rule.
+    double scale = std::numeric_limits<double>::quiet_NaN();
+    /// Active contact nodes over all ranks, one entry per iteration.
+    std::vector<unsigned int> active_nodes;
+    /// ½ vᵀAv − bᵀv of the solution.
+    double energy = std::numeric_limits<double>::quiet_NaN();
+    /// Geometric mean of the last reductions of the correction.
+    double rate = std::numeric_limits<double>::quiet_NaN();
+    /// How often the truncated hierarchy was updated.
+    unsigned int hierarchy_updates = 0;
+    /// Says why the solver stopped without having converged.
+    std::string note;
+  };
+
+  /// Geometric mean of the last (at most 5) reductions above rounding level.
+  double
+  convergence_rate(const std::vector<double> &history);
+} // namespace Signorini
+
+#endif

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_solvers_multigrid_hierarchy_h
+#define signorini_solvers_multigrid_hierarchy_h
+
+#include <signorini/algebra/nodal_transfer.h>
+#include <signorini/algebra/node_block_matrix.h>
+#include <signorini/solvers/coarse_cholesky.h>
+#include <signorini/solvers/obstacle_problem.h>
+#include <signorini/solvers/projected_gauss_seidel.h>
+
+#include <memory>
+#include <unordered_map>
+#include <vector>
+
+namespace Signorini
+{
+  /// One level: its matrix, its smoother, and the prolongation from it to the next finer level.
+  struct MultigridLevel
+  {
+    NodeBlockMatrix matrix;
+    /// Fixed components of the local nodes.
+    std::vector<FixedMask>                fixed;
+    std::unique_ptr<ProjectedGaussSeidel> smoother;
+    /// From this level to the finer one; unused on the finest level.
+    NodalTransfer to_finer;
+  };
+
+  /// Zeroes rows and columns of fixed components (the diagonal entry stays, or becomes `scale` where it
+  /// is zero) and gives directions without any stiffness, which truncation can leave behind, a diagonal
+  /// entry, so that blocks can be inverted. `rows` are owned rows.
+  void
+  eliminate_fixed_components(NodeBlockMatrix                 &matrix,
+                             const std::vector<FixedMask>    &fixed,
+                             const std::vector<unsigned int> &rows,
+                             const double                     scale);
+
+  /// The largest diagonal entry of a matrix, over all ranks: a scale for its units.
+  double
+  diagonal_scale(const NodeBlockMatrix &matrix);
+
+  /// Matrices and transfers of all levels, Galerkin products from fine to coarse, and their truncation:
+  /// on the finest level the normal part of the prolongation is removed at active nodes, and what
+  /// depends on it on coarser levels is recomputed (method.md, section 5).
+  class MultigridHierarchy
+  {
+  public:
+    /// The finest matrix (fixed components eliminated) and its fixed masks (local nodes).
+    MultigridHierarchy(NodeBlockMatrix &&matrix, std::vector<FixedMask> fixed);
+
+    /// Collective. Adds the next coarser level: transfer rows as in NodalTransfer, owned coarse nodes,
+    /// fixed masks of the owned coarse nodes.
+    void
+    add_coarser_level(NodalTransfer &&transfer, const dealii::IndexSet &owned_coarse, const std::vector<FixedMask> &fixed);
+
+    /// Collective. Chooses the interface rows of a level: contact nodes (global numbers, the same on all
+    /// ranks) and one layer of neighbours.
+    void
+    set_interface(const unsigned int level, const std::vector<NodeIndex> &contact_nodes);
+
+    /// Collective. After the last level: factorizes level 0. A hierarchy of a single level gets an
+    /// algebraic copy of it as level 0, so that the truncated problem has an exact coarse solver.
+    void
+    finish();
+
+    /// Collective. Truncates at the active ones of the half-spaces of the finest level; recomputes only
+    /// what changed since the last call. Returns whether anything changed on any rank.
+    bool
+    truncate(const HalfSpaces &half_spaces, const std::vector<unsigned char> &active);
+
+    /// Level 0 is the coarsest.
+    unsigned int
+    n_levels() const
+    {
+      return static_cast<unsigned int>(levels.size());
+    }
+
+    MultigridLevel &
+    level(const unsigned int l)
+    {
+      return *levels[levels.size() - 1 - l];
+    }
+
+    const MultigridLevel &
+    level(const unsigned int l) const
+    {
+      return *levels[levels.size() - 1 - l];
+    }
+
+    MultigridLevel &
+    finest()
+    {
+      return *levels.front();
+    }
+
+    const CoarseCholesky &
+    coarse_solver() const
+    {
+      return cholesky;
+    }
+
+  private:
+    /// Removes the planes' normals from the changed block rows of the finest transfer. Both vectors with
+    /// up-to-date ghosts: unit normals at active nodes, zero elsewhere; a flag at changed nodes.
+    void
+    truncate_transfer(const Vector &planes, const Vector &changed);
+
+    /// Finest first.
+    std::vector<std::unique_ptr<MultigridLevel>> levels;
+    CoarseCholesky                               cholesky;
+    /// The blocks, before truncation, of the rows of the finest transfer that were ever truncated.
+    std::unordered_map<unsigned int, std::vector<Block>> original_blocks;
+    std::vector<unsigned char>                           truncated;
+    std::vector<double>                          scales;
+  };
+} // namespace Signorini
+
+#endif

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_solvers_obstacle_problem_h
+#define signorini_solvers_obstacle_problem_h
+
+#include <signorini/algebra/types.h>
+
+#include <vector>
+
+namespace Signorini
+{
+  /// The half-spaces n_p . v_p <= g_p of the owned contact nodes of a rank.
+  struct HalfSpaces
+  {
+    /// Owned local nodes, sorted.
+    std::vector<unsigned int> nodes;
+    /// Unit normals, in the free directions of the node.
+    std::vector<Vector3> normals;
+    /// Bounds (length).
+    std::vector<double> bounds;
+
+    std::size_t
+    size() const
+    {
+      return nodes.size();
+    }
+  };
+
+  /// The narrow waist between discretization and solvers: find v with
+  ///   ½ vᵀ A v − bᵀ v = min,   n_p . v_p <= g_p at the contact nodes,   v = 0 in fixed components,
+  /// where A (finest matrix of the hierarchy given to the solver) has unit-like rows and columns in
+  /// fixed components and b is zero there.
+  struct ObstacleProblem
+  {
+    Vector     rhs;
+    HalfSpaces half_spaces;
+  };
+} // namespace Signorini
+
+#endif

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_solvers_projected_gauss_seidel_h
+#define signorini_solvers_projected_gauss_seidel_h
+
+#include <signorini/algebra/node_block_matrix.h>
+#include <signorini/solvers/obstacle_problem.h>
+#include <signorini/solvers/sweep_schedule.h>
+
+#include <vector>
+
+namespace Signorini
+{
+  /// Block Gauss-Seidel by node (3x3 blocks), with or without half-spaces.
+  ///
+  /// At a contact node the 3x3 problem with one half-space has a closed solution: solve without
+  /// constraint; if it is violated, move along A_pp^-1 n_p onto the plane (method.md, section 4).
+  /// The matrix must outlive the object.
+  class ProjectedGaussSeidel
+  {
+  public:
+    enum Direction
+    {
+      forward,
+      backward
+    };
+
+    explicit ProjectedGaussSeidel(const NodeBlockMatrix &matrix);
+
+    /// Recomputes the inverse diagonal blocks of all rows, or of the given ones.
+    void
+    update_diagonal();
+    void
+    update_diagonal(const std::vector<unsigned int> &rows);
+
+    /// Sets the half-spaces; without a call there are none. Collective in nothing.
+    void
+    set_half_spaces(const HalfSpaces &half_spaces);
+
+    /// Chooses the rows of interface_sweep().
+    void
+    set_interface(const std::vector<unsigned int> &rows);
+
+    /// One sweep over all rows: v <- minimizer row by row. Energy never rises.
+    void
+    sweep(Vector &v, const Vector &rhs, const Direction direction);
+
+    /// One sweep over the interface rows only.
+    void
+    interface_sweep(Vector &v, const Vector &rhs, const Direction direction);
+
+    /// For each half-space whether the last visit projected onto its plane.
+    const std::vector<unsigned char> &
+    active() const
+    {
+      return is_active;
+    }
+
+    /// Moves v onto the planes of violated half-spaces (along A_pp^-1 n_p) and marks what it moved.
+    void
+    project(Vector &v);
+
+    /// Bytes that a sweep reads and writes at least.
+    double
+    sweep_bytes() const;
+
+  private:
+    void
+    relax(double *v, const double *rhs, const unsigned int row);
+
+    void
+    project_row(double *v_row, const int half_space);
+
+    void
+    run(Vector &v, const Vector &rhs, const SweepSchedule &schedule, const Direction direction);
+
+    const NodeBlockMatrix      &matrix;
+    SweepSchedule               all_rows;
+    SweepSchedule               interface_rows;
+    std::vector<double>         inverse_diagonal;
+    HalfSpaces                  constraints;
+    std::vector<int>            half_space_of_row;
+    std::vector<Vector3>        projection_direction;
+    std::vector<unsigned char>  is_active;
+  };
+} // namespace Signorini
+
+#endif

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/solvers/coarse_cholesky.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <Eigen/SparseCholesky>
+
+namespace Signorini
+{
+  using namespace dealii;
+
+  struct CoarseCholesky::Factorization
+  {
+    Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver;
+    bool                                               analyzed = false;
+    std::size_t                                        n_blocks = 0;
+    MPI_Comm                                           communicator;
+  };
+
+  namespace
+  {
+    struct PackedMatrix
+    {
+      std::vector<NodeIndex> rows, columns;
+      std::vector<double>    values;
+
+      template <class Archive>
+      void
+      serialize(Archive &archive, const unsigned int)
+      {
+        archive &rows &columns &values;
+      }
+    };
+
+    PackedMatrix
+    pack(const NodeBlockMatrix &matrix)
+    {
+      PackedMatrix packed;
+      for (unsigned int i = 0; i < matrix.n_rows(); ++i)
+        for (std::size_t k = matrix.row_begin(i); k < matrix.row_end(i); ++k)
+          {
+            packed.rows.push_back(matrix.partition().to_global(i));
+            packed.columns.push_back(matrix.partition().to_global(matrix.column(k)));
+            packed.values.insert(packed.values.end(), matrix.block(k), matrix.block(k) + 9);
+          }
+      return packed;
+    }
+  } // namespace
+
+
+
+  CoarseCholesky::CoarseCholesky()
+    : factorization(std::make_unique<Factorization>())
+  {}
+
+
+
+  CoarseCholesky::~CoarseCholesky() = default;
+
+
+
+  void
+  CoarseCholesky::factorize(const NodeBlockMatrix &matrix)
+  {
+    const MPI_Comm comm         = matrix.partition().communicator();
+    factorization->communicator = comm;
+    const auto pieces           = Utilities::MPI::gather(comm, pack(matrix), 0);
+    bool       ok               = true;
+    if (Utilities::MPI::this_mpi_process(comm) == 0)
+      {
+        std::vector<Eigen::Triplet<double>> triplets;
+        std::size_t                         n_blocks = 0;
+        for (const PackedMatrix &piece : pieces)
+          {
+            n_blocks += piece.rows.size();
+            for (std::size_t k = 0; k < piece.rows.size(); ++k)
+              for (unsigned int c = 0; c < dim; ++c)
+                for (unsigned int d = 0; d < dim; ++d)
+                  if (piece.rows[k] >= piece.columns[k])
+                    triplets.emplace_back(dim * piece.rows[k] + c,
+                                          dim * piece.columns[k] + d,
+                                          piece.values[9 * k + dim * c + d]);
+          }
+        const auto n = static_cast<Eigen::Index>(dim * matrix.partition().n_global());
+        Eigen::SparseMatrix<double> lower(n, n);
+        lower.setFromTriplets(triplets.begin(), triplets.end());
+        if (!factorization->analyzed || factorization->n_blocks != n_blocks)
+          factorization->solver.analyzePattern(lower);
+        factorization->analyzed = true;
+        factorization->n_blocks = n_blocks;
+        factorization->solver.factorize(lower);
+        ok = factorization->solver.info() == Eigen::Success;
+      }
+    AssertThrow(Utilities::MPI::min(static_cast<int>(ok), comm) == 1,
+                ExcMessage("The factorization of the coarsest level failed: its matrix is singular."));
+  }
+
+
+
+  void
+  CoarseCholesky::solve(Vector &solution, const Vector &rhs) const
+  {
+    const MPI_Comm comm = factorization->communicator;
+    std::vector<double> mine(rhs.begin(), rhs.begin() + rhs.locally_owned_size());
+    if (Utilities::MPI::n_mpi_processes(comm) == 1)
+      {
+        const Eigen::Map<const Eigen::VectorXd> b(mine.data(), mine.size());
+        Eigen::Map<Eigen::VectorXd>(solution.begin(), mine.size()) = factorization->solver.solve(b);
+        return;
+      }
+    const auto          pieces = Utilities::MPI::gather(comm, mine, 0);
+    std::vector<double> all;
+    if (Utilities::MPI::this_mpi_process(comm) == 0)
+      {
+        for (const auto &piece : pieces)
+          all.insert(all.end(), piece.begin(), piece.end());
+        const Eigen::VectorXd x = factorization->solver.solve(Eigen::Map<Eigen::VectorXd>(all.data(), all.size()));
+        std::copy(x.data(), x.data() + x.size(), all.begin());
+      }
+    all                    = Utilities::MPI::broadcast(comm, all, 0);
+    const std::size_t begin = solution.get_partitioner()->local_range().first;
+    std::copy_n(all.begin() + begin, mine.size(), solution.begin());
+  }
+} // namespace Signorini

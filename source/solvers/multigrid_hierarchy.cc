@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/solvers/multigrid_hierarchy.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/symmetric_tensor.h>
+
+namespace Signorini
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Directions in which a diagonal block has no stiffness get the stiffness `scale`.
+    void
+    fill_empty_directions(double *const block, const double scale)
+    {
+      SymmetricTensor<2, dim> s;
+      for (unsigned int c = 0; c < dim; ++c)
+        for (unsigned int d = c; d < dim; ++d)
+          s[c][d] = .5 * (block[dim * c + d] + block[dim * d + c]);
+      const double mean = trace(s) / dim;
+      // Well away from singular: the common case.
+      if (mean > 1e-10 * scale && determinant(s) > 1e-8 * mean * mean * mean)
+        return;
+      const auto   pairs     = eigenvectors(s, SymmetricTensorEigenvectorMethod::jacobi);
+      const double reference = std::max(pairs[0].first, 0.);
+      for (const auto &[value, direction] : pairs)
+        if (value <= 1e-11 * std::max(reference, 1e-3 * scale))
+          for (unsigned int c = 0; c < dim; ++c)
+            for (unsigned int d = 0; d < dim; ++d)
+              block[dim * c + d] += (reference > 1e-10 * scale ? reference : scale) * direction[c] * direction[d];
+    }
+
+    std::vector<unsigned int>
+    all_rows(const NodeBlockMatrix &matrix)
+    {
+      std::vector<unsigned int> rows(matrix.n_rows());
+      std::iota(rows.begin(), rows.end(), 0u);
+      return rows;
+    }
+  } // namespace
+
+
+
+  double
+  diagonal_scale(const NodeBlockMatrix &matrix)
+  {
+    double scale = 0.;
+    for (unsigned int i = 0; i < matrix.n_rows(); ++i)
+      for (unsigned int c = 0; c < dim; ++c)
+        scale = std::max(scale, matrix.block(matrix.row_begin(i))[(dim + 1) * c]);
+    return Utilities::MPI::max(scale, matrix.partition().communicator());
+  }
+
+
+
+  void
+  eliminate_fixed_components(NodeBlockMatrix                 &matrix,
+                             const std::vector<FixedMask>    &fixed,
+                             const std::vector<unsigned int> &rows,
+                             const double                     scale)
+  {
+    for (const unsigned int i : rows)
+      {
+        for (std::size_t k = matrix.row_begin(i); k < matrix.row_end(i); ++k)
+          {
+            const FixedMask row_mask = fixed[i], column_mask = fixed[matrix.column(k)];
+            if (row_mask == 0 && column_mask == 0)
+              continue;
+            const bool    is_diagonal = k == matrix.row_begin(i);
+            double *const b           = matrix.block(k);
+            for (unsigned int c = 0; c < dim; ++c)
+              for (unsigned int d = 0; d < dim; ++d)
+                if ((row_mask & (1u << c)) || (column_mask & (1u << d)))
+                  {
+                    if (is_diagonal && c == d)
+                      b[dim * c + d] = b[dim * c + d] > 0. ? b[dim * c + d] : scale;
+                    else
+                      b[dim * c + d] = 0.;
+                  }
+          }
+        fill_empty_directions(matrix.block(matrix.row_begin(i)), scale);
+      }
+  }
+
+
+
+  MultigridHierarchy::MultigridHierarchy(NodeBlockMatrix &&matrix, std::vector<FixedMask> fixed)
+  {
+    levels.push_back(std::make_unique<MultigridLevel>());
+    levels[0]->matrix   = std::move(matrix);
+    levels[0]->fixed    = std::move(fixed);
+    levels[0]->smoother = std::make_unique<ProjectedGaussSeidel>(levels[0]->matrix);
+    scales.push_back(diagonal_scale(levels[0]->matrix));
+  }
+
+
+
+  void
+  MultigridHierarchy::add_coarser_level(NodalTransfer               &&transfer,
+                                        const IndexSet               &owned_coarse,
+                                        const std::vector<FixedMask> &fixed)
+  {
+    const NodeBlockMatrix &fine = levels.back()->matrix;
+    levels.push_back(std::make_unique<MultigridLevel>());
+    MultigridLevel &level = *levels.back();
+    level.to_finer        = std::move(transfer);
+    reinit_galerkin(level.matrix, fine, level.to_finer, owned_coarse);
+    level.fixed = import_ghost_masks(level.matrix.partition(), fixed);
+    compute_galerkin(level.matrix, fine, level.to_finer);
+    scales.push_back(diagonal_scale(level.matrix));
+    eliminate_fixed_components(level.matrix, level.fixed, all_rows(level.matrix), scales.back());
+    level.smoother = std::make_unique<ProjectedGaussSeidel>(level.matrix);
+  }
+
+
+
+  void
+  MultigridHierarchy::set_interface(const unsigned int l, const std::vector<NodeIndex> &contact_nodes)
+  {
+    const NodeBlockMatrix &matrix = level(l).matrix;
+    std::vector<bool>      is_contact(matrix.partition().n_local(), false);
+    for (const NodeIndex node : contact_nodes)
+      if (const unsigned int local = matrix.partition().to_local(node); local != numbers::invalid_unsigned_int)
+        is_contact[local] = true;
+    std::vector<unsigned int> rows;
+    for (unsigned int i = 0; i < matrix.n_rows(); ++i)
+      for (std::size_t k = matrix.row_begin(i); k < matrix.row_end(i); ++k)
+        if (is_contact[matrix.column(k)])
+          {
+            rows.push_back(i);
+            break;
+          }
+    level(l).smoother->set_interface(rows);
+  }
+
+
+
+  void
+  MultigridHierarchy::finish()
+  {
+    if (levels.size() == 1)
+      {
+        const NodePartition &partition = levels[0]->matrix.partition();
+        NodeRows             rows;
+        for (unsigned int i = 0; i < partition.n_local(); ++i)
+          {
+            rows.add(partition.to_global(i), 1.);
+            rows.finish_row();
+          }
+        std::vector<NodalTransfer::BlockRow> no_block_rows;
+        NodalTransfer                        identity;
+        // Block rows everywhere: this level is small, and any of its nodes may get truncated.
+        Block one;
+        for (unsigned int c = 0; c < dim; ++c)
+          one[c][c] = 1.;
+        for (unsigned int i = 0; i < partition.n_local(); ++i)
+          no_block_rows.push_back({i, {partition.to_global(i)}, {one}});
+        identity.reinit(rows, no_block_rows, partition.n_owned());
+        IndexSet owned(partition.n_global());
+        owned.add_range(partition.first_owned(), partition.first_owned() + partition.n_owned());
+        const std::vector<FixedMask> fixed(levels[0]->fixed.begin(),
+                                           levels[0]->fixed.begin() + partition.n_owned());
+        add_coarser_level(std::move(identity), owned, fixed);
+      }
+    cholesky.factorize(levels.back()->matrix);
+  }
+
+
+
+  void
+  MultigridHierarchy::truncate_transfer(const Vector &planes, const Vector &changed)
+  {
+    NodalTransfer     &transfer = levels[1]->to_finer;
+    std::vector<Block> blocks;
+    for (unsigned int i = 0; i < levels[0]->matrix.partition().n_local(); ++i)
+      if (changed.local_element(dim * i) != 0.)
+        {
+          auto &original = original_blocks[i];
+          if (original.empty())
+            {
+              const Block *const b = transfer.row_blocks(i);
+              AssertThrow(b != nullptr, ExcInternalError());
+              original.assign(b, b + (transfer.row_end(i) - transfer.row_begin(i)));
+            }
+          Vector3 normal;
+          for (unsigned int c = 0; c < dim; ++c)
+            normal[c] = planes.local_element(dim * i + c);
+          blocks.clear();
+          for (const Block &b : original)
+            blocks.push_back(b - outer_product(normal, normal * b));
+          transfer.set_block_row(i, blocks);
+        }
+  }
+
+
+
+  bool
+  MultigridHierarchy::truncate(const HalfSpaces &half_spaces, const std::vector<unsigned char> &active)
+  {
+    truncated.resize(half_spaces.size(), 0);
+    const NodeBlockMatrix &fine = levels[0]->matrix;
+
+    // Which rows of P change, on this rank and among its ghosts: ghosts of active nodes must be
+    // truncated as well, so the planes travel with the ghost exchange. A zero vector means inactive.
+    Vector planes, changed;
+    fine.partition().reinit(planes);
+    fine.partition().reinit(changed);
+    bool any_change = false;
+    for (std::size_t p = 0; p < half_spaces.size(); ++p)
+      {
+        const bool change = truncated[p] != active[p];
+        any_change        = any_change || change;
+        changed.local_element(dim * half_spaces.nodes[p]) = change;
+        if (active[p])
+          for (unsigned int c = 0; c < dim; ++c)
+            planes.local_element(dim * half_spaces.nodes[p] + c) = half_spaces.normals[p][c];
+        truncated[p] = active[p];
+      }
+    if (Utilities::MPI::max(static_cast<int>(any_change), fine.partition().communicator()) == 0)
+      return false;
+    planes.update_ghost_values();
+    changed.update_ghost_values();
+
+    truncate_transfer(planes, changed);
+
+    std::vector<unsigned int> rows;
+    for (unsigned int i = 0; i < fine.n_rows(); ++i)
+      for (std::size_t k = fine.row_begin(i); k < fine.row_end(i); ++k)
+        if (changed.local_element(dim * fine.column(k)) != 0.)
+          {
+            rows.push_back(i);
+            break;
+          }
+    for (std::size_t l = 1; l < levels.size(); ++l)
+      {
+        MultigridLevel &level  = *levels[l];
+        const auto      marked = mark_coarse_nodes(level.to_finer, rows);
+        compute_galerkin(level.matrix, levels[l - 1]->matrix, level.to_finer, marked);
+        rows.clear();
+        for (unsigned int i = 0; i < level.matrix.n_rows(); ++i)
+          if (marked[i])
+            rows.push_back(i);
+        eliminate_fixed_components(level.matrix, level.fixed, rows, scales[l]);
+        level.smoother->update_diagonal(rows);
+      }
+    cholesky.factorize(levels.back()->matrix);
+    return true;
+  }
+} // namespace Signorini

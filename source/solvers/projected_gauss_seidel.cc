@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/solvers/projected_gauss_seidel.h>
+
+#include <deal.II/base/tensor.h>
+
+namespace Signorini
+{
+  using namespace dealii;
+
+  ProjectedGaussSeidel::ProjectedGaussSeidel(const NodeBlockMatrix &matrix)
+    : matrix(matrix)
+    , all_rows(matrix.partition())
+    , interface_rows(all_rows.subset({}))
+    , inverse_diagonal(9 * static_cast<std::size_t>(matrix.n_rows()))
+    , half_space_of_row(matrix.n_rows(), -1)
+  {
+    update_diagonal();
+  }
+
+
+
+  void
+  ProjectedGaussSeidel::update_diagonal()
+  {
+    std::vector<unsigned int> rows(matrix.n_rows());
+    std::iota(rows.begin(), rows.end(), 0u);
+    update_diagonal(rows);
+  }
+
+
+
+  void
+  ProjectedGaussSeidel::update_diagonal(const std::vector<unsigned int> &rows)
+  {
+    Block block;
+    for (const unsigned int row : rows)
+      {
+        std::copy_n(matrix.block(matrix.row_begin(row)), 9, block.begin_raw());
+        block = invert(block);
+        std::copy_n(block.begin_raw(), 9, inverse_diagonal.data() + 9 * static_cast<std::size_t>(row));
+      }
+  }
+
+
+
+  void
+  ProjectedGaussSeidel::set_half_spaces(const HalfSpaces &half_spaces)
+  {
+    constraints = half_spaces;
+    is_active.assign(constraints.size(), 0);
+    projection_direction.resize(constraints.size());
+    std::fill(half_space_of_row.begin(), half_space_of_row.end(), -1);
+    for (std::size_t p = 0; p < constraints.size(); ++p)
+      {
+        const unsigned int row = constraints.nodes[p];
+        half_space_of_row[row] = static_cast<int>(p);
+        Block inverse;
+        std::copy_n(inverse_diagonal.data() + 9 * static_cast<std::size_t>(row), 9, inverse.begin_raw());
+        const Vector3 w         = inverse * constraints.normals[p];
+        projection_direction[p] = w / (w * constraints.normals[p]);
+      }
+  }
+
+
+
+  void
+  ProjectedGaussSeidel::set_interface(const std::vector<unsigned int> &rows)
+  {
+    interface_rows = all_rows.subset(rows);
+  }
+
+
+
+  inline void
+  ProjectedGaussSeidel::project_row(double *const v, const int p)
+  {
+    const Vector3 &n      = constraints.normals[p];
+    const double   excess = n[0] * v[0] + n[1] * v[1] + n[2] * v[2] - constraints.bounds[p];
+    is_active[p]          = excess >= 0.;
+    if (excess > 0.)
+      for (unsigned int c = 0; c < dim; ++c)
+        v[c] -= excess * projection_direction[p][c];
+  }
+
+
+
+  inline void
+  ProjectedGaussSeidel::relax(double *const v, const double *const rhs, const unsigned int row)
+  {
+    double                    s0 = rhs[dim * row], s1 = rhs[dim * row + 1], s2 = rhs[dim * row + 2];
+    const std::size_t         begin = matrix.row_begin(row) + 1, end = matrix.row_end(row);
+    const unsigned int *const columns = matrix.column_data();
+    const double             *a       = matrix.block(begin);
+    for (std::size_t k = begin; k < end; ++k, a += 9)
+      {
+        const double *const x = v + dim * static_cast<std::size_t>(columns[k]);
+        s0 -= a[0] * x[0] + a[1] * x[1] + a[2] * x[2];
+        s1 -= a[3] * x[0] + a[4] * x[1] + a[5] * x[2];
+        s2 -= a[6] * x[0] + a[7] * x[1] + a[8] * x[2];
+      }
+    const double *const d = inverse_diagonal.data() + 9 * static_cast<std::size_t>(row);
+    double *const       y = v + dim * static_cast<std::size_t>(row);
+    y[0]                  = d[0] * s0 + d[1] * s1 + d[2] * s2;
+    y[1]                  = d[3] * s0 + d[4] * s1 + d[5] * s2;
+    y[2]                  = d[6] * s0 + d[7] * s1 + d[8] * s2;
+    if (half_space_of_row[row] >= 0)
+      project_row(y, half_space_of_row[row]);
+  }
+
+
+
+  void
+  ProjectedGaussSeidel::run(Vector               &v,
+                            const Vector         &rhs,
+                            const SweepSchedule  &schedule,
+                            const Direction       direction)
+  {
+    const std::size_t n_phases = schedule.phases().size();
+    for (std::size_t i = 0; i < n_phases; ++i)
+      {
+        v.update_ghost_values();
+        const auto &rows = schedule.phases()[direction == forward ? i : n_phases - 1 - i];
+        if (direction == forward)
+          for (auto row = rows.begin(); row != rows.end(); ++row)
+            relax(v.begin(), rhs.begin(), *row);
+        else
+          for (auto row = rows.rbegin(); row != rows.rend(); ++row)
+            relax(v.begin(), rhs.begin(), *row);
+      }
+  }
+
+
+
+  void
+  ProjectedGaussSeidel::sweep(Vector &v, const Vector &rhs, const Direction direction)
+  {
+    run(v, rhs, all_rows, direction);
+  }
+
+
+
+  void
+  ProjectedGaussSeidel::interface_sweep(Vector &v, const Vector &rhs, const Direction direction)
+  {
+    run(v, rhs, interface_rows, direction);
+  }
+
+
+
+  void
+  ProjectedGaussSeidel::project(Vector &v)
+  {
+    for (std::size_t p = 0; p < constraints.size(); ++p)
+      project_row(v.begin() + dim * static_cast<std::size_t>(constraints.nodes[p]), static_cast<int>(p));
+  }
+
+
+
+  double
+  ProjectedGaussSeidel::sweep_bytes() const
+  {
+    // Blocks and columns, row pointers and half-space index, inverse diagonal, right hand side,
+    // solution read and written once; the diagonal blocks are skipped.
+    const double rows = matrix.n_rows();
+    return (matrix.row_end(matrix.n_rows() - 1) - rows) * (9. * sizeof(double)) +
+           static_cast<double>(matrix.row_end(matrix.n_rows() - 1)) * sizeof(unsigned int) +
+           rows * (9. * sizeof(double) + sizeof(std::size_t) + 2 * sizeof(int) + 9. * sizeof(double));
+  }
+} // namespace Signorini
