@@ -92,8 +92,9 @@ namespace Signorini
     levels.push_back(std::make_unique<MultigridLevel>());
     levels[0]->matrix   = std::move(matrix);
     levels[0]->fixed    = std::move(fixed);
-    levels[0]->smoother = std::make_unique<ProjectedGaussSeidel>(levels[0]->matrix);
     scales.push_back(diagonal_scale(levels[0]->matrix));
+    eliminate_fixed_components(levels[0]->matrix, levels[0]->fixed, all_rows(levels[0]->matrix), scales[0]);
+    levels[0]->smoother = std::make_unique<ProjectedGaussSeidel>(levels[0]->matrix);
   }
 
 
@@ -118,9 +119,9 @@ namespace Signorini
 
 
   void
-  MultigridHierarchy::set_interface(const unsigned int l, const std::vector<NodeIndex> &contact_nodes)
+  MultigridHierarchy::set_interface(const std::vector<NodeIndex> &contact_nodes)
   {
-    const NodeBlockMatrix &matrix = level(l).matrix;
+    const NodeBlockMatrix &matrix = coarsest().matrix;
     std::vector<bool>      is_contact(matrix.partition().n_local(), false);
     for (const NodeIndex node : contact_nodes)
       if (const unsigned int local = matrix.partition().to_local(node); local != numbers::invalid_unsigned_int)
@@ -133,7 +134,7 @@ namespace Signorini
             rows.push_back(i);
             break;
           }
-    level(l).smoother->set_interface(rows);
+    coarsest().smoother->set_interface(rows);
   }
 
 

@@ -46,7 +46,7 @@ namespace Signorini
   class MultigridHierarchy
   {
   public:
-    /// The finest matrix (fixed components eliminated) and its fixed masks (local nodes).
+    /// The finest matrix, whose fixed components are eliminated here, and its fixed masks (local nodes).
     MultigridHierarchy(NodeBlockMatrix &&matrix, std::vector<FixedMask> fixed);
 
     /// Collective. Adds the next coarser level: transfer rows as in NodalTransfer, owned coarse nodes,
@@ -54,10 +54,10 @@ namespace Signorini
     void
     add_coarser_level(NodalTransfer &&transfer, const dealii::IndexSet &owned_coarse, const std::vector<FixedMask> &fixed);
 
-    /// Collective. Chooses the interface rows of a level: contact nodes (global numbers, the same on all
-    /// ranks) and one layer of neighbours.
+    /// Collective. Chooses the interface rows of the level added last: contact nodes (global numbers, the
+    /// same on all ranks) and one layer of neighbours.
     void
-    set_interface(const unsigned int level, const std::vector<NodeIndex> &contact_nodes);
+    set_interface(const std::vector<NodeIndex> &contact_nodes);
 
     /// Collective. After the last level: factorizes level 0. A hierarchy of a single level gets an
     /// algebraic copy of it as level 0, so that the truncated problem has an exact coarse solver.
@@ -92,6 +92,13 @@ namespace Signorini
     finest()
     {
       return *levels.front();
+    }
+
+    /// The level added last.
+    MultigridLevel &
+    coarsest()
+    {
+      return *levels.back();
     }
 
     const CoarseCholesky &

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_discretization_boundary_conditions_h
+#define signorini_discretization_boundary_conditions_h
+
+#include <signorini/discretization/expression.h>
+#include <signorini/mesh/bodies.h>
+#include <signorini/mesh/nodal_space.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <array>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace Signorini
+{
+  /// What acts on a body, as a user writes it, in the subsection of the body.
+  struct LoadParameters
+  {
+    std::string dirichlet, tractions, pressures, volume_force;
+
+    /// Declares the parameters in the current subsection.
+    void
+    add_parameters(dealii::ParameterHandler &prm);
+  };
+
+  /// Prescribed displacement on a boundary; components without a value are free.
+  struct DirichletCondition
+  {
+    unsigned int                             body;
+    std::string                              boundary;
+    std::set<dealii::types::boundary_id>     ids;
+    std::array<std::optional<Expression>, 3> components;
+  };
+
+  /// Force per area on a boundary: a vector, or a pressure against the outward normal.
+  struct Traction
+  {
+    std::set<dealii::types::boundary_id> ids;
+    bool                                 is_pressure;
+    /// Three components, or the pressure in the first one.
+    std::array<Expression, 3> values;
+  };
+
+  /// All conditions and loads of all bodies.
+  struct Loads
+  {
+    std::vector<DirichletCondition> dirichlet;
+    std::vector<Traction>           tractions;
+    /// Force per volume of each body.
+    std::vector<std::array<Expression, 3>> volume_forces;
+
+    /// Reads the parameters of one body. Errors: InputError for unknown boundaries and bad expressions.
+    void
+    add(const Bodies &bodies, const unsigned int body, const LoadParameters &parameters);
+  };
+
+  /// Prescribed components of the relevant nodes of a space.
+  struct DirichletData
+  {
+    /// Indexed like NodalSpace::relevant().
+    std::vector<FixedMask> mask;
+    std::vector<Vector3>   value;
+    /// The condition that prescribes each component (index into Loads::dirichlet), or -1.
+    std::vector<std::array<int, 3>> condition;
+  };
+
+  /// Collective. Evaluates the conditions at the nodes. Where two conditions prescribe the same component
+  /// of a node, the later one counts. Hanging nodes get no entry: their parents do.
+  DirichletData
+  evaluate_dirichlet(const NodalSpace &space, const Loads &loads, const bool with_values);
+
+  /// Collective. Checks for every body that its conditions exclude all rigid motions.
+  /// Errors: InputError naming the body and the motion.
+  void
+  check_rigid_motions(const Bodies &bodies, const NodalSpace &space, const DirichletData &dirichlet);
+} // namespace Signorini
+
+#endif

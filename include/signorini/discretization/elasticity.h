@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_discretization_elasticity_h
+#define signorini_discretization_elasticity_h
+
+#include <signorini/algebra/interface_coupling.h>
+#include <signorini/algebra/node_block_matrix.h>
+#include <signorini/discretization/boundary_conditions.h>
+#include <signorini/mesh/bodies.h>
+#include <signorini/mesh/nodal_space.h>
+
+#include <unordered_map>
+#include <vector>
+
+namespace Signorini
+{
+  /// How the displacement of a mesh vertex depends on the unknowns û: hanging nodes are resolved, and
+  /// u = T û with T = I + E S is applied at nonmortar nodes (method.md, section 4).
+  class VertexExpansion
+  {
+  public:
+    struct Term
+    {
+      NodeIndex node;
+      double    weight;
+      /// Components in which the term does not act (the fixed ones of the nonmortar node it comes from).
+      FixedMask blocked;
+    };
+
+    VertexExpansion(const NodalSpace &space, const InterfaceCoupling &coupling, const std::vector<FixedMask> &row_masks);
+
+    /// Whether a relevant node is neither hanging nor coupled: its expansion is itself.
+    bool
+    is_plain(const NodeIndex node) const
+    {
+      return !special[space.relevant().index_within_set(node)];
+    }
+
+    void
+    expand(const NodeIndex node, std::vector<Term> &terms) const;
+
+  private:
+    void
+    add_conforming(const NodeIndex node, const double weight, std::vector<Term> &terms) const;
+
+    const NodalSpace             &space;
+    const InterfaceCoupling      &coupling;
+    const std::vector<FixedMask> &row_masks;
+    std::vector<bool>             special;
+  };
+
+
+
+  /// The discrete problem in the unknowns û - lift: Â = Tᵀ A T with fixed components eliminated, and
+  /// b̂ = Tᵀ (b - A u_D), where u_D is the Dirichlet lift that is zero at free components.
+  struct LinearSystem
+  {
+    NodeBlockMatrix matrix;
+    Vector          rhs;
+    /// Fixed components of all local nodes of the matrix; hanging nodes are fixed altogether.
+    std::vector<FixedMask> fixed;
+  };
+
+  /// Collective. row_masks: the fixed masks of the rows of the coupling. An empty coupling gives the
+  /// decoupled linear problem. Errors: InputError for cells with nonpositive Jacobian.
+  LinearSystem
+  assemble_elasticity(const Bodies                 &bodies,
+                      const NodalSpace             &space,
+                      const Loads                  &loads,
+                      const DirichletData          &dirichlet,
+                      const InterfaceCoupling      &coupling,
+                      const std::vector<FixedMask> &row_masks);
+
+  /// Collective. A u - f by node in the physical basis, hanging nodes resolved: at free components what is
+  /// left is the contact force, at fixed ones the reaction too. u has the layout of `partition` (owned and
+  /// relevant nodes), hanging values included, ghosts up to date.
+  Vector
+  physical_residual(const Bodies        &bodies,
+                    const NodalSpace    &space,
+                    const NodePartition &partition,
+                    const Loads         &loads,
+                    const Vector        &u);
+} // namespace Signorini
+
+#endif

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_discretization_expression_h
+#define signorini_discretization_expression_h
+
+#include <signorini/algebra/types.h>
+
+#include <deal.II/base/function_parser.h>
+#include <deal.II/base/point.h>
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace Signorini
+{
+  /// A scalar function of x, y, z given by a user as text, e.g. "0.01*sin(2*pi*x)".
+  class Expression
+  {
+  public:
+    Expression() = default;
+
+    /// `where` names the parameter; it appears in the InputError for text that cannot be understood.
+    Expression(const std::string &text, const std::string &where);
+
+    double
+    operator()(const dealii::Point<3> &p) const
+    {
+      return parser ? parser->value(p) : constant;
+    }
+
+    bool
+    is_zero() const
+    {
+      return !parser && constant == 0.;
+    }
+
+    const std::string &
+    text() const
+    {
+      return source;
+    }
+
+  private:
+    std::string                                    source = "0";
+    double                                         constant = 0.;
+    std::shared_ptr<const dealii::FunctionParser<3>> parser;
+  };
+
+
+
+  /// A vector of text entries "(a, b, c)"; commas inside nested parentheses do not separate.
+  std::vector<std::string>
+  split_vector(const std::string &text, const std::string &where);
+
+  /// Entries "name: value; name: value", in order. Semicolons inside parentheses do not separate.
+  std::vector<std::pair<std::string, std::string>>
+  split_named_entries(const std::string &text, const std::string &where);
+} // namespace Signorini
+
+#endif

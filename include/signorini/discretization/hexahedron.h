@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_discretization_hexahedron_h
+#define signorini_discretization_hexahedron_h
+
+#include <signorini/algebra/types.h>
+
+#include <deal.II/base/point.h>
+
+#include <array>
+
+namespace Signorini
+{
+  /// Kernels of the trilinear hexahedron (deal.II's vertex order) with 2x2x2 Gauss points.
+  namespace Hexahedron
+  {
+    using Corners = std::array<dealii::Point<3>, 8>;
+
+    /// Stiffness of isotropic linear elasticity: blocks[8 * a + b] is the 3x3 block of corners a and b,
+    /// nine numbers row by row. Units: E times length.
+    /// @return false if the Jacobian is not positive at a Gauss point.
+    bool
+    stiffness(std::array<double, 576> &blocks, const Corners &corners, const double young, const double poisson);
+
+    /// Values of the 8 shape functions at a point of the reference cell.
+    std::array<double, 8>
+    shape_values(const dealii::Point<3> &reference);
+
+    /// The 8 Gauss points in the reference cell.
+    const std::array<dealii::Point<3>, 8> &
+    gauss_points();
+
+    /// Jacobian determinant times weight at a Gauss point, and the point in space.
+    std::pair<double, dealii::Point<3>>
+    volume_element(const Corners &corners, const unsigned int gauss_point);
+
+    /// Reference coordinates of a point in space (Newton); returns false if it does not converge.
+    bool
+    invert_map(dealii::Point<3> &reference, const Corners &corners, const dealii::Point<3> &point);
+  } // namespace Hexahedron
+} // namespace Signorini
+
+#endif

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_discretization_interpolation_exchange_h
+#define signorini_discretization_interpolation_exchange_h
+
+#include <signorini/mesh/nodal_space.h>
+
+#include <array>
+#include <map>
+#include <unordered_map>
+#include <vector>
+
+namespace Signorini
+{
+  /// A cell of a coarse space as a fine one sees it: for each of its 8 vertices the conforming nodes and
+  /// weights it depends on (hanging vertices resolved).
+  struct CellInterpolation
+  {
+    std::array<unsigned int, 9> start;
+    std::vector<NodeIndex>      nodes;
+    std::vector<double>         weights;
+
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      for (unsigned int &s : start)
+        archive &s;
+      archive &nodes &weights;
+    }
+  };
+
+  /// Finds, for owned cells of a fine space, the cell of a coarse space that contains them: the same cell
+  /// or its parent. Cells that live on another rank are looked up through a directory: the rank that a
+  /// hash of the cell's name points to knows the owner.
+  class ParentLookup
+  {
+  public:
+    /// Collective.
+    ParentLookup(const NodalSpace &fine, const NodalSpace &coarse);
+
+    /// The coarse cell and which child of it the given owned fine cell is (-1: the same cell).
+    std::pair<const CellInterpolation *, int>
+    find(const dealii::DoFHandler<3>::active_cell_iterator &cell) const;
+
+    /// A cell's name: coarse cell and path of children, with a leading 1.
+    struct Key
+    {
+      std::uint64_t coarse_cell, path;
+
+      bool
+      operator==(const Key &other) const
+      {
+        return coarse_cell == other.coarse_cell && path == other.path;
+      }
+
+      template <class Archive>
+      void
+      serialize(Archive &archive, const unsigned int)
+      {
+        archive &coarse_cell &path;
+      }
+    };
+
+    struct Hash
+    {
+      std::size_t
+      operator()(const Key &key) const
+      {
+        // Multiplicative mixing (constants of splitmix64).
+        std::uint64_t h = key.path * 0x9e3779b97f4a7c15ull ^ key.coarse_cell * 0xbf58476d1ce4e5b9ull;
+        h ^= h >> 29;
+        return h * 0x94d049bb133111ebull >> 8;
+      }
+    };
+
+  private:
+    void
+    collect_own_cells(const NodalSpace &coarse);
+
+    void
+    fetch_remote_cells(const NodalSpace &fine);
+
+    std::unordered_map<Key, unsigned int, Hash> index;
+    std::vector<CellInterpolation>              cells;
+  };
+} // namespace Signorini
+
+#endif

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/algebra/input_error.h>
+#include <signorini/algebra/node_partition.h>
+#include <signorini/discretization/boundary_conditions.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/utilities.h>
+
+#include <Eigen/Eigenvalues>
+
+namespace Signorini
+{
+  using namespace dealii;
+
+  void
+  LoadParameters::add_parameters(ParameterHandler &prm)
+  {
+    prm.add_parameter("Dirichlet",
+                      dirichlet,
+                      "Prescribed displacements, \"boundary: (ux, uy, uz); boundary: ...\". Each entry is an "
+                      "expression in x, y, z (length), or * for a free component: a symmetry plane x = 0 is "
+                      "\"symmetry x: (0, *, *)\". Where conditions overlap, the later one counts.");
+    prm.add_parameter("Tractions",
+                      tractions,
+                      "Forces per area, \"boundary: (tx, ty, tz); ...\", expressions in x, y, z.");
+    prm.add_parameter("Pressures",
+                      pressures,
+                      "Pressures against the outward normal (force per area), \"boundary: p; ...\".");
+    prm.add_parameter("Volume force", volume_force, "Force per volume, \"(fx, fy, fz)\"; empty for none.");
+  }
+
+
+
+  void
+  Loads::add(const Bodies &bodies, const unsigned int body, const LoadParameters &parameters)
+  {
+    const std::string section = "Body " + bodies.body_name(body) + "/";
+    for (const auto &[name, text] : split_named_entries(parameters.dirichlet, section + "Dirichlet"))
+      {
+        const std::string  where = section + "Dirichlet, boundary \"" + name + "\"";
+        DirichletCondition condition{body, name, bodies.boundary_ids(body, name), {}};
+        const auto         entries = split_vector(text, where);
+        for (unsigned int c = 0; c < dim; ++c)
+          if (entries[c] != "*")
+            condition.components[c] = Expression(entries[c], where);
+        dirichlet.push_back(condition);
+      }
+    for (const auto &[name, text] : split_named_entries(parameters.tractions, section + "Tractions"))
+      {
+        const std::string where   = section + "Tractions, boundary \"" + name + "\"";
+        const auto        entries = split_vector(text, where);
+        Traction          traction{bodies.boundary_ids(body, name), false, {}};
+        for (unsigned int c = 0; c < dim; ++c)
+          traction.values[c] = Expression(entries[c], where);
+        tractions.push_back(traction);
+      }
+    for (const auto &[name, text] : split_named_entries(parameters.pressures, section + "Pressures"))
+      {
+        Traction traction{bodies.boundary_ids(body, name), true, {}};
+        traction.values[0] = Expression(text, section + "Pressures, boundary \"" + name + "\"");
+        tractions.push_back(traction);
+      }
+    volume_forces.resize(std::max<std::size_t>(volume_forces.size(), body + 1));
+    if (!Utilities::trim(parameters.volume_force).empty())
+      {
+        const auto entries = split_vector(parameters.volume_force, section + "Volume force");
+        for (unsigned int c = 0; c < dim; ++c)
+          volume_forces[body][c] = Expression(entries[c], section + "Volume force");
+      }
+  }
+
+
+
+  namespace
+  {
+    /// Entries of the conditions as they appear on the faces this rank can see.
+    void
+    collect_from_faces(DirichletData &data, const NodalSpace &space, const Loads &loads)
+    {
+      std::map<types::boundary_id, std::vector<int>> conditions_of;
+      for (unsigned int i = 0; i < loads.dirichlet.size(); ++i)
+        for (const types::boundary_id id : loads.dirichlet[i].ids)
+          conditions_of[id].push_back(i);
+
+      std::array<NodeIndex, 8> nodes;
+      for (const auto &cell : space.dof_handler().active_cell_iterators())
+        if (!cell->is_artificial() && cell->at_boundary())
+          for (const unsigned int face : cell->face_indices())
+            if (cell->face(face)->at_boundary())
+              {
+                const auto it = conditions_of.find(cell->face(face)->boundary_id());
+                if (it == conditions_of.end())
+                  continue;
+                space.cell_nodes(cell, nodes);
+                for (unsigned int v = 0; v < 4; ++v)
+                  {
+                    const NodeIndex node = nodes[GeometryInfo<3>::face_to_cell_vertices(face, v)];
+                    if (space.hanging_nodes().is_constrained(node))
+                      continue;
+                    const std::size_t i = space.relevant().index_within_set(node);
+                    for (const int condition : it->second)
+                      for (unsigned int c = 0; c < dim; ++c)
+                        if (loads.dirichlet[condition].components[c])
+                          {
+                            data.mask[i] |= 1u << c;
+                            data.condition[i][c] = std::max(data.condition[i][c], condition);
+                          }
+                  }
+              }
+    }
+  } // namespace
+
+
+
+  DirichletData
+  evaluate_dirichlet(const NodalSpace &space, const Loads &loads, const bool with_values)
+  {
+    const std::size_t n = space.relevant().n_elements();
+    DirichletData     data;
+    data.mask.assign(n, 0);
+    data.value.assign(n, Vector3());
+    data.condition.assign(n, {{-1, -1, -1}});
+    collect_from_faces(data, space, loads);
+
+    // A rank sees all faces at its own nodes, but not all at its ghost nodes: ask the owners.
+    if (Utilities::MPI::n_mpi_processes(space.communicator()) > 1)
+      {
+        const NodePartition partition(space.owned(), space.relevant(), space.communicator());
+        Vector              conditions;
+        partition.reinit(conditions);
+        for (unsigned int i = 0; i < partition.n_owned(); ++i)
+          for (unsigned int c = 0; c < dim; ++c)
+            conditions.local_element(dim * i + c) =
+              data.condition[space.relevant().index_within_set(partition.to_global(i))][c];
+        conditions.update_ghost_values();
+        for (unsigned int i = partition.n_owned(); i < partition.n_local(); ++i)
+          {
+            const std::size_t r = space.relevant().index_within_set(partition.to_global(i));
+            data.mask[r]        = 0;
+            for (unsigned int c = 0; c < dim; ++c)
+              {
+                data.condition[r][c] = static_cast<int>(conditions.local_element(dim * i + c));
+                if (data.condition[r][c] >= 0)
+                  data.mask[r] |= 1u << c;
+              }
+          }
+      }
+
+    if (with_values)
+      for (std::size_t i = 0; i < n; ++i)
+        for (unsigned int c = 0; c < dim; ++c)
+          if (data.condition[i][c] >= 0)
+            data.value[i][c] = (*loads.dirichlet[data.condition[i][c]].components[c])(
+              space.position(space.relevant().nth_index_in_set(i)));
+    return data;
+  }
+
+
+
+  namespace
+  {
+    /// The six rigid motions at a point, about a centre, for component c; rotations scaled by a length.
+    Eigen::Matrix<double, 6, 1>
+    rigid_row(const Point<3> &p, const Point<3> &centre, const double length, const unsigned int c)
+    {
+      const Tensor<1, 3>          r   = (p - centre) / length;
+      Eigen::Matrix<double, 6, 1> row = Eigen::Matrix<double, 6, 1>::Zero();
+      row[c]                          = 1.;
+      // Rotation about axis a: e_a x r.
+      for (unsigned int a = 0; a < 3; ++a)
+        {
+          Tensor<1, 3> axis;
+          axis[a]    = 1.;
+          row[3 + a] = cross_product_3d(axis, r)[c];
+        }
+      return row;
+    }
+  } // namespace
+
+
+
+  void
+  check_rigid_motions(const Bodies &bodies, const NodalSpace &space, const DirichletData &dirichlet)
+  {
+    const unsigned int  n_bodies = bodies.n_bodies();
+    std::vector<double> low(dim * n_bodies, std::numeric_limits<double>::max()), high(low);
+    for (double &h : high)
+      h = -h;
+    std::vector<int>         body_of_node(space.relevant().n_elements(), -1);
+    std::array<NodeIndex, 8> nodes;
+    for (const auto &cell : space.dof_handler().active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          const unsigned int body = bodies.body_of_material(cell->material_id());
+          space.cell_nodes(cell, nodes);
+          for (const NodeIndex node : nodes)
+            {
+              body_of_node[space.relevant().index_within_set(node)] = body;
+              for (unsigned int c = 0; c < dim; ++c)
+                {
+                  low[dim * body + c]  = std::min(low[dim * body + c], space.position(node)[c]);
+                  high[dim * body + c] = std::max(high[dim * body + c], space.position(node)[c]);
+                }
+            }
+        }
+    for (unsigned int i = 0; i < low.size(); ++i)
+      {
+        low[i]  = Utilities::MPI::min(low[i], space.communicator());
+        high[i] = Utilities::MPI::max(high[i], space.communicator());
+      }
+
+    std::vector<double> sums(36 * n_bodies, 0.);
+    for (const NodeIndex node : space.owned())
+      {
+        const std::size_t i = space.relevant().index_within_set(node);
+        if (dirichlet.mask[i] == 0 || body_of_node[i] < 0)
+          continue;
+        const unsigned int b = body_of_node[i];
+        const Point<3>     l(low[3 * b], low[3 * b + 1], low[3 * b + 2]), h(high[3 * b], high[3 * b + 1], high[3 * b + 2]);
+        for (unsigned int c = 0; c < dim; ++c)
+          if (dirichlet.mask[i] & (1u << c))
+            {
+              const auto row = rigid_row(space.position(node), l + .5 * (h - l), .5 * (h - l).norm(), c);
+              Eigen::Map<Eigen::Matrix<double, 6, 6>>(sums.data() + 36 * b) += row * row.transpose();
+            }
+      }
+    for (double &s : sums)
+      s = Utilities::MPI::sum(s, space.communicator());
+
+    static const char *const motions[] = {"a translation in x", "a translation in y", "a translation in z",
+                                          "a rotation about x",  "a rotation about y",  "a rotation about z"};
+    for (unsigned int b = 0; b < n_bodies; ++b)
+      {
+        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> eigen(
+          Eigen::Map<Eigen::Matrix<double, 6, 6>>(sums.data() + 36 * b));
+        if (eigen.eigenvalues()[0] > 1e-10 * std::max(eigen.eigenvalues()[5], std::numeric_limits<double>::min()))
+          continue;
+        Eigen::Index largest;
+        eigen.eigenvectors().col(0).cwiseAbs().maxCoeff(&largest);
+        throw InputError("Body " + bodies.body_name(b) + "/Dirichlet: the conditions do not exclude a rigid motion (" +
+                         motions[largest] +
+                         "). Prescribe displacements on more of its boundaries, e.g. a symmetry plane \"name: (0, *, *)\".");
+      }
+  }
+} // namespace Signorini

@@ -1,0 +1,530 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/algebra/input_error.h>
+#include <signorini/discretization/elasticity.h>
+#include <signorini/discretization/hexahedron.h>
+
+#include <deal.II/base/mpi.h>
+
+namespace Signorini
+{
+  using namespace dealii;
+
+  VertexExpansion::VertexExpansion(const NodalSpace             &space,
+                                   const InterfaceCoupling      &coupling,
+                                   const std::vector<FixedMask> &row_masks)
+    : space(space)
+    , coupling(coupling)
+    , row_masks(row_masks)
+    , special(space.relevant().n_elements(), false)
+  {
+    for (std::size_t i = 0; i < special.size(); ++i)
+      special[i] = space.hanging_nodes().is_constrained(space.relevant().nth_index_in_set(i));
+    for (const NodeIndex row : coupling.rows)
+      if (space.relevant().is_element(row))
+        special[space.relevant().index_within_set(row)] = true;
+  }
+
+
+
+  void
+  VertexExpansion::add_conforming(const NodeIndex node, const double weight, std::vector<Term> &terms) const
+  {
+    terms.push_back({node, weight, 0});
+    const std::ptrdiff_t row = coupling.find(node);
+    if (row >= 0)
+      for (const auto *entry = coupling.begin(row); entry != coupling.end(row); ++entry)
+        terms.push_back({entry->node, weight * entry->weight, row_masks[row]});
+  }
+
+
+
+  void
+  VertexExpansion::expand(const NodeIndex node, std::vector<Term> &terms) const
+  {
+    terms.clear();
+    if (const auto *parents = space.hanging_nodes().get_constraint_entries(node))
+      for (const auto &[parent, weight] : *parents)
+        add_conforming(parent, weight, terms);
+    else
+      add_conforming(node, 1., terms);
+  }
+
+
+
+  namespace
+  {
+    using Cell = DoFHandler<3>::active_cell_iterator;
+
+    /// The nodes of each owned cell after expansion.
+    struct CellNodes
+    {
+      std::vector<std::size_t> start = {0};
+      std::vector<NodeIndex>   nodes;
+    };
+
+    CellNodes
+    collect_cell_nodes(const NodalSpace &space, const VertexExpansion &expansion)
+    {
+      CellNodes                          result;
+      std::array<NodeIndex, 8>           vertices;
+      std::vector<VertexExpansion::Term> terms;
+      std::vector<NodeIndex>             list;
+      for (const auto &cell : space.dof_handler().active_cell_iterators())
+        if (cell->is_locally_owned())
+          {
+            space.cell_nodes(cell, vertices);
+            if (std::all_of(vertices.begin(), vertices.end(), [&](const NodeIndex n) { return expansion.is_plain(n); }))
+              result.nodes.insert(result.nodes.end(), vertices.begin(), vertices.end());
+            else
+              {
+                list.clear();
+                for (const NodeIndex vertex : vertices)
+                  {
+                    expansion.expand(vertex, terms);
+                    for (const auto &term : terms)
+                      list.push_back(term.node);
+                  }
+                std::sort(list.begin(), list.end());
+                list.erase(std::unique(list.begin(), list.end()), list.end());
+                result.nodes.insert(result.nodes.end(), list.begin(), list.end());
+              }
+            result.start.push_back(result.nodes.size());
+          }
+      return result;
+    }
+
+
+
+    /// Couples all nodes of a cell with each other.
+    NodePattern
+    make_pattern(const NodalSpace &space, const CellNodes &cells)
+    {
+      const IndexSet &owned = space.owned();
+      const NodeIndex begin = owned.n_elements() > 0 ? owned.nth_index_in_set(0) : 0;
+      const NodeIndex n     = owned.n_elements();
+      NodePattern     pattern;
+      for (const NodeIndex node : cells.nodes)
+        if (node < begin || node >= begin + n)
+          pattern.foreign_rows.push_back(node);
+      std::sort(pattern.foreign_rows.begin(), pattern.foreign_rows.end());
+      pattern.foreign_rows.erase(std::unique(pattern.foreign_rows.begin(), pattern.foreign_rows.end()),
+                                 pattern.foreign_rows.end());
+      const auto row_of = [&](const NodeIndex node) -> std::size_t {
+        if (node >= begin && node < begin + n)
+          return node - begin;
+        return n + (std::lower_bound(pattern.foreign_rows.begin(), pattern.foreign_rows.end(), node) -
+                    pattern.foreign_rows.begin());
+      };
+
+      const std::size_t         n_rows = n + pattern.foreign_rows.size();
+      std::vector<unsigned int> rows(cells.nodes.size());
+      std::vector<std::size_t>  start(n_rows + 1, 0);
+      for (std::size_t k = 0; k < rows.size(); ++k)
+        {
+          rows[k] = static_cast<unsigned int>(row_of(cells.nodes[k]));
+          ++start[rows[k] + 1];
+        }
+      std::partial_sum(start.begin(), start.end(), start.begin());
+      std::vector<unsigned int> cells_of(rows.size());
+      std::vector<std::size_t>  next(start.begin(), start.end() - 1);
+      for (std::size_t cell = 0; cell + 1 < cells.start.size(); ++cell)
+        for (std::size_t k = cells.start[cell]; k < cells.start[cell + 1]; ++k)
+          cells_of[next[rows[k]]++] = static_cast<unsigned int>(cell);
+
+      std::vector<unsigned int> seen(n_rows, numbers::invalid_unsigned_int);
+      pattern.columns.reserve(27 * n_rows);
+      for (unsigned int row = 0; row < n_rows; ++row)
+        {
+          for (std::size_t l = start[row]; l < start[row + 1]; ++l)
+            for (std::size_t k = cells.start[cells_of[l]]; k < cells.start[cells_of[l] + 1]; ++k)
+              if (seen[rows[k]] != row)
+                {
+                  seen[rows[k]] = row;
+                  pattern.columns.push_back(cells.nodes[k]);
+                }
+          pattern.row_start.push_back(pattern.columns.size());
+        }
+      return pattern;
+    }
+
+
+
+    /// Stiffness, load and prescribed displacement of a cell.
+    struct CellData
+    {
+      std::array<NodeIndex, 8> vertices;
+      Hexahedron::Corners      corners;
+      std::array<double, 576>  stiffness;
+      std::array<Vector3, 8>   load;
+    };
+
+    Point<3>
+    face_point(const std::array<Point<3>, 4> &x, const double s, const double t)
+    {
+      return Point<3>((1 - s) * (1 - t) * x[0] + s * (1 - t) * x[1] + (1 - s) * t * x[2] + s * t * x[3]);
+    }
+
+
+
+    /// Forces of a traction on one face, 2x2 Gauss points on the bilinear face.
+    void
+    add_traction(CellData &data, const unsigned int face, const Traction &traction)
+    {
+      std::array<Point<3>, 4>     x;
+      std::array<unsigned int, 4> corner;
+      Point<3>                    centre;
+      for (unsigned int v = 0; v < 4; ++v)
+        {
+          corner[v] = GeometryInfo<3>::face_to_cell_vertices(face, v);
+          x[v]      = data.corners[corner[v]];
+        }
+      for (const Point<3> &c : data.corners)
+        centre += .125 * c;
+      const double g[2] = {.5 - .5 / std::sqrt(3.), .5 + .5 / std::sqrt(3.)};
+      for (unsigned int q = 0; q < 4; ++q)
+        {
+          const double       s = g[q & 1], t = g[q >> 1];
+          const Point<3>     p  = face_point(x, s, t);
+          const Tensor<1, 3> ds = (1 - t) * (x[1] - x[0]) + t * (x[3] - x[2]);
+          const Tensor<1, 3> dt = (1 - s) * (x[2] - x[0]) + s * (x[3] - x[1]);
+          Tensor<1, 3>       a  = .25 * cross_product_3d(ds, dt);
+          if (a * (p - centre) < 0.)
+            a *= -1.;
+          Vector3 force;
+          if (traction.is_pressure)
+            force = -traction.values[0](p) * a;
+          else
+            for (unsigned int c = 0; c < dim; ++c)
+              force[c] = traction.values[c](p) * a.norm();
+          const double shape[4] = {(1 - s) * (1 - t), s * (1 - t), (1 - s) * t, s * t};
+          for (unsigned int v = 0; v < 4; ++v)
+            data.load[corner[v]] += shape[v] * force;
+        }
+    }
+
+
+
+    class CellAssembler
+    {
+    public:
+      CellAssembler(const Bodies &bodies, const NodalSpace &space, const Loads &loads)
+        : bodies(bodies)
+        , space(space)
+        , loads(loads)
+      {
+        for (const Traction &traction : loads.tractions)
+          for (const types::boundary_id id : traction.ids)
+            tractions_of[id].push_back(&traction);
+      }
+
+      void
+      compute(CellData &data, const Cell &cell) const
+      {
+        space.cell_nodes(cell, data.vertices);
+        for (unsigned int v = 0; v < 8; ++v)
+          data.corners[v] = space.position(data.vertices[v]);
+        const auto &material = bodies.material(cell->material_id());
+        if (!Hexahedron::stiffness(data.stiffness, data.corners, material.young, material.poisson))
+          {
+            std::ostringstream message;
+            message << "Body " << bodies.body_name(material.body) << ": inverted cell near (" << data.corners[0]
+                    << "). Mend the mesh.";
+            throw InputError(message.str());
+          }
+        data.load.fill(Vector3());
+        const auto &force = loads.volume_forces[material.body];
+        if (!force[0].is_zero() || !force[1].is_zero() || !force[2].is_zero())
+          for (unsigned int q = 0; q < 8; ++q)
+            {
+              const auto [weight, point] = Hexahedron::volume_element(data.corners, q);
+              const auto values          = Hexahedron::shape_values(Hexahedron::gauss_points()[q]);
+              for (unsigned int v = 0; v < 8; ++v)
+                for (unsigned int c = 0; c < dim; ++c)
+                  data.load[v][c] += weight * values[v] * force[c](point);
+            }
+        if (!tractions_of.empty() && cell->at_boundary())
+          for (const unsigned int face : cell->face_indices())
+            if (cell->face(face)->at_boundary())
+              if (const auto it = tractions_of.find(cell->face(face)->boundary_id()); it != tractions_of.end())
+                for (const Traction *traction : it->second)
+                  add_traction(data, face, *traction);
+      }
+
+    private:
+      const Bodies                                               &bodies;
+      const NodalSpace                                           &space;
+      const Loads                                                &loads;
+      std::map<types::boundary_id, std::vector<const Traction *>> tractions_of;
+    };
+
+
+
+    /// Subtracts K times a cell displacement from the load.
+    void
+    subtract_stiffness(CellData &data, const std::array<Vector3, 8> &u)
+    {
+      for (unsigned int a = 0; a < 8; ++a)
+        for (unsigned int b = 0; b < 8; ++b)
+          for (unsigned int c = 0; c < dim; ++c)
+            for (unsigned int d = 0; d < dim; ++d)
+              data.load[a][c] -= data.stiffness[9 * (8 * a + b) + 3 * c + d] * u[b][d];
+    }
+
+
+
+    /// The Dirichlet lift at a vertex, hanging ones interpolated.
+    Vector3
+    lift_at(const NodalSpace &space, const DirichletData &dirichlet, const NodeIndex node)
+    {
+      if (const auto *parents = space.hanging_nodes().get_constraint_entries(node))
+        {
+          Vector3 value;
+          for (const auto &[parent, weight] : *parents)
+            value += weight * dirichlet.value[space.relevant().index_within_set(parent)];
+          return value;
+        }
+      return dirichlet.value[space.relevant().index_within_set(node)];
+    }
+
+
+
+    inline void
+    add_block(double *target, const double *source)
+    {
+      for (unsigned int c = 0; c < 9; ++c)
+        target[c] += source[c];
+    }
+
+
+
+    void
+    scatter_plain(LinearSystem &system, const CellData &data)
+    {
+      const NodePartition        &partition = system.matrix.partition();
+      std::array<unsigned int, 8> local;
+      for (unsigned int v = 0; v < 8; ++v)
+        local[v] = partition.to_local(data.vertices[v]);
+      for (unsigned int a = 0; a < 8; ++a)
+        {
+          const unsigned int row = system.matrix.row_of(local[a]);
+          for (unsigned int b = 0; b < 8; ++b)
+            add_block(system.matrix.block(system.matrix.find(row, local[b])), data.stiffness.data() + 9 * (8 * a + b));
+          for (unsigned int c = 0; c < dim; ++c)
+            system.rhs.local_element(dim * local[a] + c) += data.load[a][c];
+        }
+    }
+
+
+
+    /// Scatters a cell with hanging or coupled vertices: K̂ = Cᵀ K C with the expansion C of the vertices.
+    class ExpandedCell
+    {
+    public:
+      void
+      scatter(LinearSystem &system, const CellData &data, const VertexExpansion &expansion)
+      {
+        collect(data, expansion);
+        const std::size_t n = nodes.size();
+        product.assign(8 * n * 9, 0.);
+        // K C, then Cᵀ (K C).
+        for (unsigned int a = 0; a < 8; ++a)
+          for (unsigned int b = 0; b < 8; ++b)
+            for (const auto &[m, w] : terms[b])
+              for (unsigned int c = 0; c < dim; ++c)
+                for (unsigned int d = 0; d < dim; ++d)
+                  product[9 * (n * a + m) + 3 * c + d] += data.stiffness[9 * (8 * a + b) + 3 * c + d] * w[d];
+        result.assign(n * n * 9, 0.);
+        load.assign(n, Vector3());
+        for (unsigned int a = 0; a < 8; ++a)
+          for (const auto &[l, w] : terms[a])
+            {
+              for (unsigned int c = 0; c < dim; ++c)
+                load[l][c] += w[c] * data.load[a][c];
+              for (std::size_t m = 0; m < n; ++m)
+                for (unsigned int c = 0; c < dim; ++c)
+                  for (unsigned int d = 0; d < dim; ++d)
+                    result[9 * (n * l + m) + 3 * c + d] += w[c] * product[9 * (n * a + m) + 3 * c + d];
+            }
+        add_to(system);
+      }
+
+    private:
+      void
+      collect(const CellData &data, const VertexExpansion &expansion)
+      {
+        nodes.clear();
+        for (unsigned int v = 0; v < 8; ++v)
+          {
+            expansion.expand(data.vertices[v], buffer[v]);
+            for (const auto &term : buffer[v])
+              nodes.push_back(term.node);
+          }
+        std::sort(nodes.begin(), nodes.end());
+        nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+        for (unsigned int v = 0; v < 8; ++v)
+          {
+            terms[v].clear();
+            for (const auto &term : buffer[v])
+              {
+                Vector3 w;
+                for (unsigned int c = 0; c < dim; ++c)
+                  w[c] = (term.blocked & (1u << c)) ? 0. : term.weight;
+                terms[v].emplace_back(std::lower_bound(nodes.begin(), nodes.end(), term.node) - nodes.begin(), w);
+              }
+          }
+      }
+
+      void
+      add_to(LinearSystem &system) const
+      {
+        const NodePartition &partition = system.matrix.partition();
+        const std::size_t    n         = nodes.size();
+        for (std::size_t l = 0; l < n; ++l)
+          {
+            const unsigned int local = partition.to_local(nodes[l]);
+            const unsigned int row   = system.matrix.row_of(local);
+            for (std::size_t m = 0; m < n; ++m)
+              add_block(system.matrix.block(system.matrix.find(row, partition.to_local(nodes[m]))),
+                        result.data() + 9 * (n * l + m));
+            for (unsigned int c = 0; c < dim; ++c)
+              system.rhs.local_element(dim * local + c) += load[l][c];
+          }
+      }
+
+      std::vector<NodeIndex>                                          nodes;
+      std::array<std::vector<VertexExpansion::Term>, 8>               buffer;
+      std::array<std::vector<std::pair<std::size_t, Vector3>>, 8>     terms;
+      std::vector<double>                                             product, result;
+      std::vector<Vector3>                                            load;
+    };
+
+
+
+    /// Raises an input error of any rank on all of them.
+    void
+    throw_everywhere(const std::string &message, const MPI_Comm communicator)
+    {
+      const std::string first =
+        Utilities::MPI::n_mpi_processes(communicator) == 1 ?
+          message :
+          Utilities::MPI::all_reduce<std::string>(message, communicator, [](const std::string &a, const std::string &b) {
+            return a.empty() ? b : a;
+          });
+      if (!first.empty())
+        throw InputError(first);
+    }
+
+
+
+    std::vector<FixedMask>
+    owned_masks(const NodalSpace &space, const DirichletData &dirichlet)
+    {
+      std::vector<FixedMask> masks;
+      for (const NodeIndex node : space.owned())
+        masks.push_back(space.hanging_nodes().is_constrained(node) ?
+                          all_fixed :
+                          dirichlet.mask[space.relevant().index_within_set(node)]);
+      return masks;
+    }
+  } // namespace
+
+
+
+  LinearSystem
+  assemble_elasticity(const Bodies                 &bodies,
+                      const NodalSpace             &space,
+                      const Loads                  &loads,
+                      const DirichletData          &dirichlet,
+                      const InterfaceCoupling      &coupling,
+                      const std::vector<FixedMask> &row_masks)
+  {
+    const VertexExpansion expansion(space, coupling, row_masks);
+    LinearSystem          system;
+    system.matrix.reinit(space.owned(),
+                         make_pattern(space, collect_cell_nodes(space, expansion)),
+                         IndexSet(space.n_nodes()),
+                         space.communicator());
+    system.matrix.partition().reinit(system.rhs);
+    system.fixed = import_ghost_masks(system.matrix.partition(), owned_masks(space, dirichlet));
+
+    const CellAssembler assembler(bodies, space, loads);
+    CellData            data;
+    ExpandedCell        expanded;
+    std::string         error;
+    try
+      {
+        for (const auto &cell : space.dof_handler().active_cell_iterators())
+          if (cell->is_locally_owned())
+            {
+              assembler.compute(data, cell);
+              bool                   plain = true, lifted = false;
+              std::array<Vector3, 8> lift;
+              for (unsigned int v = 0; v < 8; ++v)
+                {
+                  plain   = plain && expansion.is_plain(data.vertices[v]);
+                  lift[v] = lift_at(space, dirichlet, data.vertices[v]);
+                  lifted  = lifted || lift[v].norm_square() > 0.;
+                }
+              if (lifted)
+                subtract_stiffness(data, lift);
+              if (plain)
+                scatter_plain(system, data);
+              else
+                expanded.scatter(system, data, expansion);
+            }
+      }
+    catch (const InputError &e)
+      {
+        error = e.what();
+      }
+    throw_everywhere(error, space.communicator());
+    system.matrix.compress();
+    system.rhs.compress(VectorOperation::add);
+    for (unsigned int i = 0; i < system.matrix.n_rows(); ++i)
+      for (unsigned int c = 0; c < dim; ++c)
+        if (system.fixed[i] & (1u << c))
+          system.rhs.local_element(dim * i + c) = 0.;
+    return system;
+  }
+
+
+
+  Vector
+  physical_residual(const Bodies        &bodies,
+                    const NodalSpace    &space,
+                    const NodePartition &partition,
+                    const Loads         &loads,
+                    const Vector        &u)
+  {
+    Vector residual;
+    partition.reinit(residual);
+    const CellAssembler assembler(bodies, space, loads);
+    CellData            data;
+    for (const auto &cell : space.dof_handler().active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          assembler.compute(data, cell);
+          std::array<Vector3, 8> cell_u;
+          for (unsigned int v = 0; v < 8; ++v)
+            for (unsigned int c = 0; c < dim; ++c)
+              cell_u[v][c] = u.local_element(dim * partition.to_local(data.vertices[v]) + c);
+          subtract_stiffness(data, cell_u);
+          for (unsigned int v = 0; v < 8; ++v)
+            {
+              const auto add = [&](const NodeIndex node, const double weight) {
+                for (unsigned int c = 0; c < dim; ++c)
+                  residual.local_element(dim * partition.to_local(node) + c) -= weight * data.load[v][c];
+              };
+              if (const auto *parents = space.hanging_nodes().get_constraint_entries(data.vertices[v]))
+                for (const auto &[parent, weight] : *parents)
+                  add(parent, weight);
+              else
+                add(data.vertices[v], 1.);
+            }
+        }
+    residual.compress(VectorOperation::add);
+    return residual;
+  }
+} // namespace Signorini

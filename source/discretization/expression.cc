@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/algebra/input_error.h>
+#include <signorini/discretization/expression.h>
+
+#include <deal.II/base/numbers.h>
+#include <deal.II/base/utilities.h>
+
+namespace Signorini
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Splits at a separator outside of all parentheses; trims the pieces.
+    std::vector<std::string>
+    split_outside_parentheses(const std::string &text, const char separator, const std::string &where)
+    {
+      std::vector<std::string> pieces(1);
+      int                      depth = 0;
+      for (const char c : text)
+        {
+          depth += c == '(' ? 1 : (c == ')' ? -1 : 0);
+          if (depth < 0)
+            break;
+          if (c == separator && depth == 0)
+            pieces.emplace_back();
+          else
+            pieces.back() += c;
+        }
+      if (depth != 0)
+        throw InputError(where + ": the parentheses in \"" + text + "\" do not match.");
+      for (std::string &piece : pieces)
+        piece = Utilities::trim(piece);
+      return pieces;
+    }
+  } // namespace
+
+
+
+  Expression::Expression(const std::string &text, const std::string &where)
+    : source(Utilities::trim(text))
+  {
+    std::size_t used = 0;
+    try
+      {
+        constant = std::stod(source, &used);
+      }
+    catch (const std::exception &)
+      {
+        used = 0;
+      }
+    if (used == source.size() && used > 0)
+      {
+        if (!std::isfinite(constant))
+          throw InputError(where + ": \"" + source + "\" is not a finite number.");
+        return;
+      }
+    try
+      {
+        auto function = std::make_shared<FunctionParser<3>>(1);
+        function->initialize("x,y,z", source, {{"pi", numbers::PI}});
+        (void)function->value(Point<3>(.1, .2, .3));
+        parser = function;
+      }
+    catch (const std::exception &)
+      {
+        throw InputError(where + ": \"" + source + "\" is not an expression in x, y, z.");
+      }
+  }
+
+
+
+  std::vector<std::string>
+  split_vector(const std::string &text, const std::string &where)
+  {
+    const std::string trimmed = Utilities::trim(text);
+    if (trimmed.size() < 2 || trimmed.front() != '(' || trimmed.back() != ')')
+      throw InputError(where + ": \"" + trimmed + "\" should be a vector in parentheses, like (0, 0, -1).");
+    const auto entries = split_outside_parentheses(trimmed.substr(1, trimmed.size() - 2), ',', where);
+    if (entries.size() != dim)
+      throw InputError(where + ": \"" + trimmed + "\" should have three entries.");
+    return entries;
+  }
+
+
+
+  std::vector<std::pair<std::string, std::string>>
+  split_named_entries(const std::string &text, const std::string &where)
+  {
+    std::vector<std::pair<std::string, std::string>> entries;
+    for (const std::string &piece : split_outside_parentheses(text, ';', where))
+      {
+        if (piece.empty())
+          continue;
+        const std::size_t colon = piece.find(':');
+        if (colon == std::string::npos || colon == 0)
+          throw InputError(where + ": \"" + piece + "\" should read \"name: value\".");
+        entries.emplace_back(Utilities::trim(piece.substr(0, colon)), Utilities::trim(piece.substr(colon + 1)));
+      }
+    return entries;
+  }
+} // namespace Signorini

@@ -1,0 +1,319 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/discretization/hexahedron.h>
+#include <signorini/discretization/interpolation_exchange.h>
+#include <signorini/discretization/level_hierarchy.h>
+
+#include <deal.II/multigrid/mg_transfer_global_coarsening.h>
+
+namespace Signorini
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Weights of a vertex of a child cell on the vertices of its parent, [child][vertex][parent vertex].
+    const std::array<std::array<std::array<double, 8>, 8>, 8> &
+    child_weights()
+    {
+      static const auto weights = [] {
+        std::array<std::array<std::array<double, 8>, 8>, 8> w;
+        for (unsigned int child = 0; child < 8; ++child)
+          for (unsigned int v = 0; v < 8; ++v)
+            {
+              Point<3> p;
+              for (unsigned int c = 0; c < 3; ++c)
+                p[c] = .5 * (((child >> c) & 1u) + ((v >> c) & 1u));
+              w[child][v] = Hexahedron::shape_values(p);
+            }
+        return w;
+      }();
+      return weights;
+    }
+
+
+
+    /// The row of one fine node: parent vertex weights times the expansions of the parent's vertices.
+    void
+    combine(std::vector<std::pair<NodeIndex, double>> &row,
+            const CellInterpolation                   &parent,
+            const std::array<double, 8>               &weights)
+    {
+      row.clear();
+      for (unsigned int v = 0; v < 8; ++v)
+        if (weights[v] != 0.)
+          for (std::size_t k = parent.start[v]; k < parent.start[v + 1]; ++k)
+            {
+              const auto it = std::find_if(row.begin(), row.end(), [&](const auto &e) {
+                return e.first == parent.nodes[k];
+              });
+              const double w = weights[v] * parent.weights[k];
+              if (it == row.end())
+                row.emplace_back(parent.nodes[k], w);
+              else
+                it->second += w;
+            }
+      std::sort(row.begin(), row.end());
+    }
+  } // namespace
+
+
+
+  NodeRows
+  interpolation_rows(const NodalSpace &fine, const NodalSpace &coarse)
+  {
+    const ParentLookup                                     parents(fine, coarse);
+    const NodeIndex                                        n_owned = fine.owned().n_elements();
+    const NodeIndex                                        begin = n_owned > 0 ? fine.owned().nth_index_in_set(0) : 0;
+    std::vector<bool>                                      done(n_owned, false);
+    std::vector<std::size_t>                               first(n_owned, 0), last(n_owned, 0);
+    std::vector<std::pair<NodeIndex, double>>              entries, row;
+    std::array<NodeIndex, 8>                               nodes;
+    std::array<double, 8>                                  weights;
+    for (const auto &cell : fine.dof_handler().active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          fine.cell_nodes(cell, nodes);
+          const CellInterpolation *parent = nullptr;
+          int                      child  = -1;
+          for (unsigned int v = 0; v < 8; ++v)
+            {
+              const NodeIndex i = nodes[v] - begin;
+              if (nodes[v] < begin || i >= n_owned || done[i])
+                continue;
+              done[i] = true;
+              if (fine.hanging_nodes().is_constrained(nodes[v]))
+                continue;
+              if (parent == nullptr)
+                std::tie(parent, child) = parents.find(cell);
+              if (child < 0)
+                {
+                  weights.fill(0.);
+                  weights[v] = 1.;
+                }
+              else
+                weights = child_weights()[child][v];
+              combine(row, *parent, weights);
+              first[i] = entries.size();
+              entries.insert(entries.end(), row.begin(), row.end());
+              last[i] = entries.size();
+            }
+        }
+    NodeRows result;
+    result.columns.reserve(entries.size());
+    result.weights.reserve(entries.size());
+    for (NodeIndex i = 0; i < n_owned; ++i)
+      {
+        for (std::size_t k = first[i]; k < last[i]; ++k)
+          result.add(entries[k].first, entries[k].second);
+        result.finish_row();
+      }
+    return result;
+  }
+
+
+
+  LevelSpaces::LevelSpaces(const NodalSpace &finest, const Loads &loads)
+    : finest(finest)
+  {
+    triangulations =
+      MGTransferGlobalCoarseningTools::create_geometric_coarsening_sequence(finest.dof_handler().get_triangulation());
+    for (std::size_t l = 0; l + 1 < triangulations.size(); ++l)
+      coarse.push_back(std::make_unique<NodalSpace>(*triangulations[l]));
+    for (unsigned int l = 0; l < n_levels(); ++l)
+      {
+        const NodalSpace   &s         = space(l);
+        const DirichletData dirichlet = evaluate_dirichlet(s, loads, false);
+        masks.emplace_back();
+        for (const NodeIndex node : s.owned())
+          masks.back().push_back(s.hanging_nodes().is_constrained(node) ?
+                                   all_fixed :
+                                   dirichlet.mask[s.relevant().index_within_set(node)]);
+        if (l > 0)
+          rows.push_back(interpolation_rows(s, space(l - 1)));
+      }
+  }
+
+
+
+  InterfaceCoupling
+  coarsen_coupling(const InterfaceCoupling &fine, const std::vector<NodeIndex> &nodes, const NodeRows &rows)
+  {
+    const auto row_of = [&](const NodeIndex node) {
+      return std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin();
+    };
+    std::map<NodeIndex, std::map<NodeIndex, double>> sums;
+    std::map<NodeIndex, double>                      weights;
+    for (std::size_t p = 0; p < fine.n_rows(); ++p)
+      {
+        std::map<NodeIndex, double> mapped;
+        for (const auto *entry = fine.begin(p); entry != fine.end(p); ++entry)
+          {
+            const std::size_t q = row_of(entry->node);
+            for (std::size_t k = rows.start[q]; k < rows.start[q + 1]; ++k)
+              mapped[rows.columns[k]] += entry->weight * rows.weights[k];
+          }
+        const std::size_t i = row_of(fine.rows[p]);
+        for (std::size_t k = rows.start[i]; k < rows.start[i + 1]; ++k)
+          {
+            const double w = rows.weights[k] * fine.weight[p];
+            weights[rows.columns[k]] += w;
+            for (const auto &[column, value] : mapped)
+              sums[rows.columns[k]][column] += w * value;
+          }
+      }
+    InterfaceCoupling coarse;
+    for (const auto &[node, weight] : weights)
+      {
+        coarse.rows.push_back(node);
+        coarse.weight.push_back(weight);
+        // Only a choice of the basis: columns that are rows themselves are left out, so that S² = 0.
+        for (const auto &[column, value] : sums[node])
+          if (weights.count(column) == 0)
+            coarse.entries.push_back({column, value / weight});
+        coarse.row_start.push_back(coarse.entries.size());
+      }
+    return coarse;
+  }
+
+
+
+  namespace
+  {
+    std::vector<NodeIndex>
+    interface_nodes(const InterfaceCoupling &coupling)
+    {
+      std::vector<NodeIndex> nodes(coupling.rows);
+      for (const auto &entry : coupling.entries)
+        nodes.push_back(entry.node);
+      std::sort(nodes.begin(), nodes.end());
+      nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+      return nodes;
+    }
+
+
+
+    /// Builds the rows of P̂ = (I - E S) P (I + E_c S_c) that differ from those of P.
+    class TransformedRows
+    {
+    public:
+      TransformedRows(const InterfaceCoupling      &fine,
+                      const std::vector<FixedMask> &fine_masks,
+                      const std::vector<NodeIndex> &nodes,
+                      const NodeRows               &node_rows,
+                      const InterfaceCoupling      &coarse,
+                      const std::vector<FixedMask> &coarse_masks)
+        : fine(fine)
+        , fine_masks(fine_masks)
+        , nodes(nodes)
+        , node_rows(node_rows)
+        , coarse(coarse)
+        , coarse_masks(coarse_masks)
+      {}
+
+      bool
+      differs(const NodeIndex node, const NodeRows &rows, const std::size_t row) const
+      {
+        if (fine.find(node) >= 0)
+          return true;
+        for (std::size_t k = rows.start[row]; k < rows.start[row + 1]; ++k)
+          if (coarse.find(rows.columns[k]) >= 0)
+            return true;
+        return false;
+      }
+
+      NodalTransfer::BlockRow
+      make(const unsigned int local, const NodeIndex node, const NodeRows &rows, const std::size_t row)
+      {
+        sums.clear();
+        add(rows, row, 1., 0);
+        if (const std::ptrdiff_t p = fine.find(node); p >= 0)
+          for (const auto *entry = fine.begin(p); entry != fine.end(p); ++entry)
+            add(node_rows,
+                std::lower_bound(nodes.begin(), nodes.end(), entry->node) - nodes.begin(),
+                -entry->weight,
+                fine_masks[p]);
+        NodalTransfer::BlockRow result{local, {}, {}};
+        for (const auto &[column, diagonal] : sums)
+          {
+            Block block;
+            for (unsigned int c = 0; c < dim; ++c)
+              block[c][c] = diagonal[c];
+            result.columns.push_back(column);
+            result.blocks.push_back(block);
+          }
+        return result;
+      }
+
+    private:
+      /// Adds factor * (row of P) * T_coarse in the components that are not blocked.
+      void
+      add(const NodeRows &rows, const std::size_t row, const double factor, const FixedMask blocked)
+      {
+        for (std::size_t k = rows.start[row]; k < rows.start[row + 1]; ++k)
+          {
+            add_entry(rows.columns[k], factor * rows.weights[k], blocked);
+            const std::ptrdiff_t c = coarse.find(rows.columns[k]);
+            if (c >= 0)
+              for (const auto *entry = coarse.begin(c); entry != coarse.end(c); ++entry)
+                add_entry(entry->node, factor * rows.weights[k] * entry->weight, blocked | coarse_masks[c]);
+          }
+      }
+
+      void
+      add_entry(const NodeIndex column, const double weight, const FixedMask blocked)
+      {
+        Vector3 &sum = sums[column];
+        for (unsigned int c = 0; c < dim; ++c)
+          if (!(blocked & (1u << c)))
+            sum[c] += weight;
+      }
+
+      const InterfaceCoupling      &fine;
+      const std::vector<FixedMask> &fine_masks;
+      const std::vector<NodeIndex> &nodes;
+      const NodeRows               &node_rows;
+      const InterfaceCoupling      &coarse;
+      const std::vector<FixedMask> &coarse_masks;
+      std::map<NodeIndex, Vector3>  sums;
+    };
+  } // namespace
+
+
+
+  MultigridHierarchy
+  build_hierarchy(LinearSystem &&system, const LevelSpaces &spaces, const InterfaceCoupling &coupling)
+  {
+    MultigridHierarchy hierarchy(std::move(system.matrix), std::move(system.fixed));
+    InterfaceCoupling  fine = coupling;
+    for (unsigned int l = spaces.n_levels() - 1;; --l)
+      {
+        const NodePartition         &partition = hierarchy.coarsest().matrix.partition();
+        const std::vector<NodeIndex> nodes     = interface_nodes(fine);
+        if (!nodes.empty())
+          hierarchy.set_interface(nodes);
+        if (l == 0)
+          break;
+
+        const NodeRows         rows      = import_ghost_rows(partition, spaces.interpolation(l));
+        const NodeRows         node_rows = replicate_rows(partition, spaces.interpolation(l), nodes);
+        InterfaceCoupling      coarse    = coarsen_coupling(fine, nodes, node_rows);
+        const IndexSet        &owned     = spaces.space(l - 1).owned();
+        const NodePartition    coarse_partition(owned, IndexSet(owned.size()), partition.communicator());
+        const auto             fine_masks   = replicate_masks(partition, spaces.fixed(l), fine.rows);
+        const auto             coarse_masks = replicate_masks(coarse_partition, spaces.fixed(l - 1), coarse.rows);
+        TransformedRows        transformed(fine, fine_masks, nodes, node_rows, coarse, coarse_masks);
+        std::vector<NodalTransfer::BlockRow> block_rows;
+        for (unsigned int i = 0; i < partition.n_local(); ++i)
+          if (const NodeIndex node = partition.to_global(i); transformed.differs(node, rows, i))
+            block_rows.push_back(transformed.make(i, node, rows, i));
+        NodalTransfer transfer;
+        transfer.reinit(rows, block_rows, partition.n_owned());
+        hierarchy.add_coarser_level(std::move(transfer), owned, spaces.fixed(l - 1));
+        fine = std::move(coarse);
+      }
+    hierarchy.finish();
+    return hierarchy;
+  }
+} // namespace Signorini
