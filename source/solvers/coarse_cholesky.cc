@@ -57,6 +57,10 @@ namespace Signorini
 
 
 
+  CoarseCholesky::CoarseCholesky(CoarseCholesky &&) noexcept = default;
+
+
+
   CoarseCholesky::~CoarseCholesky() = default;
 
 

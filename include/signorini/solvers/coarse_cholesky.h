@@ -15,6 +15,7 @@ namespace Signorini
   {
   public:
     CoarseCholesky();
+    CoarseCholesky(CoarseCholesky &&) noexcept;
     ~CoarseCholesky();
 
     /// Collective. Factorizes; the ordering is reused while the structure stays the same.

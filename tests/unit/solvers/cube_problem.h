@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+// Structured cube problems with known answers (shared/reference/solver-problems.md): the solvers see plain
+// rows and blocks, no mesh. Nodes are numbered layer by layer, so every rank owns a slab.
+
+#ifndef tests_unit_solvers_cube_problem_h
+#define tests_unit_solvers_cube_problem_h
+
+#include <signorini/solvers/multigrid_hierarchy.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <signorini/discretization/hexahedron.h>
+
+namespace CubeProblem
+{
+  using namespace Signorini;
+  using namespace dealii;
+
+  /// A grid of n^3 cells on the unit cube, its nodes distributed in slabs.
+  struct Grid
+  {
+    explicit Grid(const unsigned int n)
+      : n(n)
+      , owned((n + 1) * (n + 1) * (n + 1))
+    {
+      const unsigned int size = Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+      const unsigned int rank = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
+      const NodeIndex    all  = (n + 1) * (n + 1) * (n + 1);
+      owned.add_range(all * rank / size, all * (rank + 1) / size);
+    }
+
+    NodeIndex
+    node(const unsigned int i, const unsigned int j, const unsigned int k) const
+    {
+      return (k * (n + 1) + j) * (n + 1) + i;
+    }
+
+    std::array<unsigned int, 3>
+    index(const NodeIndex node) const
+    {
+      return {{static_cast<unsigned int>(node % (n + 1)),
+               static_cast<unsigned int>(node / (n + 1) % (n + 1)),
+               static_cast<unsigned int>(node / ((n + 1) * (n + 1)))}};
+    }
+
+    /// u = 0 on z = 1.
+    std::vector<FixedMask>
+    fixed() const
+    {
+      std::vector<FixedMask> masks;
+      for (const NodeIndex p : owned)
+        masks.push_back(index(p)[2] == n ? all_fixed : 0);
+      return masks;
+    }
+
+    unsigned int n;
+    IndexSet     owned;
+  };
+
+  /// Stiffness of E = 1, nu = 0.3; cells belong to the rank of their first node.
+  inline NodeBlockMatrix
+  stiffness(const Grid &grid)
+  {
+    const unsigned int n     = grid.n;
+    const NodeIndex    begin = grid.owned.nth_index_in_set(0), size = grid.owned.n_elements();
+    std::map<NodeIndex, std::set<NodeIndex>> rows;
+    std::vector<std::array<NodeIndex, 8>>    cells;
+    for (const NodeIndex first : grid.owned)
+      {
+        const auto [i, j, k] = grid.index(first);
+        if (i == n || j == n || k == n)
+          continue;
+        cells.emplace_back();
+        for (unsigned int v = 0; v < 8; ++v)
+          cells.back()[v] = grid.node(i + (v & 1), j + (v >> 1 & 1), k + (v >> 2));
+        for (const NodeIndex a : cells.back())
+          rows[a].insert(cells.back().begin(), cells.back().end());
+      }
+    NodePattern pattern;
+    for (const NodeIndex p : grid.owned)
+      {
+        pattern.columns.insert(pattern.columns.end(), rows[p].begin(), rows[p].end());
+        pattern.row_start.push_back(pattern.columns.size());
+      }
+    for (const auto &[p, columns] : rows)
+      if (p < begin || p >= begin + size)
+        {
+          pattern.foreign_rows.push_back(p);
+          pattern.columns.insert(pattern.columns.end(), columns.begin(), columns.end());
+          pattern.row_start.push_back(pattern.columns.size());
+        }
+    NodeBlockMatrix matrix;
+    matrix.reinit(grid.owned, pattern, IndexSet(grid.owned.size()), MPI_COMM_WORLD);
+
+    Hexahedron::Corners corners;
+    for (unsigned int v = 0; v < 8; ++v)
+      corners[v] = Point<3>((v & 1) / double(n), (v >> 1 & 1) / double(n), (v >> 2) / double(n));
+    std::array<double, 576> k;
+    Hexahedron::stiffness(k, corners, 1., .3);
+    for (const auto &cell : cells)
+      for (unsigned int a = 0; a < 8; ++a)
+        for (unsigned int b = 0; b < 8; ++b)
+          {
+            const auto  &p   = matrix.partition();
+            double      *out = matrix.block(matrix.find(matrix.row_of(p.to_local(cell[a])), p.to_local(cell[b])));
+            for (unsigned int c = 0; c < 9; ++c)
+              out[c] += k[9 * (8 * a + b) + c];
+          }
+    matrix.compress();
+    return matrix;
+  }
+
+  /// Trilinear interpolation of the owned nodes of a grid from the grid with half the cells.
+  inline NodeRows
+  interpolation(const Grid &fine, const Grid &coarse)
+  {
+    NodeRows rows;
+    for (const NodeIndex p : fine.owned)
+      {
+        const auto index = fine.index(p);
+        for (unsigned int v = 0; v < 8; ++v)
+          {
+            double                      weight = 1.;
+            std::array<unsigned int, 3> parent;
+            for (unsigned int c = 0; c < 3; ++c)
+              {
+                const bool odd = index[c] % 2, upper = v >> c & 1;
+                weight *= odd ? .5 : (upper ? 0. : 1.);
+                parent[c] = index[c] / 2 + upper;
+              }
+            if (weight > 0.)
+              rows.add(coarse.node(parent[0], parent[1], parent[2]), weight);
+          }
+        rows.finish_row();
+      }
+    return rows;
+  }
+
+  /// Problem S1: rigid paraboloid under the face z = 0.
+  inline HalfSpaces
+  paraboloid(const Grid &grid)
+  {
+    HalfSpaces half_spaces;
+    Vector3    normal;
+    normal[2] = -1.;
+    for (const NodeIndex p : grid.owned)
+      if (const auto [i, j, k] = grid.index(p); k == 0)
+        {
+          const double x = i / double(grid.n) - .5, y = j / double(grid.n) - .5;
+          half_spaces.nodes.push_back(static_cast<unsigned int>(p - grid.owned.nth_index_in_set(0)));
+          half_spaces.normals.push_back(normal);
+          half_spaces.bounds.push_back(x * x + y * y - .05);
+        }
+    return half_spaces;
+  }
+
+  /// Galerkin hierarchy with base 2; rows of the nodes on z = 0 are block rows so that they can be truncated.
+  inline MultigridHierarchy
+  hierarchy(const unsigned int n)
+  {
+    Grid               grid(n);
+    NodeBlockMatrix    matrix = stiffness(grid);
+    auto               masks  = import_ghost_masks(matrix.partition(), grid.fixed());
+    MultigridHierarchy result(std::move(matrix), masks);
+    for (unsigned int m = n; m > 2; m /= 2)
+      {
+        const Grid            fine(m), coarse(m / 2);
+        const NodePartition  &partition = result.coarsest().matrix.partition();
+        std::vector<NodeIndex> contact;
+        for (NodeIndex p = 0; p < (m + 1) * (m + 1); ++p)
+          contact.push_back(p);
+        result.set_interface(contact);
+        const NodeRows rows = import_ghost_rows(partition, interpolation(fine, coarse));
+        std::vector<NodalTransfer::BlockRow> block_rows;
+        for (unsigned int i = 0; i < partition.n_local(); ++i)
+          if (m == n && partition.to_global(i) < (m + 1) * (m + 1))
+            {
+              NodalTransfer::BlockRow row{i, {}, {}};
+              for (std::size_t k = rows.start[i]; k < rows.start[i + 1]; ++k)
+                {
+                  Block b;
+                  for (unsigned int c = 0; c < dim; ++c)
+                    b[c][c] = rows.weights[k];
+                  row.columns.push_back(rows.columns[k]);
+                  row.blocks.push_back(b);
+                }
+              block_rows.push_back(row);
+            }
+        NodalTransfer transfer;
+        transfer.reinit(rows, block_rows, partition.n_owned());
+        result.add_coarser_level(std::move(transfer), coarse.owned, coarse.fixed());
+      }
+    result.finish();
+    return result;
+  }
+} // namespace CubeProblem
+
+#endif

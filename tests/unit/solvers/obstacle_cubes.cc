@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/solvers/truncated_newton_multigrid.h>
+
+#include <gtest/gtest.h>
+
+#include "unit/solvers/cube_problem.h"
+
+using namespace Signorini;
+
+namespace
+{
+  struct Expected
+  {
+    unsigned int n, active, max_iterations;
+    double       energy, force;
+  };
+
+  class PuncturedCube : public testing::TestWithParam<Expected>
+  {};
+} // namespace
+
+
+
+// Problem S1 of shared/reference/solver-problems.md: J and the force to the digits given there.
+TEST_P(PuncturedCube, ReachesTheKnownSolutionFromZero)
+{
+  const Expected          expected  = GetParam();
+  MultigridHierarchy      hierarchy = CubeProblem::hierarchy(expected.n);
+  const CubeProblem::Grid grid(expected.n);
+  ObstacleProblem         problem;
+  problem.half_spaces = CubeProblem::paraboloid(grid);
+  hierarchy.finest().matrix.partition().reinit(problem.rhs);
+  Vector v;
+  v.reinit(problem.rhs);
+
+  TruncatedNewtonMultigrid solver(hierarchy, SolverParameters());
+  const auto               report = solver.solve(v, problem);
+  EXPECT_TRUE(report.converged);
+  EXPECT_LE(report.iterations, expected.max_iterations);
+  EXPECT_EQ(report.active_nodes.back(), expected.active);
+  EXPECT_NEAR(report.energy / expected.energy, 1., 1e-11);
+
+  Vector residual;
+  residual.reinit(v);
+  hierarchy.finest().matrix.vmult(residual, v);
+  double force = 0.;
+  for (const unsigned int p : problem.half_spaces.nodes)
+    force += residual.local_element(3 * p + 2);
+  EXPECT_NEAR(dealii::Utilities::MPI::sum(force, MPI_COMM_WORLD) / expected.force, 1., 1e-8);
+}
+
+INSTANTIATE_TEST_SUITE_P(Sizes,
+                         PuncturedCube,
+                         testing::Values(Expected{8, 9, 12, 2.110394093511e-4, 1.14727827e-2},
+                                         Expected{16, 21, 12, 2.328860217949e-4, 1.17543487e-2},
+                                         Expected{32, 89, 13, 2.360079949137e-4, 1.18747437e-2}));
+
+
+
+// The energy must fall and the iterate stay admissible in every projected sweep, also across ranks.
+TEST(ProjectedGaussSeidel, EnergyFallsInEverySweep)
+{
+  const CubeProblem::Grid grid(8);
+  MultigridHierarchy      hierarchy   = CubeProblem::hierarchy(8);
+  const auto              half_spaces = CubeProblem::paraboloid(grid);
+  NodeBlockMatrix        &matrix      = hierarchy.finest().matrix;
+  ProjectedGaussSeidel   &smoother    = *hierarchy.finest().smoother;
+  smoother.set_half_spaces(half_spaces);
+  Vector v, rhs, product;
+  matrix.partition().reinit(v);
+  matrix.partition().reinit(rhs);
+  matrix.partition().reinit(product);
+  smoother.project(v);
+  double energy = std::numeric_limits<double>::max();
+  for (unsigned int sweep = 0; sweep < 20; ++sweep)
+    {
+      smoother.sweep(v, rhs, sweep % 2 ? ProjectedGaussSeidel::backward : ProjectedGaussSeidel::forward);
+      matrix.vmult(product, v);
+      const double new_energy = .5 * (product * v);
+      EXPECT_LT(new_energy, energy);
+      energy = new_energy;
+      for (std::size_t p = 0; p < half_spaces.size(); ++p)
+        EXPECT_LE(-v.local_element(3 * half_spaces.nodes[p] + 2), half_spaces.bounds[p] + 1e-16);
+    }
+}
+
+
+
+// Truncating and releasing nodes must leave no trace in the coarse matrices.
+TEST(MultigridHierarchy, TruncationIsUndone)
+{
+  const CubeProblem::Grid grid(8);
+  MultigridHierarchy      hierarchy   = CubeProblem::hierarchy(8);
+  const auto              half_spaces = CubeProblem::paraboloid(grid);
+  const auto              copy        = [](const NodeBlockMatrix &matrix) {
+    return std::vector<double>(matrix.block(0), matrix.block(matrix.row_end(matrix.n_rows() - 1)));
+  };
+  const std::vector<double> before = copy(hierarchy.level(0).matrix);
+  std::vector<unsigned char> active(half_spaces.size(), 1);
+  EXPECT_TRUE(hierarchy.truncate(half_spaces, active));
+  EXPECT_FALSE(hierarchy.truncate(half_spaces, active));
+  const std::vector<double> truncated = copy(hierarchy.level(0).matrix);
+  active.assign(half_spaces.size(), 0);
+  EXPECT_TRUE(hierarchy.truncate(half_spaces, active));
+  const std::vector<double> after = copy(hierarchy.level(0).matrix);
+  double difference = 0., change = 0., size = 0.;
+  for (std::size_t k = 0; k < before.size(); ++k)
+    {
+      difference = std::max(difference, std::abs(before[k] - after[k]));
+      change     = std::max(change, std::abs(before[k] - truncated[k]));
+      size       = std::max(size, std::abs(before[k]));
+    }
+  EXPECT_LT(difference, 1e-14 * size);
+  EXPECT_GT(dealii::Utilities::MPI::max(change, MPI_COMM_WORLD), .1 * size);
+}
