@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Signorini authors
 
 #include <signorini/algebra/input_error.h>
+#include <signorini/algebra/replicated_data.h>
 #include <signorini/discretization/elasticity.h>
 #include <signorini/discretization/hexahedron.h>
 

@@ -1,7 +1,7 @@
 signorini_add_layer(discretization
+  basis_transformation.cc
   boundary_conditions.cc
   elasticity.cc
-  expression.cc
   hexahedron.cc
   interpolation_exchange.cc
   level_hierarchy.cc

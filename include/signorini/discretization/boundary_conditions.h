@@ -4,7 +4,7 @@
 #ifndef signorini_discretization_boundary_conditions_h
 #define signorini_discretization_boundary_conditions_h
 
-#include <signorini/discretization/expression.h>
+#include <signorini/mesh/expression.h>
 #include <signorini/mesh/bodies.h>
 #include <signorini/mesh/nodal_space.h>
 

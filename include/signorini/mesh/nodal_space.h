@@ -85,6 +85,9 @@ namespace Signorini
     cell_nodes(const dealii::DoFHandler<3>::active_cell_iterator &cell, std::array<NodeIndex, 8> &nodes) const;
 
   private:
+    void
+    set_positions();
+
     const dealii::FE_Q<3>             fe;
     dealii::DoFHandler<3>             dofs;
     dealii::IndexSet                  relevant_nodes;

@@ -25,6 +25,17 @@ namespace Signorini
     void
     compute_vertex_normals();
   };
+
+  /// Who is next to whom on a triangulated surface.
+  struct SurfaceTopology
+  {
+    explicit SurfaceTopology(const SurfaceMesh &mesh);
+
+    /// Per triangle and edge (corner i to corner i + 1) the triangle behind that edge, or -1.
+    std::vector<std::array<int, 3>> neighbours;
+    /// Triangles around vertex v: fan[fan_start[v]] ... fan[fan_start[v+1]-1].
+    std::vector<unsigned int> fan_start, fan;
+  };
 } // namespace Signorini
 
 #endif

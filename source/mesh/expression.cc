@@ -2,7 +2,7 @@
 // Copyright (C) 2026 by the Signorini authors
 
 #include <signorini/algebra/input_error.h>
-#include <signorini/discretization/expression.h>
+#include <signorini/mesh/expression.h>
 
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/utilities.h>
@@ -11,31 +11,27 @@ namespace Signorini
 {
   using namespace dealii;
 
-  namespace
+  std::vector<std::string>
+  split_list(const std::string &text, const char separator, const std::string &where)
   {
-    /// Splits at a separator outside of all parentheses; trims the pieces.
-    std::vector<std::string>
-    split_outside_parentheses(const std::string &text, const char separator, const std::string &where)
-    {
-      std::vector<std::string> pieces(1);
-      int                      depth = 0;
-      for (const char c : text)
-        {
-          depth += c == '(' ? 1 : (c == ')' ? -1 : 0);
-          if (depth < 0)
-            break;
-          if (c == separator && depth == 0)
-            pieces.emplace_back();
-          else
-            pieces.back() += c;
-        }
-      if (depth != 0)
-        throw InputError(where + ": the parentheses in \"" + text + "\" do not match.");
-      for (std::string &piece : pieces)
-        piece = Utilities::trim(piece);
-      return pieces;
-    }
-  } // namespace
+    std::vector<std::string> pieces(1);
+    int                      depth = 0;
+    for (const char c : text)
+      {
+        depth += c == '(' ? 1 : (c == ')' ? -1 : 0);
+        if (depth < 0)
+          break;
+        if (c == separator && depth == 0)
+          pieces.emplace_back();
+        else
+          pieces.back() += c;
+      }
+    if (depth != 0)
+      throw InputError(where + ": the parentheses in \"" + text + "\" do not match.");
+    for (std::string &piece : pieces)
+      piece = Utilities::trim(piece);
+    return pieces;
+  }
 
 
 
@@ -78,7 +74,7 @@ namespace Signorini
     const std::string trimmed = Utilities::trim(text);
     if (trimmed.size() < 2 || trimmed.front() != '(' || trimmed.back() != ')')
       throw InputError(where + ": \"" + trimmed + "\" should be a vector in parentheses, like (0, 0, -1).");
-    const auto entries = split_outside_parentheses(trimmed.substr(1, trimmed.size() - 2), ',', where);
+    const auto entries = split_list(trimmed.substr(1, trimmed.size() - 2), ',', where);
     if (entries.size() != dim)
       throw InputError(where + ": \"" + trimmed + "\" should have three entries.");
     return entries;
@@ -90,7 +86,7 @@ namespace Signorini
   split_named_entries(const std::string &text, const std::string &where)
   {
     std::vector<std::pair<std::string, std::string>> entries;
-    for (const std::string &piece : split_outside_parentheses(text, ';', where))
+    for (const std::string &piece : split_list(text, ';', where))
       {
         if (piece.empty())
           continue;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
-#ifndef signorini_discretization_expression_h
-#define signorini_discretization_expression_h
+#ifndef signorini_mesh_expression_h
+#define signorini_mesh_expression_h
 
 #include <signorini/algebra/types.h>
 
@@ -50,6 +50,10 @@ namespace Signorini
   };
 
 
+
+  /// Pieces of a list; separators inside parentheses do not count. Pieces are trimmed.
+  std::vector<std::string>
+  split_list(const std::string &text, const char separator, const std::string &where);
 
   /// A vector of text entries "(a, b, c)"; commas inside nested parentheses do not separate.
   std::vector<std::string>

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_discretization_basis_transformation_h
+#define signorini_discretization_basis_transformation_h
+
+#include <signorini/algebra/interface_coupling.h>
+#include <signorini/algebra/node_partition.h>
+#include <signorini/discretization/boundary_conditions.h>
+#include <signorini/mesh/nodal_space.h>
+#include <signorini/solvers/obstacle_problem.h>
+
+#include <vector>
+
+namespace Signorini
+{
+  /// u = u_D + T v with T = I + E S, and back (method.md, section 4). v is the unknown of the obstacle
+  /// problem: relative displacement at nodes with a multiplier, zero in fixed components.
+  class BasisTransformation
+  {
+  public:
+    /// All arguments must outlive the object. row_masks: fixed components of the rows of the coupling.
+    BasisTransformation(const NodalSpace             &space,
+                        const NodePartition          &space_partition,
+                        const DirichletData          &dirichlet,
+                        const InterfaceCoupling      &coupling,
+                        const std::vector<FixedMask> &row_masks);
+
+    /// Collective. The physical displacement of all relevant nodes, hanging ones included, on the
+    /// partition of the space. `unknowns` is the partition of v; it knows the columns of owned rows.
+    Vector
+    to_displacement(const Vector &v, const NodePartition &unknowns) const;
+
+    /// Collective. v from a physical displacement: T⁻¹ (u - u_D), zero in fixed components and hanging
+    /// nodes. Sets the owned entries of v.
+    void
+    from_displacement(Vector &v, const Vector &u) const;
+
+    /// Collective. The bounds of the half-spaces for v: ĝ_p = g_p - n_p·(u_D,p - (S u_D)_p).
+    /// All lists are ordered like the rows of the coupling.
+    std::vector<double>
+    reduce_gaps(const std::vector<double> &gaps, const std::vector<Vector3> &normals) const;
+
+    /// Sets hanging nodes to their interpolated values and updates the ghosts.
+    void
+    interpolate_hanging_nodes(Vector &u) const;
+
+  private:
+    const NodalSpace             &space;
+    const NodePartition          &partition;
+    const DirichletData          &dirichlet;
+    const InterfaceCoupling      &coupling;
+    const std::vector<FixedMask> &row_masks;
+    /// Rows of the coupling that this rank owns: position, local node.
+    std::vector<std::pair<std::size_t, unsigned int>> owned_rows;
+    /// Sorted nodes in the columns of the coupling.
+    std::vector<NodeIndex> column_nodes;
+  };
+} // namespace Signorini
+
+#endif

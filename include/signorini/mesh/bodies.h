@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_mesh_bodies_h
+#define signorini_mesh_bodies_h
+
+#include <signorini/mesh/generated_mesh.h>
+#include <signorini/mesh/hexahedral_mesh.h>
+
+#include <deal.II/base/parameter_handler.h>
+#include <deal.II/distributed/tria.h>
+
+#include <set>
+#include <string>
+#include <vector>
+
+namespace Signorini
+{
+  /// Shape, place and material of a body, as a user writes them.
+  struct BodyParameters
+  {
+    std::string  name;
+    std::string  mesh = "block";
+    double       radius = 1., inner_radius = .5, height = 1.;
+    std::string  lower_corner = "0, 0, 0", upper_corner = "1, 1, 1", divisions = "1, 1, 1";
+    std::string  translation = "0, 0, 0", rotation_axis = "0, 0, 1";
+    double       rotation_angle = 0.;
+    double       young = 1., poisson = .3;
+    std::string  volumes, volume_materials;
+
+    /// Declares the parameters in the current subsection.
+    void
+    add_parameters(dealii::ParameterHandler &prm);
+  };
+
+  /// Isotropic linear elastic material of a part of a body.
+  struct Material
+  {
+    unsigned int body;
+    /// Young's modulus (force per area) and Poisson's ratio.
+    double young, poisson;
+  };
+
+  /// All bodies in one distributed triangulation (one p4est forest). Bodies never share vertices, also where
+  /// they touch. Boundary ids and material ids are unique over all bodies.
+  class Bodies
+  {
+  public:
+    /// Collective. Mesh file names are relative to base_folder.
+    /// Errors: InputError naming the parameter for unknown or senseless values and bad mesh files.
+    Bodies(const MPI_Comm                      communicator,
+           const std::vector<BodyParameters> &parameters,
+           const std::string                 &base_folder);
+
+    dealii::parallel::distributed::Triangulation<3> &
+    triangulation()
+    {
+      return tria;
+    }
+
+    const dealii::parallel::distributed::Triangulation<3> &
+    triangulation() const
+    {
+      return tria;
+    }
+
+    unsigned int
+    n_bodies() const
+    {
+      return static_cast<unsigned int>(names.size());
+    }
+
+    const std::string &
+    body_name(const unsigned int body) const
+    {
+      return names[body];
+    }
+
+    /// Errors: InputError listing the bodies; `where` names the parameter.
+    unsigned int
+    body_index(const std::string &name, const std::string &where) const;
+
+    const Material &
+    material(const dealii::types::material_id id) const
+    {
+      return materials[id];
+    }
+
+    unsigned int
+    body_of_material(const dealii::types::material_id id) const
+    {
+      return materials[id].body;
+    }
+
+    const std::vector<std::string> &
+    boundary_names(const unsigned int body) const
+    {
+      return boundaries[body];
+    }
+
+    /// The id of the i-th boundary of a body.
+    dealii::types::boundary_id
+    boundary_id(const unsigned int body, const unsigned int i) const
+    {
+      return first_boundary[body] + i;
+    }
+
+    /// Boundary ids of a named boundary. Errors: InputError listing the names the body has.
+    std::set<dealii::types::boundary_id>
+    boundary_ids(const unsigned int body, const std::string &name) const;
+
+    /// Remarks from reading the meshes.
+    const std::vector<std::string> &
+    notes() const
+    {
+      return remarks;
+    }
+
+  private:
+    struct Placed;
+
+    void
+    create(const std::vector<Placed> &placed);
+
+    dealii::parallel::distributed::Triangulation<3> tria;
+    std::vector<std::string>                        names;
+    std::vector<Material>                           materials;
+    std::vector<std::vector<std::string>>           boundaries;
+    std::vector<dealii::types::boundary_id>         first_boundary;
+    std::vector<std::string>                        remarks;
+  };
+} // namespace Signorini
+
+#endif

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_mesh_surface_extraction_h
+#define signorini_mesh_surface_extraction_h
+
+#include <signorini/mesh/contact_surface.h>
+#include <signorini/mesh/nodal_space.h>
+
+#include <functional>
+#include <set>
+
+namespace Signorini
+{
+  /// Collective. The boundary faces with given ids, gathered on all ranks.
+  /// @param fixed prescribed components of a relevant node
+  /// @param region whether a face with the given centre belongs to the surface; empty for all
+  ContactSurface
+  extract_contact_surface(const NodalSpace                                          &space,
+                          const std::set<dealii::types::boundary_id>                &ids,
+                          const std::function<FixedMask(const NodeIndex)>           &fixed,
+                          const std::function<bool(const dealii::Point<3> &centre)> &region);
+} // namespace Signorini
+
+#endif

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/algebra/replicated_data.h>
+#include <signorini/discretization/basis_transformation.h>
+
+namespace Signorini
+{
+  using namespace dealii;
+
+  BasisTransformation::BasisTransformation(const NodalSpace             &space,
+                                           const NodePartition          &space_partition,
+                                           const DirichletData          &dirichlet,
+                                           const InterfaceCoupling      &coupling,
+                                           const std::vector<FixedMask> &row_masks)
+    : space(space)
+    , partition(space_partition)
+    , dirichlet(dirichlet)
+    , coupling(coupling)
+    , row_masks(row_masks)
+  {
+    for (std::size_t p = 0; p < coupling.n_rows(); ++p)
+      if (partition.owns(coupling.rows[p]))
+        owned_rows.emplace_back(p, partition.to_local(coupling.rows[p]));
+    for (const auto &entry : coupling.entries)
+      column_nodes.push_back(entry.node);
+    std::sort(column_nodes.begin(), column_nodes.end());
+    column_nodes.erase(std::unique(column_nodes.begin(), column_nodes.end()), column_nodes.end());
+  }
+
+
+
+  void
+  BasisTransformation::interpolate_hanging_nodes(Vector &u) const
+  {
+    u.update_ghost_values();
+    for (const NodeIndex node : space.owned())
+      if (const auto *parents = space.hanging_nodes().get_constraint_entries(node))
+        {
+          const unsigned int i = partition.to_local(node);
+          Vector3            value;
+          for (const auto &[parent, weight] : *parents)
+            for (unsigned int c = 0; c < dim; ++c)
+              value[c] += weight * u.local_element(dim * partition.to_local(parent) + c);
+          for (unsigned int c = 0; c < dim; ++c)
+            u.local_element(dim * i + c) = value[c];
+        }
+    u.update_ghost_values();
+  }
+
+
+
+  Vector
+  BasisTransformation::to_displacement(const Vector &v, const NodePartition &unknowns) const
+  {
+    v.update_ghost_values();
+    Vector u;
+    partition.reinit(u);
+    for (unsigned int i = 0; i < partition.n_owned(); ++i)
+      {
+        const std::size_t r = space.relevant().index_within_set(partition.to_global(i));
+        for (unsigned int c = 0; c < dim; ++c)
+          u.local_element(dim * i + c) = v.local_element(dim * i + c) + dirichlet.value[r][c];
+      }
+    for (const auto &[p, local] : owned_rows)
+      {
+        Vector3 shift;
+        for (const auto *entry = coupling.begin(p); entry != coupling.end(p); ++entry)
+          {
+            const unsigned int q = unknowns.to_local(entry->node);
+            for (unsigned int c = 0; c < dim; ++c)
+              shift[c] += entry->weight * v.local_element(dim * q + c);
+          }
+        shift = project_free(row_masks[p], shift);
+        for (unsigned int c = 0; c < dim; ++c)
+          u.local_element(dim * local + c) += shift[c];
+      }
+    interpolate_hanging_nodes(u);
+    return u;
+  }
+
+
+
+  void
+  BasisTransformation::from_displacement(Vector &v, const Vector &u) const
+  {
+    Vector w;
+    partition.reinit(w);
+    for (unsigned int i = 0; i < partition.n_owned(); ++i)
+      {
+        const NodeIndex   node = partition.to_global(i);
+        const std::size_t r    = space.relevant().index_within_set(node);
+        if (!space.hanging_nodes().is_constrained(node))
+          for (unsigned int c = 0; c < dim; ++c)
+            if (!(dirichlet.mask[r] & (1u << c)))
+              w.local_element(dim * i + c) = u.local_element(dim * i + c) - dirichlet.value[r][c];
+      }
+    const std::vector<Vector3> columns = replicate_values(partition, w, column_nodes);
+    for (const auto &[p, local] : owned_rows)
+      {
+        Vector3 shift;
+        for (const auto *entry = coupling.begin(p); entry != coupling.end(p); ++entry)
+          shift += entry->weight *
+                   columns[std::lower_bound(column_nodes.begin(), column_nodes.end(), entry->node) - column_nodes.begin()];
+        shift = project_free(row_masks[p], shift);
+        for (unsigned int c = 0; c < dim; ++c)
+          w.local_element(dim * local + c) -= shift[c];
+      }
+    v.copy_locally_owned_data_from(w);
+  }
+
+
+
+  std::vector<double>
+  BasisTransformation::reduce_gaps(const std::vector<double> &gaps, const std::vector<Vector3> &normals) const
+  {
+    Vector lift;
+    partition.reinit(lift);
+    for (unsigned int i = 0; i < partition.n_owned(); ++i)
+      {
+        const std::size_t r = space.relevant().index_within_set(partition.to_global(i));
+        for (unsigned int c = 0; c < dim; ++c)
+          lift.local_element(dim * i + c) = dirichlet.value[r][c];
+      }
+    const std::vector<Vector3> own     = replicate_values(partition, lift, coupling.rows);
+    const std::vector<Vector3> columns = replicate_values(partition, lift, column_nodes);
+    std::vector<double>        reduced(gaps);
+    for (std::size_t p = 0; p < coupling.n_rows(); ++p)
+      {
+        Vector3 relative = own[p];
+        for (const auto *entry = coupling.begin(p); entry != coupling.end(p); ++entry)
+          relative -= entry->weight *
+                      columns[std::lower_bound(column_nodes.begin(), column_nodes.end(), entry->node) - column_nodes.begin()];
+        reduced[p] -= normals[p] * relative;
+      }
+    return reduced;
+  }
+} // namespace Signorini

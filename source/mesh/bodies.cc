@@ -1,0 +1,369 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/algebra/input_error.h>
+#include <signorini/mesh/bodies.h>
+#include <signorini/mesh/mesh_input.h>
+
+#include <deal.II/base/utilities.h>
+#include <deal.II/grid/grid_tools.h>
+#include <deal.II/grid/manifold_lib.h>
+#include <deal.II/physics/transformations.h>
+
+#include <filesystem>
+
+namespace Signorini
+{
+  using namespace dealii;
+
+  void
+  BodyParameters::add_parameters(ParameterHandler &prm)
+  {
+    prm.add_parameter("Mesh",
+                      mesh,
+                      "A gmsh file (.msh) of hexahedra, relative to this file, or a generated mesh: " +
+                        Utilities::replace_in_string(generated_mesh_kinds(), "|", ", ") + ".");
+    prm.add_parameter("Radius", radius, "Radius of balls and cylinders, outer radius of shells (length).");
+    prm.add_parameter("Inner radius", inner_radius, "Inner radius of shells (length).");
+    prm.add_parameter("Height", height, "Height of cylinders (length).");
+    prm.add_parameter("Lower corner", lower_corner, "Corner of a block, \"x, y, z\" (length).");
+    prm.add_parameter("Upper corner", upper_corner, "Opposite corner of a block (length).");
+    prm.add_parameter("Divisions", divisions, "Cells of a block in x, y, z.");
+    prm.add_parameter("Translation", translation, "Moves the body after rotation, \"x, y, z\" (length).");
+    prm.add_parameter("Rotation axis", rotation_axis, "Axis through the origin, \"x, y, z\".");
+    prm.add_parameter("Rotation angle", rotation_angle, "Angle in degrees.");
+    prm.add_parameter("Young modulus", young, "Young's modulus E > 0 (force per area).");
+    prm.add_parameter("Poisson ratio", poisson, "Poisson's ratio, -1 < nu < 0.5.");
+    prm.add_parameter("Volumes",
+                      volumes,
+                      "Physical volumes of the mesh file that belong to this body (names or ids, separated by "
+                      "commas); empty for all.");
+    prm.add_parameter("Volume materials",
+                      volume_materials,
+                      "Materials of single physical volumes, \"name: E, nu; name: E, nu\".");
+  }
+
+
+
+  namespace
+  {
+    std::vector<double>
+    numbers_in(const std::string &text, const std::size_t n, const std::string &where)
+    {
+      std::vector<double> values;
+      for (const std::string &word : Utilities::split_string_list(text, ','))
+        {
+          std::size_t used = 0;
+          try
+            {
+              values.push_back(std::stod(word, &used));
+            }
+          catch (const std::exception &)
+            {}
+          if (used != word.size() || word.empty() || !std::isfinite(values.back()))
+            throw InputError(where + ": \"" + text + "\" should be " + std::to_string(n) + " numbers separated by commas.");
+        }
+      if (values.size() != n)
+        throw InputError(where + ": \"" + text + "\" should be " + std::to_string(n) + " numbers separated by commas.");
+      return values;
+    }
+
+    Point<3>
+    point_in(const std::string &text, const std::string &where)
+    {
+      const auto v = numbers_in(text, 3, where);
+      return Point<3>(v[0], v[1], v[2]);
+    }
+
+    void
+    check_material(const double young, const double poisson, const std::string &section, const std::string &note)
+    {
+      const auto number = [](const double x) {
+        std::ostringstream out;
+        out << x;
+        return out.str();
+      };
+      if (!(young > 0.) || !std::isfinite(young))
+        throw InputError(section + "Young modulus" + note + ": " + number(young) + " is not allowed; it must be positive.");
+      if (!(poisson > -1. && poisson < .5))
+        throw InputError(section + "Poisson ratio" + note + ": " + number(poisson) +
+                         " is not allowed; it must lie between -1 and 0.5 (0.5 would be incompressible).");
+    }
+
+    std::string
+    listed(const std::vector<std::string> &names)
+    {
+      std::string text;
+      for (const std::string &name : names)
+        text += (text.empty() ? "\"" : ", \"") + name + "\"";
+      return text;
+    }
+
+    /// Keeps the cells of some volumes only.
+    void
+    select_volumes(HexahedralMesh &mesh, const std::string &list, const std::string &where)
+    {
+      if (Utilities::trim(list).empty())
+        return;
+      std::vector<bool> keep(mesh.volume_names.size(), false);
+      for (const std::string &name : Utilities::split_string_list(list, ','))
+        {
+          const auto it = std::find(mesh.volume_names.begin(), mesh.volume_names.end(), name);
+          if (it == mesh.volume_names.end())
+            throw InputError(where + ": the mesh has no volume \"" + name + "\"; it has " + listed(mesh.volume_names) + ".");
+          keep[it - mesh.volume_names.begin()] = true;
+        }
+      std::map<std::array<unsigned int, 4>, unsigned int> name_of;
+      for (const auto &face : mesh.faces)
+        {
+          auto key = face.vertices;
+          std::sort(key.begin(), key.end());
+          name_of[key] = face.name;
+        }
+      HexahedralMesh part;
+      part.boundary_names = mesh.boundary_names;
+      part.volume_names   = mesh.volume_names;
+      part.notes          = mesh.notes;
+      std::vector<int> number(mesh.vertices.size(), -1);
+      for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+        if (keep[mesh.cell_volume[c]])
+          {
+            part.cells.push_back(mesh.cells[c]);
+            part.cell_volume.push_back(mesh.cell_volume[c]);
+            for (unsigned int &v : part.cells.back())
+              {
+                if (number[v] < 0)
+                  {
+                    number[v] = static_cast<int>(part.vertices.size());
+                    part.vertices.push_back(mesh.vertices[v]);
+                  }
+                v = static_cast<unsigned int>(number[v]);
+              }
+          }
+      std::map<std::array<unsigned int, 4>, unsigned int> renumbered;
+      for (const auto &[key, name] : name_of)
+        {
+          std::array<unsigned int, 4> k;
+          for (unsigned int v = 0; v < 4; ++v)
+            k[v] = static_cast<unsigned int>(number[key[v]]);
+          std::sort(k.begin(), k.end());
+          renumbered[k] = name;
+        }
+      for (const auto &face : find_boundary_faces(part))
+        {
+          auto key = face.first;
+          std::sort(key.begin(), key.end());
+          auto it = renumbered.find(key);
+          if (it == renumbered.end())
+            {
+              const auto unnamed = std::find(part.boundary_names.begin(), part.boundary_names.end(), "unnamed");
+              const unsigned int index = unnamed - part.boundary_names.begin();
+              if (unnamed == part.boundary_names.end())
+                part.boundary_names.push_back("unnamed");
+              it = renumbered.insert({key, index}).first;
+            }
+          part.faces.push_back({face.first, it->second});
+        }
+      mesh = part;
+    }
+  } // namespace
+
+
+
+  /// The mesh of one body in its place.
+  struct Bodies::Placed
+  {
+    HexahedralMesh              mesh;
+    std::vector<CurvedBoundary> curved;
+    std::vector<unsigned int>   material_of_volume;
+    Point<3>                    centre;
+    Tensor<1, 3>                axis;
+  };
+
+
+
+  Bodies::Bodies(const MPI_Comm                      communicator,
+                 const std::vector<BodyParameters> &parameters,
+                 const std::string                 &base_folder)
+    : tria(communicator,
+           Triangulation<3>::MeshSmoothing::none,
+           parallel::distributed::Triangulation<3>::Settings::default_setting)
+  {
+    std::vector<Placed> placed(parameters.size());
+    for (unsigned int b = 0; b < parameters.size(); ++b)
+      {
+        const BodyParameters &p       = parameters[b];
+        const std::string     section = "Body " + p.name + "/";
+        names.push_back(p.name);
+        check_material(p.young, p.poisson, section, "");
+
+        Placed            &body  = placed[b];
+        const std::string  kinds = "|" + generated_mesh_kinds() + "|";
+        const std::string  kind  = Utilities::trim(p.mesh);
+        if (kinds.find("|" + kind + "|") != std::string::npos)
+          {
+            GeneratedMeshParameters g;
+            g.kind         = kind;
+            g.radius       = p.radius;
+            g.inner_radius = p.inner_radius;
+            g.height       = p.height;
+            g.lower_corner = point_in(p.lower_corner, section + "Lower corner");
+            g.upper_corner = point_in(p.upper_corner, section + "Upper corner");
+            const auto n   = numbers_in(p.divisions, 3, section + "Divisions");
+            for (unsigned int c = 0; c < 3; ++c)
+              {
+                if (!(n[c] >= 1.) || n[c] != std::floor(n[c]) || n[c] > 1e6)
+                  throw InputError(section + "Divisions: \"" + p.divisions + "\" should be three positive integers.");
+                g.divisions[c] = static_cast<unsigned int>(n[c]);
+              }
+            try
+              {
+                GeneratedMesh generated = generate_mesh(g);
+                body.mesh               = std::move(generated.mesh);
+                body.curved             = std::move(generated.curved);
+              }
+            catch (const InputError &e)
+              {
+                throw InputError(section + e.what());
+              }
+          }
+        else if (kind.find('.') == std::string::npos)
+          throw InputError(section + "Mesh: \"" + kind + "\" is neither a file nor one of: " +
+                           Utilities::replace_in_string(generated_mesh_kinds(), "|", ", ") + ".");
+        else
+          {
+            const std::filesystem::path file(kind);
+            const std::string           path = file.is_absolute() ? kind : (std::filesystem::path(base_folder) / file).string();
+            try
+              {
+                body.mesh = read_hexahedral_mesh(path, communicator);
+              }
+            catch (const InputError &e)
+              {
+                throw InputError(section + "Mesh: " + e.what());
+              }
+            select_volumes(body.mesh, p.volumes, section + "Volumes");
+          }
+        remarks.insert(remarks.end(), body.mesh.notes.begin(), body.mesh.notes.end());
+
+        // Materials: one per body, and one for each volume with its own.
+        materials.push_back({b, p.young, p.poisson});
+        body.material_of_volume.assign(body.mesh.volume_names.size(), static_cast<unsigned int>(materials.size() - 1));
+        for (const std::string &entry : Utilities::split_string_list(p.volume_materials, ';'))
+          {
+            if (entry.empty())
+              continue;
+            const std::string where = section + "Volume materials";
+            const auto        parts = Utilities::split_string_list(entry, ':');
+            if (parts.size() != 2)
+              throw InputError(where + ": \"" + entry + "\" should read \"name: E, nu\".");
+            const auto it = std::find(body.mesh.volume_names.begin(), body.mesh.volume_names.end(), parts[0]);
+            if (it == body.mesh.volume_names.end())
+              throw InputError(where + ": the mesh has no volume \"" + parts[0] + "\"; it has " + listed(body.mesh.volume_names) + ".");
+            const auto values = numbers_in(parts[1], 2, where);
+            check_material(values[0], values[1], section, " of volume \"" + parts[0] + "\"");
+            materials.push_back({b, values[0], values[1]});
+            body.material_of_volume[it - body.mesh.volume_names.begin()] = static_cast<unsigned int>(materials.size() - 1);
+          }
+
+        body.axis = Tensor<1, 3>({0., 0., 1.});
+        if (p.rotation_angle != 0.)
+          {
+            const Tensor<1, 3> axis = point_in(p.rotation_axis, section + "Rotation axis");
+            if (!(axis.norm() > 0.))
+              throw InputError(section + "Rotation axis: it must not be zero.");
+            const Tensor<2, 3> rotation = Physics::Transformations::Rotations::rotation_matrix_3d(
+              Point<3>(axis / axis.norm()), p.rotation_angle * numbers::PI / 180.);
+            for (Point<3> &v : body.mesh.vertices)
+              v = Point<3>(rotation * v);
+            body.axis = rotation * body.axis;
+          }
+        body.centre = point_in(p.translation, section + "Translation");
+        for (Point<3> &v : body.mesh.vertices)
+          v += body.centre;
+        boundaries.push_back(body.mesh.boundary_names);
+      }
+    create(placed);
+  }
+
+
+
+  void
+  Bodies::create(const std::vector<Placed> &placed)
+  {
+    std::vector<Point<3>>    vertices;
+    std::vector<CellData<3>> cells;
+    SubCellData              faces;
+    types::boundary_id       next_boundary = 0;
+    for (const Placed &body : placed)
+      {
+        const unsigned int shift = static_cast<unsigned int>(vertices.size());
+        vertices.insert(vertices.end(), body.mesh.vertices.begin(), body.mesh.vertices.end());
+        for (std::size_t c = 0; c < body.mesh.cells.size(); ++c)
+          {
+            cells.emplace_back(8);
+            for (unsigned int v = 0; v < 8; ++v)
+              cells.back().vertices[v] = body.mesh.cells[c][v] + shift;
+            cells.back().material_id = body.material_of_volume[body.mesh.cell_volume[c]];
+          }
+        first_boundary.push_back(next_boundary);
+        for (const auto &face : body.mesh.faces)
+          {
+            faces.boundary_quads.emplace_back(4);
+            for (unsigned int v = 0; v < 4; ++v)
+              faces.boundary_quads.back().vertices[v] = face.vertices[v] + shift;
+            faces.boundary_quads.back().boundary_id = next_boundary + face.name;
+          }
+        next_boundary += body.mesh.boundary_names.size();
+      }
+    // deal.II wants neighbouring cells to agree on the direction of edges.
+    GridTools::consistently_order_cells(cells);
+    try
+      {
+        tria.create_triangulation(vertices, cells, faces);
+      }
+    catch (const std::exception &)
+      {
+        throw InputError("The meshes of the bodies cannot be joined to a triangulation: are there cells that share "
+                         "a face with more than one other cell, or distorted cells?");
+      }
+
+    types::manifold_id next_manifold = 1;
+    for (unsigned int b = 0; b < placed.size(); ++b)
+      for (const CurvedBoundary &curved : placed[b].curved)
+        {
+          const std::set<types::boundary_id> ids = boundary_ids(b, curved.name);
+          for (const auto &cell : tria.cell_iterators_on_level(0))
+            for (const unsigned int f : cell->face_indices())
+              if (cell->face(f)->at_boundary() && ids.count(cell->face(f)->boundary_id()) > 0)
+                cell->face(f)->set_all_manifold_ids(next_manifold);
+          if (curved.shape == CurvedBoundary::sphere)
+            tria.set_manifold(next_manifold, SphericalManifold<3>(placed[b].centre));
+          else
+            tria.set_manifold(next_manifold, CylindricalManifold<3>(placed[b].axis, placed[b].centre));
+          ++next_manifold;
+        }
+  }
+
+
+
+  unsigned int
+  Bodies::body_index(const std::string &name, const std::string &where) const
+  {
+    const auto it = std::find(names.begin(), names.end(), name);
+    if (it == names.end())
+      throw InputError(where + ": there is no body \"" + name + "\"; the bodies are " + listed(names) + ".");
+    return static_cast<unsigned int>(it - names.begin());
+  }
+
+
+
+  std::set<types::boundary_id>
+  Bodies::boundary_ids(const unsigned int body, const std::string &name) const
+  {
+    const auto it = std::find(boundaries[body].begin(), boundaries[body].end(), name);
+    if (it == boundaries[body].end())
+      throw InputError("Body " + names[body] + " has no boundary \"" + name + "\"; it has " + listed(boundaries[body]) + ".");
+    return {static_cast<types::boundary_id>(first_boundary[body] + (it - boundaries[body].begin()))};
+  }
+} // namespace Signorini

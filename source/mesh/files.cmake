@@ -1,0 +1,10 @@
+signorini_add_layer(mesh
+  bodies.cc
+  expression.cc
+  generated_mesh.cc
+  hexahedral_mesh.cc
+  mesh_input.cc
+  nodal_space.cc
+  refinement.cc
+  surface_extraction.cc
+)

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/algebra/input_error.h>
+#include <signorini/mesh/expression.h>
+#include <signorini/mesh/refinement.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/utilities.h>
+
+namespace Signorini
+{
+  using namespace dealii;
+
+  void
+  RefinementParameters::add_parameters(ParameterHandler &prm)
+  {
+    prm.add_parameter("Initial global levels", initial_global, "Global refinements before the first cycle.");
+    prm.add_parameter("Global cycles", global_cycles, "Cycles, each with one global refinement, after the first one.");
+    prm.add_parameter("Regions",
+                      regions,
+                      "Balls and boxes with the number of levels their cells are refined beyond the global levels, one "
+                      "level per cycle: \"ball: (x, y, z), radius, levels; box: (x, y, z), (x, y, z), levels; ...\".");
+  }
+
+
+
+  namespace
+  {
+    Point<3>
+    parse_point(const std::string &text, const std::string &where)
+    {
+      const auto entries = split_vector(text, where);
+      Point<3>   p;
+      for (unsigned int c = 0; c < 3; ++c)
+        p[c] = Expression(entries[c], where)(Point<3>());
+      return p;
+    }
+
+    RefinementRegion
+    parse_region(const std::string &kind, const std::string &text)
+    {
+      const std::string where = "Refinement/Regions, \"" + kind + ": " + text + "\"";
+      const auto        parts = split_list(text, ',', where);
+      if ((kind != "ball" && kind != "box") || parts.size() != 3)
+        throw InputError(where + ": expected \"ball: (x, y, z), radius, levels\" or \"box: (x, y, z), (x, y, z), levels\".");
+      RefinementRegion region;
+      region.is_ball         = kind == "ball";
+      region.centre_or_lower = parse_point(parts[0], where);
+      region.radius          = 0.;
+      if (region.is_ball)
+        region.radius = Expression(parts[1], where)(Point<3>());
+      else
+        region.upper = parse_point(parts[1], where);
+      const double levels = Expression(parts[2], where)(Point<3>());
+      if (!(levels >= 0. && levels <= 20. && levels == std::floor(levels)) || (region.is_ball && !(region.radius > 0.)))
+        throw InputError(where + ": the number of levels must be between 0 and 20, and a radius positive.");
+      region.levels = static_cast<unsigned int>(levels);
+      return region;
+    }
+  } // namespace
+
+
+
+  bool
+  RefinementRegion::touches(const Point<3> &low, const Point<3> &high) const
+  {
+    double distance_square = 0.;
+    for (unsigned int c = 0; c < 3; ++c)
+      if (is_ball)
+        {
+          const double d = std::max({low[c] - centre_or_lower[c], centre_or_lower[c] - high[c], 0.});
+          distance_square += d * d;
+        }
+      else if (high[c] < centre_or_lower[c] || low[c] > upper[c])
+        return false;
+    return distance_square <= radius * radius;
+  }
+
+
+
+  Refinement::Refinement(const RefinementParameters &parameters)
+    : parameters(parameters)
+    , cycles(parameters.global_cycles)
+  {
+    for (const auto &[kind, text] : split_named_entries(parameters.regions, "Refinement/Regions"))
+      {
+        regions.push_back(parse_region(kind, text));
+        cycles = std::max(cycles, parameters.global_cycles + regions.back().levels);
+      }
+  }
+
+
+
+  bool
+  Refinement::mark(parallel::distributed::Triangulation<3> &triangulation, const unsigned int cycle) const
+  {
+    if (cycle > cycles)
+      return false;
+    const bool global = cycle <= parameters.global_cycles;
+    // Local refinement follows the global cycles. Regions may be nested: each cycle brings every region one
+    // level further until it has its levels.
+    const unsigned int base   = parameters.initial_global + parameters.global_cycles;
+    bool               marked = false;
+    for (const auto &cell : triangulation.active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          bool refine = global;
+          if (!global)
+            {
+              Point<3> low = cell->vertex(0), high = cell->vertex(0);
+              for (const unsigned int v : cell->vertex_indices())
+                for (unsigned int c = 0; c < 3; ++c)
+                  {
+                    low[c]  = std::min(low[c], cell->vertex(v)[c]);
+                    high[c] = std::max(high[c], cell->vertex(v)[c]);
+                  }
+              const int wanted = base + (cycle - parameters.global_cycles);
+              for (const RefinementRegion &region : regions)
+                refine = refine || (cell->level() < std::min<int>(wanted, base + region.levels) && region.touches(low, high));
+            }
+          if (refine)
+            {
+              cell->set_refine_flag();
+              marked = true;
+            }
+        }
+    return Utilities::MPI::max(static_cast<int>(marked), triangulation.get_communicator()) == 1;
+  }
+} // namespace Signorini
