@@ -48,6 +48,14 @@ namespace Signorini
     using TreeValue = std::pair<TreeBox, unsigned int>;
     using Tree      = bgi::rtree<TreeValue, bgi::linear<16>>;
 
+    /// Coordinate c of any of boost's points.
+    template <typename P>
+    double
+    component(const P &p, const unsigned int c)
+    {
+      return c == 0 ? bg::get<0>(p) : (c == 1 ? bg::get<1>(p) : bg::get<2>(p));
+    }
+
     TreeBox
     bounding_box(const SurfaceMesh &mesh, const unsigned int triangle)
     {
@@ -121,14 +129,14 @@ namespace Signorini
         if (nonmortar.triangles.empty() || mortar.triangles.empty())
           return;
         const Tree    tree   = make_tree(nonmortar);
-        const TreeBox bounds = tree.bounds();
+        const auto bounds = tree.bounds();
         for (unsigned int v = 0; v < mortar.vertices.size(); ++v)
           {
             // As far as the other surface reaches.
             double reach = 0.;
             for (unsigned int c = 0; c < 3; ++c)
-              reach += std::max(std::abs(bounds.min_corner()[c] - mortar.vertices[v][c]),
-                                std::abs(bounds.max_corner()[c] - mortar.vertices[v][c]));
+              reach += std::max(std::abs(component(bounds.min_corner(), c) - mortar.vertices[v][c]),
+                                std::abs(component(bounds.max_corner(), c) - mortar.vertices[v][c]));
             const Tensor<1, 3> &n = mortar.vertex_normals[v];
             const bg::model::segment<Point<3>> line(mortar.vertices[v] - reach * n, mortar.vertices[v] + reach * n);
             double nearest = std::numeric_limits<double>::max();
