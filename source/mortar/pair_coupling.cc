@@ -236,7 +236,7 @@ namespace Signorini
         Eigen::VectorXd                                      inverse = eigen.eigenvalues();
         for (Eigen::Index i = 0; i < n; ++i)
           inverse[i] = inverse[i] > 1e-13 * eigen.eigenvalues()[n - 1] ? 1. / inverse[i] : 0.;
-        const Eigen::MatrixXd small = d.asDiagonal() * scale.asDiagonal() * eigen.eigenvectors() * inverse.asDiagonal() *
+        const Eigen::MatrixXd small = d.cwiseProduct(scale).asDiagonal() * eigen.eigenvectors() * inverse.asDiagonal() *
                                       eigen.eigenvectors().transpose() * scale.asDiagonal();
         Eigen::MatrixXd psi = Eigen::MatrixXd::Zero(n, 4);
         for (Eigen::Index j = 0; j < n; ++j)

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_application_contact_problem_h
+#define signorini_application_contact_problem_h
+
+#include <signorini/application/parameters.h>
+#include <signorini/discretization/basis_transformation.h>
+#include <signorini/discretization/level_hierarchy.h>
+#include <signorini/mesh/refinement.h>
+#include <signorini/mortar/pair_coupling.h>
+#include <signorini/output/results.h>
+#include <signorini/surface/contact_mapping.h>
+
+#include <deal.II/base/conditional_ostream.h>
+#include <deal.II/base/timer.h>
+
+#include <memory>
+
+namespace Signorini
+{
+  /// One contact pair on the current mesh.
+  struct ContactPair
+  {
+    std::string                        name;
+    unsigned int                       nonmortar_body, mortar_body;
+    std::string                        nonmortar_name, mortar_name;
+    ContactSurface                     nonmortar, mortar;
+    std::unique_ptr<ContactMapping>    mapping;
+    std::vector<FaceMoments>           moments;
+    GapFunction                        prescribed_gap;
+  };
+
+  /// All that belongs to one mesh of the nested iteration.
+  struct Discretization
+  {
+    std::unique_ptr<NodalSpace>    space;
+    std::unique_ptr<NodePartition> partition;
+    DirichletData                  dirichlet;
+    std::vector<ContactPair>       pairs;
+    std::vector<PairCoupling>      couplings;
+    InterfaceCoupling              coupling;
+    /// Per row of the coupling: pair and row in the pair, fixed mask, normal, gap.
+    std::vector<std::pair<unsigned int, std::size_t>> origin;
+    std::vector<FixedMask>                            row_masks;
+    std::vector<Vector3>                              normals;
+    std::vector<double>                               gaps;
+    std::unique_ptr<BasisTransformation>              transformation;
+    /// Physical displacement on `partition`, ghosts up to date.
+    Vector displacement;
+    /// Per row: contact pressure, opening g - n·û, whether active.
+    std::vector<double>        pressure, opening;
+    std::vector<unsigned char> active;
+  };
+
+  /// Reads a problem, runs the nested iteration, collects results. Owns the objects; the algorithms are
+  /// elsewhere.
+  class ContactProblem
+  {
+  public:
+    /// Collective. `out` prints on rank 0 only.
+    ContactProblem(ProblemParameters &parameters, const MPI_Comm communicator, dealii::ConditionalOStream &out);
+
+    /// Solves all cycles.
+    void
+    run();
+
+    /// Builds the meshes of all cycles and the contact mapping of the last, solves nothing.
+    void
+    build_meshes();
+
+    /// Prints bodies, boundaries, and the range of the gap of each pair.
+    void
+    describe();
+
+    Results results;
+
+    Discretization discretization;
+
+    const Bodies &
+    body_data() const
+    {
+      return bodies;
+    }
+
+  private:
+    struct PairDefinition
+    {
+      PairParameters parameters;
+      unsigned int   body[2];
+      std::string    boundary[2];
+      Expression     region[2];
+      bool           has_region[2];
+      Expression     gap;
+      bool           has_gap;
+    };
+
+    void
+    define_pairs();
+    void
+    setup_space();
+    void
+    setup_contact(CycleResult &cycle);
+    ContactPair
+    make_pair(const PairDefinition &definition, CycleResult &cycle);
+    unsigned int
+    choose_nonmortar(const PairDefinition &definition, const ContactSurface (&surfaces)[2]);
+    void
+    solve_cycle(CycleResult &cycle);
+    void
+    evaluate_contact(const Vector &v, const ObstacleProblem &problem, const NodeBlockMatrix &matrix, const std::vector<double> &gaps);
+    void
+    solve_linear(CycleResult &cycle, const LevelSpaces &levels, const Vector &start);
+    void
+    measure_sweeps(CycleResult &cycle, MultigridHierarchy &hierarchy, const Vector &rhs);
+    void
+    refine();
+    void
+    finish();
+    void
+    certify();
+    void
+    collect_pairs();
+    void
+    collect_reactions();
+    void
+    collect_probes();
+    void
+    note(const std::string &text);
+
+    ProblemParameters                &parameters;
+    const MPI_Comm                    comm;
+    dealii::ConditionalOStream       &out;
+    Bodies                            bodies;
+    Loads                             loads;
+    Refinement                        refinement;
+    std::vector<PairDefinition>       pair_definitions;
+    double                            equilibrium_residual = 0.;
+    dealii::Timer                     total_time;
+  };
+} // namespace Signorini
+
+#endif

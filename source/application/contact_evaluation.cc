@@ -1,0 +1,335 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/algebra/input_error.h>
+#include <signorini/algebra/replicated_data.h>
+#include <signorini/application/contact_problem.h>
+#include <signorini/discretization/hexahedron.h>
+
+#include <deal.II/base/utilities.h>
+
+namespace Signorini
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Displacements of all vertices of a surface, on all ranks.
+    std::vector<Vector3>
+    vertex_displacements(const ContactSurface &surface, const NodePartition &partition, const Vector &u)
+    {
+      std::vector<NodeIndex> nodes(surface.vertex_node);
+      std::sort(nodes.begin(), nodes.end());
+      const std::vector<Vector3> values = replicate_values(partition, u, nodes);
+      std::vector<Vector3>       result;
+      for (const NodeIndex node : surface.vertex_node)
+        result.push_back(values[std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin()]);
+      return result;
+    }
+
+    /// Sample points of an overlay triangle: corners and centre.
+    constexpr double samples[4][3] = {{1., 0., 0.}, {0., 1., 0.}, {0., 0., 1.}, {1. / 3., 1. / 3., 1. / 3.}};
+
+    template <typename T>
+    T
+    interpolate(const std::vector<T>                       &values,
+                const std::array<unsigned int, 3>          &triangle,
+                const std::array<std::array<double, 3>, 3> &corners,
+                const double (&weights)[3])
+    {
+      T result = T();
+      for (unsigned int c = 0; c < 3; ++c)
+        for (unsigned int i = 0; i < 3; ++i)
+          result += weights[c] * corners[c][i] * values[triangle[i]];
+      return result;
+    }
+
+    Vector3
+    sum(const Vector3 &v, const MPI_Comm comm)
+    {
+      Vector3 result;
+      for (unsigned int c = 0; c < dim; ++c)
+        result[c] = Utilities::MPI::sum(v[c], comm);
+      return result;
+    }
+  } // namespace
+
+
+
+  void
+  ContactProblem::collect_pairs()
+  {
+    Discretization &d = discretization;
+    results.pairs.clear();
+    results.pressure.clear();
+    for (unsigned int p = 0; p < d.pairs.size(); ++p)
+      {
+        const ContactPair  &pair     = d.pairs[p];
+        const PairCoupling &coupling = d.couplings[p];
+        PairResult          result;
+        result.name          = pair.name;
+        result.nonmortar     = pair.nonmortar_name;
+        result.mortar        = pair.mortar_name;
+        result.coverage      = coupling.area > 0. ? coupling.covered_area / coupling.area : 0.;
+        result.lost_area     = coupling.lost_area;
+        result.dropped_nodes = coupling.dropped.size();
+        result.min_pressure  = std::numeric_limits<double>::max();
+        result.max_pressure  = -result.min_pressure;
+        for (std::size_t row = 0; row < d.coupling.n_rows(); ++row)
+          if (d.origin[row].first == p)
+            {
+              const std::size_t i     = d.origin[row].second;
+              const Vector3     force = (d.coupling.weight[row] * d.pressure[row]) * d.normals[row];
+              result.force -= force;
+              result.moment -= cross_product_3d(Vector3(coupling.positions[i]), force);
+              for (const auto *entry = d.coupling.begin(row); entry != d.coupling.end(row); ++entry)
+                if (std::binary_search(coupling.r_nodes.begin(), coupling.r_nodes.end(), entry->node))
+                  result.force += entry->weight * force;
+                else
+                  result.force_on_mortar += entry->weight * force;
+              result.min_pressure = std::min(result.min_pressure, d.pressure[row]);
+              result.max_pressure = std::max(result.max_pressure, d.pressure[row]);
+              if (d.active[row])
+                result.contact_area += d.coupling.weight[row];
+              results.pressure.push_back(
+                {coupling.positions[i], d.coupling.weight[row], d.pressure[row], d.opening[row], d.active[row] != 0});
+            }
+
+        const auto   u_non = vertex_displacements(pair.nonmortar, *d.partition, d.displacement);
+        const auto   u_mor = vertex_displacements(pair.mortar, *d.partition, d.displacement);
+        double       min_gap = std::numeric_limits<double>::max(), min_initial = min_gap;
+        const auto  &non = pair.nonmortar.mesh, &mor = pair.mortar.mesh;
+        std::vector<Vector3> x_non(non.vertices.begin(), non.vertices.end()), x_mor(mor.vertices.begin(), mor.vertices.end());
+        for (const OverlayTriangle &cell : pair.mapping->overlay())
+          for (const auto &w : samples)
+            {
+              const auto   &t = non.triangles[cell.nonmortar_triangle], &m = mor.triangles[cell.mortar_triangle];
+              Vector3       n = interpolate(non.vertex_normals, t, cell.nonmortar, w);
+              n /= n.norm();
+              const Vector3 x = interpolate(x_non, t, cell.nonmortar, w);
+              const double  g = pair.prescribed_gap ? pair.prescribed_gap(Point<3>(x)) : n * (interpolate(x_mor, m, cell.mortar, w) - x);
+              const double  relative = n * (interpolate(u_non, t, cell.nonmortar, w) - interpolate(u_mor, m, cell.mortar, w));
+              min_initial            = std::min(min_initial, g);
+              min_gap                = std::min(min_gap, g - relative);
+            }
+        result.min_gap             = Utilities::MPI::min(min_gap, comm);
+        result.max_penetration     = std::max(0., -result.min_gap);
+        result.initial_penetration = std::max(0., -Utilities::MPI::min(min_initial, comm));
+        if (result.min_pressure > result.max_pressure)
+          result.min_pressure = result.max_pressure = 0.;
+        results.pairs.push_back(result);
+      }
+  }
+
+
+
+  void
+  ContactProblem::collect_reactions()
+  {
+    Discretization &d        = discretization;
+    Vector          residual = physical_residual(bodies, *d.space, *d.partition, loads, d.displacement);
+    double          scale    = residual.l2_norm();
+    // What is left once the contact forces are put on the other side.
+    const auto subtract = [&](const NodeIndex node, const Vector3 &force) {
+      if (d.partition->owns(node))
+        for (unsigned int c = 0; c < dim; ++c)
+          residual.local_element(dim * d.partition->to_local(node) + c) -= force[c];
+    };
+    for (std::size_t row = 0; row < d.coupling.n_rows(); ++row)
+      {
+        const Vector3 force = (d.coupling.weight[row] * d.pressure[row]) * d.normals[row];
+        subtract(d.coupling.rows[row], -force);
+        for (const auto *entry = d.coupling.begin(row); entry != d.coupling.end(row); ++entry)
+          subtract(entry->node, entry->weight * force);
+      }
+    std::vector<Vector3> reactions(loads.dirichlet.size());
+    double               unbalanced = 0.;
+    for (unsigned int i = 0; i < d.partition->n_owned(); ++i)
+      {
+        const std::size_t r = d.space->relevant().index_within_set(d.partition->to_global(i));
+        if (d.space->hanging_nodes().is_constrained(d.partition->to_global(i)))
+          continue;
+        for (unsigned int c = 0; c < dim; ++c)
+          {
+            const double f = residual.local_element(dim * i + c);
+            if (d.dirichlet.condition[r][c] >= 0)
+              reactions[d.dirichlet.condition[r][c]][c] += f;
+            else
+              unbalanced += f * f;
+          }
+      }
+    results.certificate.equilibrium = scale > 0. ? std::sqrt(Utilities::MPI::sum(unbalanced, comm)) / scale : 0.;
+    for (std::size_t i = 0; i < reactions.size(); ++i)
+      results.boundaries.push_back(
+        {bodies.body_name(loads.dirichlet[i].body), loads.dirichlet[i].boundary, sum(reactions[i], comm)});
+  }
+
+
+
+  void
+  ContactProblem::certify()
+  {
+    Discretization &d = discretization;
+    Certificate    &c = results.certificate;
+    const double    u = d.displacement.linfty_norm();
+    double          largest = 0., tension = 0., penetration = 0., product = 0.;
+    for (std::size_t row = 0; row < d.coupling.n_rows(); ++row)
+      {
+        largest     = std::max(largest, d.pressure[row]);
+        tension     = std::max(tension, -d.pressure[row]);
+        penetration = std::max(penetration, -d.opening[row]);
+        product     = std::max(product, std::abs(d.pressure[row] * d.opening[row]));
+      }
+    // Where the surfaces separate there is no pressure; the residual stress level is then the scale.
+    const double pressure_scale = largest > 0. ? largest : 1.;
+    c.penetration               = u > 0. ? penetration / u : 0.;
+    c.tension                   = largest > 0. ? tension / pressure_scale : 0.;
+    c.complementarity           = u > 0. && largest > 0. ? product / (pressure_scale * u) : 0.;
+    c.energy                    = results.cycles.back().nonlinear.energy;
+    for (const PairResult &pair : results.pairs)
+      {
+        if (pair.force.norm() > 0.)
+          c.force_balance = std::max(c.force_balance, (pair.force + pair.force_on_mortar).norm() / pair.force.norm());
+        if (u > 0.)
+          c.geometric_penetration = std::max(c.geometric_penetration, pair.max_penetration / u);
+        std::size_t active = 0;
+        for (std::size_t row = 0; row < d.coupling.n_rows(); ++row)
+          active += d.active[row] && results.pairs[d.origin[row].first].name == pair.name;
+        if (active == 0)
+          note("pair " + pair.name + ": the surfaces are separated, there is no contact force.");
+      }
+  }
+
+
+
+  void
+  ContactProblem::collect_probes()
+  {
+    Discretization          &d = discretization;
+    std::array<NodeIndex, 8> nodes;
+    for (unsigned int b = 0; b < bodies.n_bodies(); ++b)
+      for (const auto &[name, text] : split_named_entries(parameters.probes[b], "Body " + bodies.body_name(b) + "/Probes"))
+        {
+          const std::string where   = "Body " + bodies.body_name(b) + "/Probes, \"" + name + "\"";
+          const auto        entries = split_vector(text, where);
+          Point<3>          point;
+          for (unsigned int c = 0; c < dim; ++c)
+            point[c] = Expression(entries[c], where)(Point<3>());
+          // The cell whose reference coordinates of the point stick out least.
+          double  best = std::numeric_limits<double>::max();
+          Vector3 value;
+          for (const auto &cell : d.space->dof_handler().active_cell_iterators())
+            if (cell->is_locally_owned() && bodies.body_of_material(cell->material_id()) == b)
+              {
+                d.space->cell_nodes(cell, nodes);
+                Hexahedron::Corners corners;
+                double              reach = 0.;
+                for (unsigned int v = 0; v < 8; ++v)
+                  corners[v] = d.space->position(nodes[v]);
+                for (unsigned int v = 1; v < 8; ++v)
+                  reach = std::max(reach, corners[0].distance(corners[v]));
+                if (point.distance(corners[0]) > 2. * reach)
+                  continue;
+                Point<3> reference;
+                if (!Hexahedron::invert_map(reference, corners, point))
+                  continue;
+                double outside = 0.;
+                for (unsigned int c = 0; c < dim; ++c)
+                  outside = std::max({outside, -reference[c], reference[c] - 1.});
+                if (outside >= best)
+                  continue;
+                best              = outside;
+                value             = Vector3();
+                const auto values = Hexahedron::shape_values(reference);
+                for (unsigned int v = 0; v < 8; ++v)
+                  for (unsigned int c = 0; c < dim; ++c)
+                    value[c] += values[v] * d.displacement.local_element(dim * d.partition->to_local(nodes[v]) + c);
+              }
+          const auto nearest = Utilities::MPI::min_max_avg(best, comm);
+          if (!(nearest.min < .05))
+            throw InputError(where + ": the point lies outside of the body.");
+          const bool mine = Utilities::MPI::this_mpi_process(comm) == nearest.min_index;
+          results.probes.push_back({bodies.body_name(b) + ": " + name, point, sum(mine ? value : Vector3(), comm)});
+        }
+  }
+
+
+
+  void
+  ContactProblem::finish()
+  {
+    collect_pairs();
+    collect_reactions();
+    collect_probes();
+    certify();
+  }
+
+
+
+  void
+  ContactProblem::describe()
+  {
+    setup_space();
+    CycleResult cycle;
+    setup_contact(cycle);
+    Discretization &d = discretization;
+    struct Extent
+    {
+      double   area = 0.;
+      Point<3> low = Point<3>(1e300, 1e300, 1e300), high = Point<3>(-1e300, -1e300, -1e300);
+    };
+    std::map<types::boundary_id, Extent> extents;
+    std::vector<std::size_t>             cells(bodies.n_bodies(), 0);
+    std::array<NodeIndex, 8>             nodes;
+    for (const auto &cell : d.space->dof_handler().active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          ++cells[bodies.body_of_material(cell->material_id())];
+          d.space->cell_nodes(cell, nodes);
+          for (const unsigned int f : cell->face_indices())
+            if (cell->face(f)->at_boundary())
+              {
+                Extent                 &extent = extents[cell->face(f)->boundary_id()];
+                std::array<Point<3>, 4> x;
+                for (unsigned int v = 0; v < 4; ++v)
+                  {
+                    x[v] = d.space->position(nodes[GeometryInfo<3>::face_to_cell_vertices(f, v)]);
+                    for (unsigned int c = 0; c < dim; ++c)
+                      {
+                        extent.low[c]  = std::min(extent.low[c], x[v][c]);
+                        extent.high[c] = std::max(extent.high[c], x[v][c]);
+                      }
+                  }
+                extent.area += .5 * (cross_product_3d(x[1] - x[0], x[2] - x[0]).norm() + cross_product_3d(x[3] - x[1], x[3] - x[2]).norm());
+              }
+        }
+    for (unsigned int b = 0; b < bodies.n_bodies(); ++b)
+      {
+        const std::size_t n_cells = Utilities::MPI::sum(cells[b], comm);
+        const Material   &m       = bodies.material(b);
+        out << "body " << bodies.body_name(b) << ": " << n_cells << " cells, E = " << parameters.bodies[m.body].young
+            << ", nu = " << parameters.bodies[m.body].poisson << std::endl;
+        for (unsigned int i = 0; i < bodies.boundary_names(b).size(); ++i)
+          {
+            const Extent e    = extents[bodies.boundary_id(b, i)];
+            const double area = Utilities::MPI::sum(e.area, comm);
+            Point<3>     low, high;
+            for (unsigned int c = 0; c < dim; ++c)
+              {
+                low[c]  = Utilities::MPI::min(e.low[c], comm);
+                high[c] = Utilities::MPI::max(e.high[c], comm);
+              }
+            out << "  boundary " << bodies.boundary_names(b)[i] << ": area " << area << ", box (" << low << ") to (" << high << ")"
+                << std::endl;
+          }
+      }
+    for (unsigned int p = 0; p < d.pairs.size(); ++p)
+      {
+        const auto &gaps = d.couplings[p].gaps;
+        out << "pair " << d.pairs[p].name << ": nonmortar " << d.pairs[p].nonmortar_name << ", mortar " << d.pairs[p].mortar_name
+            << ", " << gaps.size() << " contact nodes, gap " << *std::min_element(gaps.begin(), gaps.end()) << " to "
+            << *std::max_element(gaps.begin(), gaps.end()) << ", coverage "
+            << d.couplings[p].covered_area / d.couplings[p].area << std::endl;
+      }
+  }
+} // namespace Signorini

@@ -1,0 +1,5 @@
+signorini_add_layer(application
+  contact_evaluation.cc
+  contact_problem.cc
+  parameters.cc
+)

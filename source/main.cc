@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/algebra/input_error.h>
+#include <signorini/application/contact_problem.h>
+#include <signorini/output/write_results.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <iostream>
+#include <optional>
+
+namespace
+{
+  using namespace Signorini;
+
+  const char *const usage =
+    "usage: signorini FILE.prm [--set \"Section/Name=value\"]... [--output DIR]\n"
+    "       signorini --check FILE.prm      parse, read the meshes, list bodies, boundaries and gaps; solve nothing\n"
+    "       signorini --mesh-only FILE.prm  write meshes and the contact mapping, then stop\n"
+    "       signorini --print-parameters [FILE.prm]   a complete, commented parameter file\n"
+    "       signorini --help | --version\n"
+    "Under MPI: mpirun -np N signorini FILE.prm\n";
+
+  struct CommandLine
+  {
+    std::string              file, output;
+    std::vector<std::string> overrides;
+    bool                     check = false, mesh_only = false, print = false, help = false, version = false;
+  };
+
+  CommandLine
+  parse(const int argc, char **argv)
+  {
+    CommandLine line;
+    for (int i = 1; i < argc; ++i)
+      {
+        const std::string argument = argv[i];
+        const auto        value    = [&]() -> std::string {
+          if (i + 1 >= argc)
+            throw InputError(argument + " needs a value.\n" + usage);
+          return argv[++i];
+        };
+        if (argument == "--set")
+          line.overrides.push_back(value());
+        else if (argument == "--output")
+          line.output = value();
+        else if (argument == "--check")
+          line.check = true;
+        else if (argument == "--mesh-only")
+          line.mesh_only = true;
+        else if (argument == "--print-parameters")
+          line.print = true;
+        else if (argument == "--help" || argument == "-h")
+          line.help = true;
+        else if (argument == "--version")
+          line.version = true;
+        else if (!argument.empty() && argument[0] == '-')
+          throw InputError("unknown option \"" + argument + "\".\n" + usage);
+        else if (line.file.empty())
+          line.file = argument;
+        else
+          throw InputError("more than one parameter file given.\n" + std::string(usage));
+      }
+    return line;
+  }
+
+  /// A parameter file with one body and one pair, for people who start from nothing.
+  void
+  print_default_parameters()
+  {
+    ProblemParameters parameters;
+    parameters.bodies.resize(2);
+    parameters.bodies[0].name = "first";
+    parameters.bodies[1].name = "second";
+    parameters.loads.resize(2);
+    parameters.probes.resize(2);
+    parameters.pairs.resize(1);
+    parameters.pairs[0].name = "contact";
+    parameters.print(std::cout, true);
+  }
+
+  void
+  run(const CommandLine &line)
+  {
+    const MPI_Comm             comm = MPI_COMM_WORLD;
+    dealii::ConditionalOStream out(std::cout, dealii::Utilities::MPI::this_mpi_process(comm) == 0);
+    ProblemParameters          parameters;
+    parameters.read(line.file, line.overrides);
+    if (!line.output.empty())
+      parameters.output_folder = line.output;
+    if (line.print)
+      {
+        if (out.is_active())
+          parameters.print(std::cout, true);
+        return;
+      }
+    std::optional<OutputFolder> folder;
+    if (!line.check)
+      folder.emplace(parameters.output_folder, comm);
+    ContactProblem problem(parameters, comm, out);
+    if (line.check)
+      {
+        problem.describe();
+        return;
+      }
+    if (line.mesh_only)
+      problem.build_meshes();
+    else
+      problem.run();
+    write_results(problem, parameters, *folder, line.mesh_only, out);
+    folder->commit();
+    if (parameters.verbosity > 0)
+      out << "results in " << parameters.output_folder << std::endl;
+    if (!problem.results.converged)
+      throw InputError("the iteration did not converge; see the notes and convergence.csv in the results.");
+  }
+} // namespace
+
+
+
+int
+main(int argc, char **argv)
+{
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  const bool is_root = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+  try
+    {
+      const CommandLine line = parse(argc, argv);
+      if (line.help || line.version || (line.print && line.file.empty()))
+        {
+          if (is_root && line.help)
+            std::cout << usage;
+          else if (is_root && line.version)
+            std::cout << version_text() << std::endl;
+          else if (is_root)
+            print_default_parameters();
+          return 0;
+        }
+      if (line.file.empty())
+        throw InputError("no parameter file given.\n" + std::string(usage));
+      run(line);
+      return 0;
+    }
+  catch (const InputError &e)
+    {
+      if (is_root)
+        std::cerr << "signorini: error: " << e.what() << std::endl;
+      return 1;
+    }
+  catch (const std::exception &e)
+    {
+      std::cerr << "signorini: internal error: " << e.what() << std::endl;
+      MPI_Abort(MPI_COMM_WORLD, 2);
+    }
+  return 2;
+}
