@@ -3,7 +3,7 @@
 
 #include <signorini/algebra/input_error.h>
 #include <signorini/application/contact_problem.h>
-#include <signorini/output/write_results.h>
+#include <signorini/application/write_results.h>
 
 #include <deal.II/base/mpi.h>
 

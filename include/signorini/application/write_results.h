@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_application_write_results_h
+#define signorini_application_write_results_h
+
+#include <signorini/application/contact_problem.h>
+#include <signorini/output/output_folder.h>
+
+namespace Signorini
+{
+  /// "signorini 0.1.0 (deal.II 9.4.1, ...)".
+  std::string
+  version_text();
+
+  /// Collective. Writes everything of a solved problem (or its meshes and mapping only) into a folder, and
+  /// prints the certificate.
+  void
+  write_results(ContactProblem             &problem,
+                ProblemParameters          &parameters,
+                const OutputFolder         &folder,
+                const bool                  mesh_only,
+                dealii::ConditionalOStream &out);
+} // namespace Signorini
+
+#endif
