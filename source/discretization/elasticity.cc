@@ -407,12 +407,11 @@ namespace Signorini
     void
     throw_everywhere(const std::string &message, const MPI_Comm communicator)
     {
-      const std::string first =
-        Utilities::MPI::n_mpi_processes(communicator) == 1 ?
-          message :
-          Utilities::MPI::all_reduce<std::string>(message, communicator, [](const std::string &a, const std::string &b) {
-            return a.empty() ? b : a;
-          });
+      std::string first = message;
+      if (Utilities::MPI::n_mpi_processes(communicator) > 1)
+        for (const std::string &text : Utilities::MPI::all_gather(communicator, message))
+          if (first.empty())
+            first = text;
       if (!first.empty())
         throw InputError(first);
     }
