@@ -33,7 +33,7 @@ namespace Signorini
                       Patterns::Selection("resolve|refuse"));
     prm.add_parameter("First region",
                       first_region,
-                      "Expression in x, y, z that is positive where the first surface may touch (at face centres); "
+                      "Expression in x, y, z that is positive where the first surface may touch (a face belongs to it if a corner or its centre does); "
                       "empty for everywhere.");
     prm.add_parameter("Second region", second_region, "The same for the second surface.");
   }

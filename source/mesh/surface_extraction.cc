@@ -192,7 +192,7 @@ namespace Signorini
   extract_contact_surface(const NodalSpace                                  &space,
                           const std::set<types::boundary_id>                &ids,
                           const std::function<FixedMask(const NodeIndex)>   &fixed,
-                          const std::function<bool(const Point<3> &centre)> &region)
+                          const std::function<bool(const Point<3> &point)> &region)
   {
     std::vector<PackedFace> mine;
     for (const auto &cell : space.dof_handler().active_cell_iterators())
@@ -201,11 +201,15 @@ namespace Signorini
           if (cell->face(face)->at_boundary() && ids.count(cell->face(face)->boundary_id()) > 0)
             {
               const PackedFace packed = pack(cell, face, space, fixed);
+              bool             inside = !region;
               Point<3>         centre;
-              for (unsigned int v = 0; v < 8; v += 2)
-                for (unsigned int c = 0; c < 3; ++c)
-                  centre[c] += .25 * packed.points[v][c];
-              if (!region || region(centre))
+              for (unsigned int v = 0; v < 8 && !inside; v += 2)
+                {
+                  const Point<3> corner(packed.points[v][0], packed.points[v][1], packed.points[v][2]);
+                  centre += .25 * corner;
+                  inside = region(corner);
+                }
+              if (inside || region(centre))
                 mine.push_back(packed);
             }
 

@@ -158,6 +158,41 @@ namespace Signorini
 
 
 
+  void
+  ProjectedGaussSeidel::restrict_to_tangents(Vector &residual) const
+  {
+    for (std::size_t p = 0; p < constraints.size(); ++p)
+      if (is_active[p])
+        {
+          double *const  r      = residual.begin() + dim * static_cast<std::size_t>(constraints.nodes[p]);
+          const Vector3 &n      = constraints.normals[p];
+          const double   normal = n[0] * r[0] + n[1] * r[1] + n[2] * r[2];
+          for (unsigned int c = 0; c < dim; ++c)
+            r[c] -= normal * n[c];
+        }
+  }
+
+
+
+  void
+  ProjectedGaussSeidel::project_correction(Vector &correction, const Vector &v) const
+  {
+    restrict_to_tangents(correction);
+    for (std::size_t p = 0; p < constraints.size(); ++p)
+      if (!is_active[p])
+        {
+          const std::size_t i      = dim * static_cast<std::size_t>(constraints.nodes[p]);
+          double            excess = -constraints.bounds[p];
+          for (unsigned int c = 0; c < dim; ++c)
+            excess += constraints.normals[p][c] * (v.local_element(i + c) + correction.local_element(i + c));
+          if (excess > 0.)
+            for (unsigned int c = 0; c < dim; ++c)
+              correction.local_element(i + c) -= excess * projection_direction[p][c];
+        }
+  }
+
+
+
   double
   ProjectedGaussSeidel::sweep_bytes() const
   {

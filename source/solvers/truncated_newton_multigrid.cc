@@ -115,10 +115,8 @@ namespace Signorini
 
     c.reinit(v);
     coarse.to_finer.prolongate(c, coarse_correction);
-    // Project v + c, then search along the projected correction.
-    c += v;
-    smoother.project(c);
-    c -= v;
+    smoother.restrict_to_tangents(residual);
+    smoother.project_correction(c, v);
     product.reinit(v);
     matrix.vmult(product, c);
     const double slope = residual * c, curvature = product * c;

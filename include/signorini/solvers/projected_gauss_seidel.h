@@ -61,6 +61,15 @@ namespace Signorini
     void
     project(Vector &v);
 
+    /// Removes the normal parts at active nodes. A line search along corrections that are tangential there must
+    /// not see the contact forces: their product with the rounding errors of the correction drowns the slope.
+    void
+    restrict_to_tangents(Vector &residual) const;
+
+    /// Makes c tangential at active nodes; elsewhere shortens it so that v + c keeps the half-spaces.
+    void
+    project_correction(Vector &c, const Vector &v) const;
+
     /// Bytes that a sweep reads and writes at least.
     double
     sweep_bytes() const;
