@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_output_results_h
+#define signorini_output_results_h
+
+#include <signorini/algebra/types.h>
+#include <signorini/solvers/convergence_report.h>
+
+#include <deal.II/base/point.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace Signorini
+{
+  /// What one cycle of the nested iteration produced.
+  struct CycleResult
+  {
+    unsigned int      cycle = 0;
+    std::size_t       cells = 0, dofs = 0, contact_nodes = 0, active_nodes = 0;
+    unsigned int      levels = 0;
+    ConvergenceReport nonlinear, linear;
+    bool              has_linear = false;
+    /// Relative difference of the linear and the nonlinear solution (energy norm).
+    double difference = 0.;
+    /// Seconds, NaN where not measured; bytes per second.
+    double                        sweep_time = 0., sweep_bytes_per_second = 0., read_bytes_per_second = 0.;
+    std::map<std::string, double> times;
+  };
+
+  struct PairResult
+  {
+    std::string name, nonmortar, mortar;
+    Vector3     force, force_on_mortar, moment;
+    double      min_pressure = 0., max_pressure = 0., contact_area = 0., coverage = 0., min_gap = 0., max_penetration = 0.;
+    double      initial_penetration = 0., lost_area = 0.;
+    std::size_t dropped_nodes = 0;
+  };
+
+  struct BoundaryResult
+  {
+    std::string body, name;
+    Vector3     reaction;
+  };
+
+  struct ProbeResult
+  {
+    std::string      name;
+    dealii::Point<3> point;
+    Vector3          displacement;
+  };
+
+  /// Each number relative to the scale that is stated beside it.
+  struct Certificate
+  {
+    /// Largest n·û - g over the contact nodes / largest displacement.
+    double penetration = 0.;
+    /// The same sampled at points of all overlay cells (consistency error of the discretization, not of the solver).
+    double geometric_penetration = 0.;
+    /// Largest tension / largest pressure.
+    double tension = 0.;
+    /// Largest pressure times opening / (largest pressure times largest displacement).
+    double complementarity = 0.;
+    /// Residual of the equilibrium including contact forces, physical basis / norm of the nodal forces.
+    double equilibrium = 0.;
+    /// |force on nonmortar + force on mortar| / |force|.
+    double force_balance = 0.;
+    /// ½vᵀÂv - b̂ᵀv.
+    double energy = 0.;
+  };
+
+  /// One row of pressure.csv.
+  struct PressureRow
+  {
+    dealii::Point<3> position;
+    double           area, pressure, gap;
+    bool             active;
+  };
+
+  struct Results
+  {
+    std::string                 version, parameter_file, title;
+    unsigned int                ranks = 1;
+    bool                        converged = true;
+    double                      wall_time = 0., peak_memory = 0.;
+    std::vector<CycleResult>    cycles;
+    std::vector<PairResult>     pairs;
+    std::vector<BoundaryResult> boundaries;
+    std::vector<ProbeResult>    probes;
+    Certificate                 certificate;
+    std::vector<PressureRow>    pressure;
+    std::vector<std::string>    notes;
+  };
+} // namespace Signorini
+
+#endif

@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/algebra/input_error.h>
+#include <signorini/algebra/node_partition.h>
+#include <signorini/output/field_output.h>
+
+#include <deal.II/base/data_out_base.h>
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/symmetric_tensor.h>
+
+namespace Signorini
+{
+  using namespace dealii;
+
+  namespace
+  {
+    const char *const component_names[] = {"x", "y", "z", "xy", "yz", "zx"};
+
+    /// Patches of one cell each, with their data, as deal.II's writers want them.
+    template <int patch_dim>
+    class PatchOutput : public DataOutInterface<patch_dim, 3>
+    {
+    public:
+      using Patch = DataOutBase::Patch<patch_dim, 3>;
+
+      explicit PatchOutput(const std::vector<OutputField> &fields)
+      {
+        for (const OutputField &field : fields)
+          {
+            if (field.n_components == 3)
+              ranges.emplace_back(names.size(), names.size() + 2, field.name,
+                                  DataComponentInterpretation::component_is_part_of_vector);
+            for (unsigned int c = 0; c < field.n_components; ++c)
+              names.push_back(field.n_components == 1 ? field.name :
+                              field.n_components == 3 ? field.name :
+                                                        field.name + "_" + component_names[c]);
+          }
+      }
+
+      std::vector<Patch>       patches;
+      std::vector<std::string> names;
+
+      void
+      write(const std::string &folder, const std::string &name, const MPI_Comm comm)
+      {
+        DataOutBase::VtkFlags flags;
+        flags.compression_level = DataOutBase::VtkFlags::best_speed;
+        this->set_flags(flags);
+        const unsigned int rank = Utilities::MPI::this_mpi_process(comm), n = Utilities::MPI::n_mpi_processes(comm);
+        const auto         piece = [&](const unsigned int r) { return name + "." + std::to_string(r) + ".vtu"; };
+        bool               good  = true;
+        {
+          std::ofstream out(folder + piece(rank));
+          this->write_vtu(out);
+          out.close();
+          good = static_cast<bool>(out);
+        }
+        if (rank == 0)
+          {
+            std::vector<std::string> pieces;
+            for (unsigned int r = 0; r < n; ++r)
+              pieces.push_back(piece(r));
+            std::ofstream record(folder + name + ".pvtu");
+            this->write_pvtu_record(record, pieces);
+            std::ofstream pvd(folder + name + ".pvd");
+            DataOutBase::write_pvd_record(pvd, {{0., name + ".pvtu"}});
+            record.close();
+            pvd.close();
+            good = good && record && pvd;
+          }
+        if (Utilities::MPI::min(static_cast<int>(good), comm) == 0)
+          throw InputError("the results cannot be written to \"" + folder + "\": is the disk full?");
+      }
+
+    protected:
+      const std::vector<Patch> &
+      get_patches() const override
+      {
+        return patches;
+      }
+
+      std::vector<std::string>
+      get_dataset_names() const override
+      {
+        return names;
+      }
+
+      std::vector<std::tuple<unsigned int, unsigned int, std::string, DataComponentInterpretation::DataComponentInterpretation>>
+      get_nonscalar_data_ranges() const override
+      {
+        return ranges;
+      }
+
+    private:
+      std::vector<std::tuple<unsigned int, unsigned int, std::string, DataComponentInterpretation::DataComponentInterpretation>>
+        ranges;
+    };
+
+    /// Writes the values of one vertex into a column of a patch.
+    template <typename P>
+    void
+    fill(P &patch, const unsigned int column, const std::vector<OutputField> &fields, const std::size_t index)
+    {
+      unsigned int row = 0;
+      for (const OutputField &field : fields)
+        for (unsigned int c = 0; c < field.n_components; ++c)
+          patch.data(row++, column) = static_cast<float>(field.values[field.n_components * index + c]);
+    }
+  } // namespace
+
+
+
+  void
+  write_bodies(const std::string                                               &folder,
+               const std::string                                               &name,
+               const NodalSpace                                                &space,
+               const std::vector<OutputField>                                  &fields,
+               const std::function<double(const types::material_id material)> &body)
+  {
+    PatchOutput<3> output(fields);
+    output.names.push_back("body");
+    std::array<NodeIndex, 8> nodes;
+    for (const auto &cell : space.dof_handler().active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          space.cell_nodes(cell, nodes);
+          output.patches.emplace_back();
+          auto &patch          = output.patches.back();
+          patch.patch_index    = static_cast<unsigned int>(output.patches.size() - 1);
+          patch.n_subdivisions = 1;
+          patch.data.reinit(output.names.size(), 8);
+          for (unsigned int v = 0; v < 8; ++v)
+            {
+              patch.vertices[v] = space.position(nodes[v]);
+              fill(patch, v, fields, space.relevant().index_within_set(nodes[v]));
+              patch.data(output.names.size() - 1, v) = static_cast<float>(body(cell->material_id()));
+            }
+        }
+    output.write(folder, name, space.communicator());
+  }
+
+
+
+  void
+  write_surface(const std::string              &folder,
+                const std::string              &name,
+                const ContactSurface           &surface,
+                const std::vector<OutputField> &fields,
+                const MPI_Comm                  communicator)
+  {
+    const unsigned int        rank = Utilities::MPI::this_mpi_process(communicator);
+    PatchOutput<2>            output(fields);
+    static const unsigned int lexicographic[4] = {0, 1, 3, 2};
+    for (const auto &face : surface.faces)
+      if (face.owner == rank)
+        {
+          output.patches.emplace_back();
+          auto &patch          = output.patches.back();
+          patch.patch_index    = static_cast<unsigned int>(output.patches.size() - 1);
+          patch.n_subdivisions = 1;
+          patch.data.reinit(output.names.size(), 4);
+          for (unsigned int v = 0; v < 4; ++v)
+            {
+              const unsigned int vertex = face.corners[lexicographic[v]];
+              patch.vertices[v]         = surface.mesh.vertices[vertex];
+              fill(patch, v, fields, vertex);
+            }
+        }
+    output.write(folder, name, communicator);
+  }
+
+
+
+  namespace
+  {
+    /// Stress at the centre of a trilinear cell (the most accurate point), and the volume.
+    std::pair<std::array<double, 6>, double>
+    centre_stress(const std::array<Point<3>, 8> &x, const std::array<Vector3, 8> &u, const double young, const double poisson)
+    {
+      Tensor<2, 3> jacobian, slope;
+      for (unsigned int v = 0; v < 8; ++v)
+        for (unsigned int d = 0; d < 3; ++d)
+          {
+            const double g = (v >> d & 1) ? .25 : -.25;
+            for (unsigned int c = 0; c < 3; ++c)
+              {
+                jacobian[c][d] += x[v][c] * g;
+                slope[c][d] += u[v][c] * g;
+              }
+          }
+      const Tensor<2, 3> gradient = slope * invert(jacobian);
+      const double       mu       = .5 * young / (1. + poisson);
+      const double       pressure = young * poisson / ((1. + poisson) * (1. - 2. * poisson)) * trace(gradient);
+      const auto         shear    = [&](const unsigned int a, const unsigned int b) { return mu * (gradient[a][b] + gradient[b][a]); };
+      return {{{shear(0, 0) + pressure, shear(1, 1) + pressure, shear(2, 2) + pressure, shear(0, 1), shear(1, 2), shear(2, 0)}},
+              determinant(jacobian)};
+    }
+  } // namespace
+
+
+
+  std::vector<OutputField>
+  nodal_stress(const NodalSpace                                                                  &space,
+               const std::vector<double>                                                         &displacement,
+               const std::function<std::pair<double, double>(const types::material_id material)> &material)
+  {
+    const NodePartition      partition(space.owned(), space.relevant(), space.communicator());
+    Vector                   normal, shear, weight;
+    std::array<NodeIndex, 8> nodes;
+    for (Vector *v : {&normal, &shear, &weight})
+      partition.reinit(*v);
+    for (const auto &cell : space.dof_handler().active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          space.cell_nodes(cell, nodes);
+          std::array<Point<3>, 8> x;
+          std::array<Vector3, 8>  u;
+          for (unsigned int v = 0; v < 8; ++v)
+            {
+              x[v] = space.position(nodes[v]);
+              for (unsigned int c = 0; c < 3; ++c)
+                u[v][c] = displacement[3 * space.relevant().index_within_set(nodes[v]) + c];
+            }
+          const auto [young, poisson] = material(cell->material_id());
+          const auto [stress, volume] = centre_stress(x, u, young, poisson);
+          for (const NodeIndex node : nodes)
+            {
+              const unsigned int i = partition.to_local(node);
+              for (unsigned int c = 0; c < 3; ++c)
+                {
+                  normal.local_element(3 * i + c) += volume * stress[c];
+                  shear.local_element(3 * i + c) += volume * stress[3 + c];
+                }
+              weight.local_element(3 * i) += volume;
+            }
+        }
+    for (Vector *v : {&normal, &shear, &weight})
+      {
+        v->compress(VectorOperation::add);
+        v->update_ghost_values();
+      }
+
+    const std::size_t        n = space.relevant().n_elements();
+    std::vector<OutputField> fields = {{"stress", 6, std::vector<double>(6 * n, 0.)},
+                                       {"von_Mises", 1, std::vector<double>(n, 0.)},
+                                       {"principal_stress", 3, std::vector<double>(3 * n, 0.)}};
+    for (std::size_t r = 0; r < n; ++r)
+      {
+        const unsigned int i = partition.to_local(space.relevant().nth_index_in_set(r));
+        const double       w = weight.local_element(3 * i);
+        if (!(w > 0.))
+          continue;
+        double s[6];
+        for (unsigned int c = 0; c < 3; ++c)
+          {
+            s[c]     = normal.local_element(3 * i + c) / w;
+            s[3 + c] = shear.local_element(3 * i + c) / w;
+          }
+        std::copy(s, s + 6, fields[0].values.begin() + 6 * r);
+        fields[1].values[r] = std::sqrt(.5 * ((s[0] - s[1]) * (s[0] - s[1]) + (s[1] - s[2]) * (s[1] - s[2]) + (s[2] - s[0]) * (s[2] - s[0])) +
+                                        3. * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
+        SymmetricTensor<2, 3> tensor;
+        for (unsigned int c = 0; c < 3; ++c)
+          tensor[c][c] = s[c];
+        tensor[0][1]      = s[3];
+        tensor[1][2]      = s[4];
+        tensor[2][0]      = s[5];
+        const auto values = eigenvalues(tensor);
+        std::copy(values.begin(), values.end(), fields[2].values.begin() + 3 * r);
+      }
+    return fields;
+  }
+} // namespace Signorini

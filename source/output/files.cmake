@@ -1,0 +1,5 @@
+signorini_add_layer(output
+  field_output.cc
+  output_folder.cc
+  summary.cc
+)

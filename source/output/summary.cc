@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/output/summary.h>
+
+#include <iomanip>
+
+namespace Signorini
+{
+  namespace
+  {
+    /// Writes JSON text with commas and nesting in the right places.
+    class JsonWriter
+    {
+    public:
+      explicit JsonWriter(std::ostream &out)
+        : out(out)
+      {}
+
+      void
+      begin(const char bracket, const std::string &key = "")
+      {
+        item(key);
+        out << bracket;
+        first = true;
+        ++depth;
+      }
+
+      void
+      end(const char bracket)
+      {
+        --depth;
+        out << '\n' << std::string(2 * depth, ' ') << bracket;
+        first = false;
+      }
+
+      void
+      number(const std::string &key, const double value)
+      {
+        item(key);
+        if (std::isfinite(value))
+          out << std::setprecision(17) << value;
+        else
+          out << "null";
+      }
+
+      void
+      text(const std::string &key, const std::string &value)
+      {
+        item(key);
+        out << quoted(value);
+      }
+
+      void
+      boolean(const std::string &key, const bool value)
+      {
+        item(key);
+        out << (value ? "true" : "false");
+      }
+
+      template <typename V>
+      void
+      vector(const std::string &key, const V &v)
+      {
+        begin('[', key);
+        for (unsigned int c = 0; c < 3; ++c)
+          number("", v[c]);
+        end(']');
+      }
+
+    private:
+      void
+      item(const std::string &key)
+      {
+        if (!first)
+          out << ',';
+        if (depth > 0)
+          out << '\n' << std::string(2 * depth, ' ');
+        first = false;
+        if (!key.empty())
+          out << quoted(key) << ": ";
+      }
+
+      static std::string
+      quoted(const std::string &text)
+      {
+        std::ostringstream result;
+        result << '"';
+        for (const char c : text)
+          if (c == '"' || c == '\\')
+            result << '\\' << c;
+          else if (static_cast<unsigned char>(c) < 32)
+            result << "\\u" << std::hex << std::setw(4) << std::setfill('0') << static_cast<int>(c) << std::dec;
+          else
+            result << c;
+        result << '"';
+        return result.str();
+      }
+
+      std::ostream &out;
+      bool          first = true;
+      int           depth = 0;
+    };
+
+    void
+    write_solver(JsonWriter &json, const ConvergenceReport &report)
+    {
+      json.number("iterations", report.iterations);
+      json.number("rate", report.rate);
+      json.begin('[', "history");
+      for (const double correction : report.history)
+        json.number("", correction);
+      json.end(']');
+    }
+
+    void
+    write_cycle(JsonWriter &json, const CycleResult &cycle)
+    {
+      json.begin('{');
+      json.number("cycle", cycle.cycle);
+      json.number("levels", cycle.levels);
+      json.number("cells", cycle.cells);
+      json.number("dofs", cycle.dofs);
+      json.number("contact_nodes", cycle.contact_nodes);
+      json.number("active_nodes", cycle.active_nodes);
+      json.number("energy", cycle.nonlinear.energy);
+      json.begin('{', "nonlinear");
+      write_solver(json, cycle.nonlinear);
+      json.number("hierarchy_updates", cycle.nonlinear.hierarchy_updates);
+      json.end('}');
+      if (cycle.has_linear)
+        {
+          json.begin('{', "linear");
+          write_solver(json, cycle.linear);
+          json.number("difference", cycle.difference);
+          json.end('}');
+        }
+      json.number("sweep_time_s", cycle.sweep_time);
+      json.number("sweep_bytes_per_s", cycle.sweep_bytes_per_second);
+      json.number("read_bytes_per_s", cycle.read_bytes_per_second);
+      json.begin('{', "times_s");
+      for (const char *name : {"mesh", "mapping", "mortar", "assembly", "hierarchy", "solve", "linear_solve", "estimate", "output"})
+        {
+          const auto it = cycle.times.find(name);
+          json.number(name, it == cycle.times.end() ? 0. : it->second);
+        }
+      json.end('}');
+      json.end('}');
+    }
+
+    void
+    write_pair(JsonWriter &json, const PairResult &pair)
+    {
+      json.begin('{');
+      json.text("name", pair.name);
+      json.text("nonmortar", pair.nonmortar);
+      json.text("mortar", pair.mortar);
+      json.vector("force", pair.force);
+      json.vector("force_on_mortar", pair.force_on_mortar);
+      json.vector("moment", pair.moment);
+      json.number("min_pressure", pair.min_pressure);
+      json.number("max_pressure", pair.max_pressure);
+      json.number("contact_area", pair.contact_area);
+      json.number("coverage", pair.coverage);
+      json.number("min_gap", pair.min_gap);
+      json.number("max_penetration", pair.max_penetration);
+      json.number("initial_penetration", pair.initial_penetration);
+      json.number("area_without_multiplier", pair.lost_area);
+      json.number("dropped_nodes", pair.dropped_nodes);
+      json.end('}');
+    }
+
+    void
+    write_certificate(JsonWriter &json, const Certificate &c)
+    {
+      json.begin('{', "certificate");
+      json.number("penetration", c.penetration);
+      json.number("geometric_penetration", c.geometric_penetration);
+      json.number("tension", c.tension);
+      json.number("complementarity", c.complementarity);
+      json.number("equilibrium", c.equilibrium);
+      json.number("force_balance", c.force_balance);
+      json.number("energy", c.energy);
+      json.end('}');
+    }
+  } // namespace
+
+
+
+  void
+  write_summary(std::ostream &out, const Results &results)
+  {
+    JsonWriter json(out);
+    json.begin('{');
+    json.text("program", "signorini");
+    json.text("version", results.version);
+    json.text("title", results.title);
+    json.text("parameter_file", results.parameter_file);
+    json.number("ranks", results.ranks);
+    json.boolean("converged", results.converged);
+    json.number("wall_time_s", results.wall_time);
+    json.number("peak_memory_bytes", results.peak_memory);
+    json.begin('[', "cycles");
+    for (const CycleResult &cycle : results.cycles)
+      write_cycle(json, cycle);
+    json.end(']');
+    json.begin('[', "pairs");
+    for (const PairResult &pair : results.pairs)
+      write_pair(json, pair);
+    json.end(']');
+    json.begin('[', "boundaries");
+    for (const BoundaryResult &boundary : results.boundaries)
+      {
+        json.begin('{');
+        json.text("body", boundary.body);
+        json.text("name", boundary.name);
+        json.vector("reaction", boundary.reaction);
+        json.end('}');
+      }
+    json.end(']');
+    json.begin('[', "probes");
+    for (const ProbeResult &probe : results.probes)
+      {
+        json.begin('{');
+        json.text("name", probe.name);
+        json.vector("point", probe.point);
+        json.vector("displacement", probe.displacement);
+        json.end('}');
+      }
+    json.end(']');
+    write_certificate(json, results.certificate);
+    json.begin('[', "notes");
+    for (const std::string &note : results.notes)
+      json.text("", note);
+    json.end(']');
+    json.end('}');
+    out << '\n';
+  }
+
+
+
+  void
+  write_table(std::ostream &out, const Results &results)
+  {
+    out << "level  elements      dofs  nonlinear  linear  contact  active    rate  linear rate  solve [s]  total [s]\n";
+    for (const CycleResult &c : results.cycles)
+      {
+        double total = 0.;
+        for (const auto &time : c.times)
+          total += time.second;
+        const auto time = c.times.find("solve");
+        out << std::setw(5) << c.cycle << std::setw(10) << c.cells << std::setw(10) << c.dofs << std::setw(11)
+            << c.nonlinear.iterations << std::setw(8) << (c.has_linear ? std::to_string(c.linear.iterations) : "-") << std::setw(9)
+            << c.contact_nodes << std::setw(8) << c.active_nodes << std::setw(8) << std::setprecision(3) << c.nonlinear.rate
+            << std::setw(13);
+        if (c.has_linear)
+          out << c.linear.rate;
+        else
+          out << "-";
+        out << std::setw(11) << (time == c.times.end() ? 0. : time->second) << std::setw(11) << total << '\n';
+      }
+  }
+
+
+
+  void
+  write_convergence(std::ostream &out, const Results &results)
+  {
+    out << "cycle,iteration,correction,relative,active_nodes\n" << std::setprecision(17);
+    for (const CycleResult &c : results.cycles)
+      for (std::size_t i = 0; i < c.nonlinear.history.size(); ++i)
+        out << c.cycle << ',' << i + 1 << ',' << c.nonlinear.history[i] << ','
+            << (c.nonlinear.scale > 0. ? c.nonlinear.history[i] / c.nonlinear.scale : 0.) << ',' << c.nonlinear.active_nodes[i] << '\n';
+  }
+
+
+
+  void
+  write_pressure(std::ostream &out, const Results &results)
+  {
+    out << "x,y,z,area,pressure,gap,active\n" << std::setprecision(17);
+    for (const PressureRow &row : results.pressure)
+      out << row.position[0] << ',' << row.position[1] << ',' << row.position[2] << ',' << row.area << ',' << row.pressure << ','
+          << row.gap << ',' << row.active << '\n';
+  }
+
+
+
+  void
+  print_certificate(std::ostream &out, const Results &results)
+  {
+    const Certificate &c = results.certificate;
+    out << std::setprecision(3) << "certificate\n"
+        << "  penetration      " << c.penetration << "   (algebraic, largest / largest displacement)\n"
+        << "  geometric        " << c.geometric_penetration << "   (sampled on all overlay cells, / largest displacement)\n"
+        << "  tension          " << c.tension << "   (largest / largest pressure)\n"
+        << "  complementarity  " << c.complementarity << "   (largest |pressure * gap| / (largest pressure * displacement))\n"
+        << "  equilibrium      " << c.equilibrium << "   (residual with contact forces / norm of the nodal forces)\n"
+        << "  force balance    " << c.force_balance << "   (sum of the forces on both bodies / force)\n"
+        << "  energy           " << std::setprecision(10) << c.energy << '\n';
+    for (const PairResult &p : results.pairs)
+      out << std::setprecision(6) << "pair " << p.name << ": force on " << p.nonmortar << " (" << p.force[0] << ", " << p.force[1] << ", "
+          << p.force[2] << "), largest pressure " << p.max_pressure << ", contact area " << p.contact_area << '\n';
+  }
+} // namespace Signorini
