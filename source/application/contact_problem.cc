@@ -485,7 +485,7 @@ namespace Signorini
     std::vector<Vector *> targets;
     for (Vector &component : interpolated)
       {
-        component.reinit(d.space->owned(), comm);
+        component.reinit(d.space->owned(), d.space->relevant(), comm);
         targets.push_back(&component);
       }
     transfer.interpolate(targets);
