@@ -1,0 +1,211 @@
+#!/usr/bin/python3
+"""Runs the program on small problems with known answers and checks summary.json.
+
+usage: run_case.py PROGRAM CASE RANKS
+"""
+import json
+import os
+import subprocess
+import sys
+import tempfile
+
+TOP = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+FAILURES = []
+
+
+def check(condition, text):
+    if not condition:
+        FAILURES.append(text)
+
+
+def near(value, expected, tolerance, text):
+    check(abs(value - expected) <= tolerance * max(abs(expected), 1e-300), f'{text}: {value!r}, expected {expected!r} to {tolerance}')
+
+
+class Program:
+    def __init__(self, program, ranks):
+        self.command = [program] if ranks == 1 else ['mpirun', '-np', str(ranks), program]
+        self.environment = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT='1', OMPI_ALLOW_RUN_AS_ROOT_CONFIRM='1',
+                                OMPI_MCA_rmaps_base_oversubscribe='1', OMPI_MCA_btl_vader_single_copy_mechanism='none')
+
+    def call(self, *arguments):
+        return subprocess.run(self.command + list(arguments), env=self.environment, stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE, universal_newlines=True, timeout=500)
+
+    def solve(self, prm, *settings):
+        with tempfile.TemporaryDirectory() as folder:
+            out = os.path.join(folder, 'out')
+            arguments = [os.path.join(TOP, 'prm', prm), '--output', out]
+            for setting in settings:
+                arguments += ['--set', setting]
+            run = self.call(*arguments)
+            if run.returncode != 0:
+                print(run.stdout, run.stderr)
+                raise SystemExit(f'{prm} {settings}: exit code {run.returncode}')
+            for name in ('table.txt', 'convergence.csv', 'pressure.csv', 'parameters.prm', 'bodies.pvtu', 'signorini.log'):
+                check(os.path.exists(os.path.join(out, name)), f'{name} is missing')
+            check(sorted(os.listdir(folder)) == ['out'], 'temporary folders are left')
+            with open(os.path.join(out, 'summary.json')) as f:
+                return json.load(f)
+
+
+def certificate(s, equilibrium=1e-8):
+    c = s['certificate']
+    check(s['converged'], 'not converged')
+    for key, bound in (('penetration', 1e-12), ('tension', 1e-9), ('complementarity', 1e-9), ('force_balance', 1e-12),
+                       ('equilibrium', equilibrium)):
+        check(abs(c[key]) <= bound, f'certificate {key}: {c[key]}')
+
+
+def iterations(s):
+    for c in s['cycles']:
+        check(c['nonlinear']['iterations'] <= c['linear']['iterations'] + 5,
+              f'cycle {c["cycle"]}: {c["nonlinear"]["iterations"]} iterations, linear {c["linear"]["iterations"]}')
+        check(c['linear']['difference'] <= 1e-9, f'cycle {c["cycle"]}: linear solution differs by {c["linear"]["difference"]}')
+
+
+def constant_pressure(s, pressure, tolerance=1e-10):
+    pair = s['pairs'][0]
+    near(pair['min_pressure'], pressure, tolerance, 'smallest pressure')
+    near(pair['max_pressure'], pressure, tolerance, 'largest pressure')
+
+
+def patch_test(p):
+    s = p.solve('patch_test/patch_test.prm', 'Body upper/Probes=corner: (1, 1, 0.5)')
+    constant_pressure(s, 5.)
+    certificate(s)
+    iterations(s)
+    # sigma_zz = -5: u_z = -0.005 z / 1 - 0.005, u_x = nu * 5 / E x.
+    u = s['probes'][0]['displacement']
+    for value, expected in zip(u, (0.3 * 5e-3, 0.3 * 5e-3, -0.0075)):
+        near(value, expected, 1e-10, 'displacement')
+
+
+# A linear field u = -c x gives the pressure c E / (1 - 2 nu) on any plane: rotate the blocks, fix all sides.
+LINEAR = '(-1e-3*x, -1e-3*y, -1e-3*z)'
+HYDROSTATIC = ['Body upper/Dirichlet=' + '; '.join(f'{b}: {LINEAR}' for b in ('left', 'right', 'front', 'back', 'top')),
+               'Body lower/Dirichlet=' + '; '.join(f'{b}: {LINEAR}' for b in ('left', 'right', 'front', 'back', 'bottom'))]
+ROTATED = [f'Body {b}/Rotation {k}' for b in ('upper', 'lower') for k in ('axis=1, 2, 3', 'angle=25')]
+
+
+def inclined(p):
+    s = p.solve('patch_test/patch_test.prm', *HYDROSTATIC, *ROTATED)
+    constant_pressure(s, 2.5)
+    certificate(s)
+
+
+def hanging_nodes(p):
+    for z in (0.3, -0.3):
+        for sides in ([], HYDROSTATIC + ROTATED):
+            s = p.solve('patch_test/patch_test.prm', *sides, f'Refinement/Regions=ball: (0.4, 0.5, {z}), 0.31, 1')
+            constant_pressure(s, 2.5 if sides else 5.)
+            certificate(s)
+
+
+def swapped_sides(p):
+    s = p.solve('patch_test/patch_test.prm', 'Pair interface/Nonmortar=first')
+    constant_pressure(s, 5.)
+    certificate(s)
+
+
+def overhang(p):
+    # The nonmortar side sticks out of the mortar side: an uncovered strip without load.
+    for side in ('first', 'second'):
+        s = p.solve('patch_test/patch_test.prm', 'Body lower/Upper corner=0.75, 1, 0', 'Body lower/Divisions=3, 4, 4',
+                    f'Pair interface/Nonmortar={side}')
+        certificate(s)
+        near(s['pairs'][0]['force'][2], -s['pairs'][0]['force_on_mortar'][2], 1e-12, 'force')
+
+
+def pulled(p):
+    s = p.solve('patch_test/patch_test.prm', 'Body upper/Dirichlet=left: (0, *, *); front: (*, 0, *); top: (*, *, 0.01)')
+    check(s['converged'], 'not converged')
+    check(s['cycles'][-1]['active_nodes'] == 0, 'active nodes')
+    check(max(abs(f) for f in s['pairs'][0]['force']) < 1e-10, f'contact force {s["pairs"][0]["force"]}')
+    check(any('separated' in note for note in s['notes']), 'no note that the surfaces separated')
+
+
+def cubes(p):
+    # shared/reference/solver-problems.md, problem M1.
+    s = p.solve('cubes/cubes.prm')
+    certificate(s)
+    iterations(s)
+    for cycle, active, energy in ((2, 13, -1.395805179203e2), (3, 49, -2.810125018392e2)):
+        check(s['cycles'][cycle]['active_nodes'] == active, f'active nodes {s["cycles"][cycle]["active_nodes"]}')
+        near(s['cycles'][cycle]['energy'], energy, 2e-10, 'energy')
+    near(s['pairs'][0]['force'][2], 8.32696552e1, 1e-8, 'force')
+
+
+def half_model(p):
+    # Symmetric about x = 0.5: the half x >= 0.5 with a symmetry plane through the contact zone.
+    full = p.solve('cubes/cubes.prm', 'Refinement/Global cycles=2', 'Body upper/Divisions=4, 4, 4')
+    half = p.solve('cubes/cubes.prm', 'Refinement/Global cycles=2', 'Body upper/Divisions=2, 4, 4', 'Body lower/Divisions=1, 2, 2',
+                   'Body upper/Lower corner=0.5, 0, 0', 'Body lower/Lower corner=0.5, 0, -1',
+                   'Body upper/Dirichlet=left: (0, *, *); top: (0, 0, -0.05)', 'Body lower/Dirichlet=left: (0, *, *); bottom: (0, 0, 0)')
+    near(2 * half['pairs'][0]['force'][2], full['pairs'][0]['force'][2], 1e-9, 'force')
+    near(half['pairs'][0]['max_pressure'], full['pairs'][0]['max_pressure'], 1e-9, 'pressure')
+
+
+def hertz(p):
+    # shared/reference/hertz: F/4 = 20.820 (M1) for this geometry.
+    s = p.solve('hertz/hertz.prm')
+    certificate(s)
+    iterations(s)
+    near(s['pairs'][0]['force'][2], 20.820, 1e-2, 'force')
+    near(s['pairs'][0]['max_pressure'], 244.63, 3e-2, 'pressure')
+
+
+def units(p):
+    base = p.solve('cubes/cubes.prm', 'Refinement/Global cycles=2')
+    for length, young in ((1e-6, 1.), (1e6, 1.), (1., 1e-6), (1., 1e12)):
+        s = p.solve('cubes/cubes.prm', 'Refinement/Global cycles=2', f'Body upper/Upper corner={length}, {length}, {length}',
+                    f'Body lower/Lower corner=0, 0, {-length}', f'Body lower/Upper corner={length}, {length}, 0',
+                    f'Body upper/Dirichlet=top: (0, 0, {-0.05 * length})',
+                    f'Pair interface/Initial gap=((x/{length}-0.5)^2 + (y/{length}-0.5)^2)*{length}',
+                    f'Body upper/Young modulus={7e3 * young}', f'Body lower/Young modulus={6.896e5 * young}')
+        near(s['pairs'][0]['force'][2], base['pairs'][0]['force'][2] * young * length ** 2, 1e-8, f'force at {length}, {young}')
+        for a, b in zip(s['cycles'], base['cycles']):
+            check(a['nonlinear']['iterations'] == b['nonlinear']['iterations'], f'iterations at {length}, {young}')
+            check(a['active_nodes'] == b['active_nodes'], f'active nodes at {length}, {young}')
+
+
+def errors(p):
+    prm = os.path.join(TOP, 'prm', 'patch_test', 'patch_test.prm')
+    with tempfile.TemporaryDirectory() as folder:
+        out = os.path.join(folder, 'out')
+        cases = [(['missing.prm'], 'missing.prm'),
+                 ([prm, '--set', 'Body upper/Colour=red'], 'Colour'),
+                 ([prm, '--set', 'Body upper/Dirichlet=lid: (0, 0, 0)'], 'lid'),
+                 ([prm, '--set', 'Body upper/Poisson ratio=0.5'], 'Poisson ratio'),
+                 ([prm, '--set', 'Body upper/Young modulus=0'], 'Young modulus'),
+                 ([prm, '--set', 'Body upper/Dirichlet=top: (*, *, -0.01)'], 'rigid motion'),
+                 ([prm, '--set', 'Body lower/Translation=5, 0, 0'], 'overlay cell'),
+                 ([prm, '--set', 'Body upper/Mesh=missing.msh'], 'missing.msh'),
+                 ([prm, '--set', 'Pair interface/First=upper: lid'], 'lid'),
+                 ([prm, '--set', 'Body upper/Dirichlet=top: (0, 0, bla(x))'], 'bla'),
+                 ([prm, '--wrong'], '--wrong')]
+        for arguments, word in cases:
+            run = p.call(*arguments, '--output', out)
+            check(run.returncode not in (0, 2) and run.returncode > 0, f'{arguments[1:]}: exit code {run.returncode}')
+            check(word in run.stderr, f'{arguments}: the message does not name "{word}": {run.stderr}')
+            check(run.stderr.count('signorini: error:') == 1, f'{arguments}: not one message: {run.stderr}')
+            check(os.listdir(folder) == [], f'{arguments}: left {os.listdir(folder)}')
+
+
+def command_line(p):
+    prm = os.path.join(TOP, 'prm', 'patch_test', 'patch_test.prm')
+    check('usage' in p.call('--help').stdout, 'no usage')
+    check('signorini 0' in p.call('--version').stdout, 'no version')
+    check('Young modulus' in p.call('--print-parameters').stdout, 'no parameters')
+    run = p.call('--check', prm)
+    check(run.returncode == 0 and 'boundary top: area 1,' in run.stdout, f'check: {run.stdout} {run.stderr}')
+    with tempfile.TemporaryDirectory() as folder:
+        run = p.call('--mesh-only', prm, '--output', folder + '/out')
+        check(run.returncode == 0 and os.path.exists(folder + '/out/contact-interface.pvtu'), f'mesh-only: {run.stderr}')
+
+
+if __name__ == '__main__':
+    globals()[sys.argv[2]](Program(sys.argv[1], int(sys.argv[3])))
+    for failure in FAILURES:
+        print('FAILED:', failure)
+    sys.exit(1 if FAILURES else 0)
