@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/mortar/bilinear_face.h>
 #include <signorini/mortar/face_moments.h>
 #include <signorini/surface/contact_mapping.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
+
+#include <algorithm>
 
 namespace Signorini
 {
@@ -13,6 +16,8 @@ namespace Signorini
 
   namespace
   {
+    using Corners = std::array<Point<3>, 3>;
+
     /// Points (barycentric) and weights (sum 1) on a triangle.
     struct TriangleRule
     {
@@ -21,8 +26,7 @@ namespace Signorini
     };
 
     /// Exact for polynomials of degree 4 (six points, Dunavant 1985).
-    TriangleRule
-    degree_four()
+    TriangleRule degree_four()
     {
       TriangleRule rule;
       for (const auto &[a, w] : {std::pair<double, double>(0.445948490915964886, 0.223381589678011466),
@@ -38,8 +42,7 @@ namespace Signorini
     }
 
     /// Collapsed n x n Gauss rule: for integrands that are not polynomials.
-    TriangleRule
-    collapsed(const unsigned int n)
+    TriangleRule collapsed(const unsigned int n)
     {
       const QGauss<1> gauss(n);
       TriangleRule    rule;
@@ -53,173 +56,265 @@ namespace Signorini
       return rule;
     }
 
-    /// A bilinear face.
-    class Quadrilateral
+    const TriangleRule &triangle_rule(const bool polynomial)
     {
-    public:
-      Quadrilateral(const ContactSurface &surface, const unsigned int face)
-      {
-        for (unsigned int v = 0; v < 4; ++v)
-          x[v] = surface.mesh.vertices[surface.faces[face].corners[v]];
-        const Tensor<1, 3> twist = (x[0] - x[1]) + (x[2] - x[3]);
-        is_parallelogram         = twist.norm() <= 1e-12 * (x[0].distance(x[2]) + x[1].distance(x[3]));
-      }
+      static const TriangleRule exact = degree_four(), general = collapsed(8);
+      return polynomial ? exact : general;
+    }
 
-      static std::array<double, 4>
-      shape(const double s, const double t)
-      {
-        return {{(1 - s) * (1 - t), s * (1 - t), s * t, (1 - s) * t}};
-      }
-
-      /// Corner functions at the point of the face nearest to p (Gauss-Newton on the bilinear map).
-      std::array<double, 4>
-      shape_at(const Point<3> &p, double &s, double &t) const
-      {
-        for (unsigned int iteration = 0; iteration < 25; ++iteration)
-          {
-            const auto   phi = shape(s, t);
-            Tensor<1, 3> r   = p;
-            for (unsigned int v = 0; v < 4; ++v)
-              r -= phi[v] * x[v];
-            const Tensor<1, 3> ds = (1 - t) * (x[1] - x[0]) + t * (x[2] - x[3]);
-            const Tensor<1, 3> dt = (1 - s) * (x[3] - x[0]) + s * (x[2] - x[1]);
-            const double       a = ds * ds, b = ds * dt, c = dt * dt, det = a * c - b * b;
-            if (!(det > 0.))
-              break;
-            const double fs = r * ds, ft = r * dt;
-            const double step_s = (c * fs - b * ft) / det, step_t = (a * ft - b * fs) / det;
-            s += step_s;
-            t += step_t;
-            if (std::abs(step_s) + std::abs(step_t) < 1e-15 || (is_parallelogram && iteration > 0))
-              break;
-          }
-        return shape(s, t);
-      }
-
-      /// Integrals of the corner functions over the face, and its area.
-      std::pair<std::array<double, 4>, double>
-      integrals() const
-      {
-        static const QGauss<1> gauss(4);
-        std::array<double, 4>  sums = {{0., 0., 0., 0.}};
-        double                 area = 0.;
-        for (unsigned int i = 0; i < gauss.size(); ++i)
-          for (unsigned int j = 0; j < gauss.size(); ++j)
-            {
-              const double       s = gauss.point(i)[0], t = gauss.point(j)[0];
-              const Tensor<1, 3> ds = (1 - t) * (x[1] - x[0]) + t * (x[2] - x[3]);
-              const Tensor<1, 3> dt = (1 - s) * (x[3] - x[0]) + s * (x[2] - x[1]);
-              const double       w  = gauss.weight(i) * gauss.weight(j) * cross_product_3d(ds, dt).norm();
-              const auto         phi = shape(s, t);
-              for (unsigned int v = 0; v < 4; ++v)
-                sums[v] += w * phi[v];
-              area += w;
-            }
-        return {sums, area};
-      }
-
-      bool is_parallelogram;
-
-    private:
-      std::array<Point<3>, 4> x;
-    };
-
-    Point<3>
-    combine(const std::array<Point<3>, 3> &corners, const std::array<double, 3> &weights)
+    Point<3> combine(const Corners &corners, const std::array<double, 3> &weights)
     {
       return Point<3>(weights[0] * corners[0] + weights[1] * corners[1] + weights[2] * corners[2]);
     }
 
-    /// Adds the integrals over one overlay triangle.
-    void
-    integrate(FaceMoments           &moments,
-              const ContactSurface  &nonmortar,
-              const ContactSurface  &mortar,
-              const OverlayTriangle &cell,
-              const Quadrilateral   &face,
-              const GapFunction     &prescribed_gap)
+    double triangle_area(const Corners &x)
     {
-      static const TriangleRule     exact = degree_four(), general = collapsed(8);
-      const unsigned int            mortar_index = mortar.triangle_face[cell.mortar_triangle];
-      const Quadrilateral           mortar_face(mortar, mortar_index);
-      std::array<Point<3>, 3>       x, y;
-      for (unsigned int i = 0; i < 3; ++i)
-        {
-          x[i] = evaluate(nonmortar.mesh, cell.nonmortar_triangle, cell.nonmortar[i]);
-          y[i] = evaluate(mortar.mesh, cell.mortar_triangle, cell.mortar[i]);
-        }
-      const double area = .5 * cross_product_3d(x[1] - x[0], x[2] - x[0]).norm();
-      const auto  &rule = face.is_parallelogram && mortar_face.is_parallelogram && !prescribed_gap ? exact : general;
+      return .5 * cross_product_3d(x[1] - x[0], x[2] - x[0]).norm();
+    }
 
-      std::array<std::array<double, 4>, 4> products = {};
-      double                               s = .5, t = .5, mortar_s = .5, mortar_t = .5;
-      for (std::size_t q = 0; q < rule.points.size(); ++q)
+    /// Corner functions of a face along the points of a triangle in it. On parallelograms the reference
+    /// coordinates are linear: computed once for the corners.
+    class ShapeOnTriangle
+    {
+    public:
+      ShapeOnTriangle(const BilinearFace &face, const Corners &x)
+        : face(face)
+      {
+        if (face.is_parallelogram())
+          for (unsigned int i = 0; i < 3; ++i)
+            face.invert(s[i], t[i], x[i]);
+      }
+
+      std::array<double, 4> operator()(const std::array<double, 3> &w, const Point<3> &p)
+      {
+        if (face.is_parallelogram())
+          return BilinearFace::shape(w[0] * s[0] + w[1] * s[1] + w[2] * s[2],
+                                     w[0] * t[0] + w[1] * t[1] + w[2] * t[2]);
+        // The last point is a good guess for the next one.
+        face.invert(s[0], t[0], p);
+        return BilinearFace::shape(s[0], t[0]);
+      }
+
+    private:
+      const BilinearFace   &face;
+      std::array<double, 3> s = {{.5, .5, .5}}, t = {{.5, .5, .5}};
+    };
+
+    /// Integrates the moments of one face, overlay triangle by overlay triangle.
+    class FaceIntegrator
+    {
+    public:
+      FaceIntegrator(const ContactSurface &nonmortar, const ContactSurface &mortar,
+                     const GapFunction &prescribed_gap, const unsigned int index)
+        : nonmortar(nonmortar)
+        , mortar(mortar)
+        , prescribed_gap(prescribed_gap)
+        , face(nonmortar, index)
+        , mortar_face(face)
+      {
+        moments.face = index;
+      }
+
+      /// Adds a triangle of the face to the integrals over the whole face.
+      void add_face_triangle(const unsigned int triangle)
+      {
+        Corners x;
+        for (unsigned int i = 0; i < 3; ++i)
+          x[i] = nonmortar.mesh.vertices[nonmortar.mesh.triangles[triangle][i]];
+        const double        area = triangle_area(x);
+        const TriangleRule &rule = triangle_rule(face.is_parallelogram());
+        ShapeOnTriangle     phi_at(face, x);
+        for (std::size_t q = 0; q < rule.points.size(); ++q)
+          {
+            const auto phi = phi_at(rule.points[q], combine(x, rule.points[q]));
+            for (unsigned int a = 0; a < 4; ++a)
+              moments.full[a] += rule.weights[q] * area * phi[a];
+          }
+        moments.area += area;
+      }
+
+      void add_overlay_triangle(const OverlayTriangle &cell)
+      {
+        select_mortar_face(mortar.triangle_face[cell.mortar_triangle]);
+        Corners x, y;
+        for (unsigned int i = 0; i < 3; ++i)
+          {
+            x[i] = evaluate(nonmortar.mesh, cell.nonmortar_triangle, cell.nonmortar[i]);
+            y[i] = evaluate(mortar.mesh, cell.mortar_triangle, cell.mortar[i]);
+          }
+        const double        area = triangle_area(x);
+        const TriangleRule &rule =
+            triangle_rule(face.is_parallelogram() && mortar_face.is_parallelogram() && !prescribed_gap);
+        ShapeOnTriangle phi_at(face, x), theta_at(mortar_face, y);
+        for (std::size_t q = 0; q < rule.points.size(); ++q)
+          {
+            const Point<3> p = combine(x, rule.points[q]), image = combine(y, rule.points[q]);
+            add_point(rule.weights[q] * area, p, image, phi_at(rule.points[q], p),
+                      theta_at(rule.points[q], image));
+          }
+        moments.covered += area;
+      }
+
+      FaceMoments moments;
+
+    private:
+      void add_point(const double weight, const Point<3> &p, const Point<3> &image,
+                     const std::array<double, 4> &phi, const std::array<double, 4> &theta)
+      {
+        Vector3 gap = image - p;
+        if (prescribed_gap)
+          gap = Point<3>(prescribed_gap(p), 0., 0.);
+        for (unsigned int a = 0; a < 4; ++a)
+          {
+            const double w = weight * phi[a];
+            for (unsigned int b = 0; b < 4; ++b)
+              {
+                moments.mass[4 * a + b] += w * phi[b];
+                moments.coupling[slots[b]].second[a] += w * theta[b];
+              }
+            moments.gap[a] += w * gap;
+          }
+      }
+
+      /// Finds or makes the entries of the corners of a mortar face.
+      void select_mortar_face(const unsigned int index)
+      {
+        if (index == mortar_index)
+          return;
+        mortar_index = index;
+        mortar_face  = BilinearFace(mortar, index);
+        for (unsigned int b = 0; b < 4; ++b)
+          {
+            const unsigned int vertex = mortar.faces[index].corners[b];
+            slots[b]                  = 0;
+            while (slots[b] < moments.coupling.size() && moments.coupling[slots[b]].first != vertex)
+              ++slots[b];
+            if (slots[b] == moments.coupling.size())
+              moments.coupling.push_back({vertex, {{0., 0., 0., 0.}}});
+          }
+      }
+
+      const ContactSurface      &nonmortar, &mortar;
+      const GapFunction         &prescribed_gap;
+      const BilinearFace         face;
+      BilinearFace               mortar_face;
+      unsigned int               mortar_index = numbers::invalid_unsigned_int;
+      std::array<std::size_t, 4> slots        = {};
+    };
+
+    /// Groups indices 0, 1, ... by key: those of key k are list[start[k]] ... list[start[k+1]-1], in order.
+    struct Groups
+    {
+      template <typename Key>
+      Groups(const std::size_t n_keys, const std::size_t n, const Key &key)
+        : start(n_keys + 1, 0)
+        , list(n)
+      {
+        for (std::size_t i = 0; i < n; ++i)
+          ++start[key(i) + 1];
+        for (std::size_t k = 0; k < n_keys; ++k)
+          start[k + 1] += start[k];
+        std::vector<std::size_t> next(start.begin(), start.end() - 1);
+        for (std::size_t i = 0; i < n; ++i)
+          list[next[key(i)]++] = i;
+      }
+
+      std::vector<std::size_t> start, list;
+    };
+
+    void pack(std::vector<double> &data, const FaceMoments &m)
+    {
+      data.insert(data.end(), {static_cast<double>(m.face), m.covered, m.area});
+      data.insert(data.end(), m.full.begin(), m.full.end());
+      data.insert(data.end(), m.mass.begin(), m.mass.end());
+      for (const Vector3 &g : m.gap)
+        data.insert(data.end(), {g[0], g[1], g[2]});
+      data.push_back(static_cast<double>(m.coupling.size()));
+      for (const auto &[vertex, values] : m.coupling)
         {
-          const Point<3> p = combine(x, rule.points[q]), image = combine(y, rule.points[q]);
-          const auto     phi   = face.shape_at(p, s, t);
-          const auto     theta = mortar_face.shape_at(image, mortar_s, mortar_t);
-          const double   w     = rule.weights[q] * area;
-          Vector3        gap;
-          if (prescribed_gap)
-            gap[0] = prescribed_gap(p);
-          else
-            gap = image - p;
-          for (unsigned int a = 0; a < 4; ++a)
-            {
-              for (unsigned int b = 0; b < 4; ++b)
-                {
-                  moments.mass[4 * a + b] += w * phi[a] * phi[b];
-                  products[b][a] += w * theta[b] * phi[a];
-                }
-              moments.gap[a] += (w * phi[a]) * gap;
-            }
+          data.push_back(vertex);
+          data.insert(data.end(), values.begin(), values.end());
         }
-      moments.covered += area;
-      for (unsigned int b = 0; b < 4; ++b)
+    }
+
+    const double *unpack(FaceMoments &m, const double *data)
+    {
+      const auto next = [&data]() { return *data++; };
+      m.face          = static_cast<unsigned int>(next());
+      m.covered       = next();
+      m.area          = next();
+      std::generate(m.full.begin(), m.full.end(), next);
+      std::generate(m.mass.begin(), m.mass.end(), next);
+      for (Vector3 &g : m.gap)
+        for (unsigned int c = 0; c < dim; ++c)
+          g[c] = next();
+      m.coupling.resize(static_cast<std::size_t>(next()));
+      for (auto &[vertex, values] : m.coupling)
         {
-          const unsigned int vertex = mortar.faces[mortar_index].corners[b];
-          auto               it     = std::find_if(moments.coupling.begin(), moments.coupling.end(), [&](const auto &entry) {
-            return entry.first == vertex;
-          });
-          if (it == moments.coupling.end())
-            it = moments.coupling.insert(it, {vertex, {{0., 0., 0., 0.}}});
-          for (unsigned int a = 0; a < 4; ++a)
-            it->second[a] += products[b][a];
+          vertex = static_cast<unsigned int>(next());
+          std::generate(values.begin(), values.end(), next);
         }
+      return data;
+    }
+
+    /// The moments of all ranks, sorted by face. They travel as plain doubles, bit by bit the same
+    /// everywhere.
+    std::vector<FaceMoments> gather(const std::vector<FaceMoments> &mine, const MPI_Comm communicator)
+    {
+      std::vector<double> packed;
+      for (const FaceMoments &m : mine)
+        pack(packed, m);
+      const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
+      const int          n_mine  = static_cast<int>(packed.size());
+      std::vector<int>   sizes(n_ranks), offsets(n_ranks + 1, 0);
+      int                ierr = MPI_Allgather(&n_mine, 1, MPI_INT, sizes.data(), 1, MPI_INT, communicator);
+      AssertThrowMPI(ierr);
+      for (unsigned int r = 0; r < n_ranks; ++r)
+        offsets[r + 1] = offsets[r] + sizes[r];
+      std::vector<double> received(offsets.back());
+      ierr = MPI_Allgatherv(packed.data(), n_mine, MPI_DOUBLE, received.data(), sizes.data(), offsets.data(),
+                            MPI_DOUBLE, communicator);
+      AssertThrowMPI(ierr);
+
+      std::vector<FaceMoments> all;
+      for (const double *data = received.data(); data != received.data() + received.size();)
+        {
+          all.emplace_back();
+          data = unpack(all.back(), data);
+        }
+      std::sort(all.begin(), all.end(), [](const auto &a, const auto &b) { return a.face < b.face; });
+      return all;
     }
   } // namespace
 
 
 
-  std::vector<FaceMoments>
-  compute_face_moments(const ContactSurface               &nonmortar,
-                       const ContactSurface               &mortar,
-                       const std::vector<OverlayTriangle> &overlay,
-                       const GapFunction                  &prescribed_gap,
-                       const MPI_Comm                      communicator)
+  std::vector<FaceMoments> compute_face_moments(const ContactSurface &nonmortar, const ContactSurface &mortar,
+                                                const std::vector<OverlayTriangle> &overlay,
+                                                const GapFunction                  &prescribed_gap,
+                                                const MPI_Comm                      communicator)
   {
-    const unsigned int                   rank = Utilities::MPI::this_mpi_process(communicator);
-    std::vector<std::vector<std::size_t>> cells_of(nonmortar.faces.size());
-    for (std::size_t c = 0; c < overlay.size(); ++c)
-      cells_of[nonmortar.triangle_face[overlay[c].nonmortar_triangle]].push_back(c);
+    const std::size_t  n_faces = nonmortar.faces.size();
+    const unsigned int rank    = Utilities::MPI::this_mpi_process(communicator);
+    const Groups       cells(n_faces, overlay.size(), [&](const std::size_t c) {
+      return nonmortar.triangle_face[overlay[c].nonmortar_triangle];
+    });
+    const Groups       triangles(n_faces, nonmortar.mesh.triangles.size(),
+                                 [&](const std::size_t t) { return nonmortar.triangle_face[t]; });
 
     std::vector<FaceMoments> mine;
-    for (unsigned int f = 0; f < nonmortar.faces.size(); ++f)
+    for (unsigned int f = 0; f < n_faces; ++f)
       if (nonmortar.faces[f].owner == rank)
         {
-          const Quadrilateral face(nonmortar, f);
-          mine.emplace_back();
-          mine.back().face                              = f;
-          std::tie(mine.back().full, mine.back().area) = face.integrals();
-          for (const std::size_t c : cells_of[f])
-            integrate(mine.back(), nonmortar, mortar, overlay[c], face, prescribed_gap);
+          FaceIntegrator integrator(nonmortar, mortar, prescribed_gap, f);
+          for (std::size_t i = triangles.start[f]; i < triangles.start[f + 1]; ++i)
+            integrator.add_face_triangle(static_cast<unsigned int>(triangles.list[i]));
+          for (std::size_t i = cells.start[f]; i < cells.start[f + 1]; ++i)
+            integrator.add_overlay_triangle(overlay[cells.list[i]]);
+          mine.push_back(std::move(integrator.moments));
         }
     if (Utilities::MPI::n_mpi_processes(communicator) == 1)
       return mine;
-    std::vector<FaceMoments> all;
-    for (const auto &piece : Utilities::MPI::all_gather(communicator, mine))
-      all.insert(all.end(), piece.begin(), piece.end());
-    std::sort(all.begin(), all.end(), [](const FaceMoments &a, const FaceMoments &b) { return a.face < b.face; });
-    return all;
+    return gather(mine, communicator);
   }
 } // namespace Signorini

@@ -1,4 +1,9 @@
 signorini_add_layer(mortar
+  bilinear_face.cc
+  contact_forces.cc
+  dual_basis.cc
   face_moments.cc
+  geometric_penetration.cc
+  pair_conflicts.cc
   pair_coupling.cc
 )

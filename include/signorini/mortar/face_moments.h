@@ -9,60 +9,43 @@
 
 #include <array>
 #include <functional>
-#include <optional>
 #include <utility>
 #include <vector>
 
 namespace Signorini
 {
-  /// Integrals over the covered part of one nonmortar face, with the bilinear functions of its four corners
-  /// (also fixed and hanging ones). Everything that the dual basis needs is a combination of them.
+  /// Integrals over the covered part F_c of one nonmortar face, with the bilinear functions phi_a of its four
+  /// corners (also fixed and hanging ones). Everything that the dual basis needs is a combination of them.
   struct FaceMoments
   {
     /// Index into ContactSurface::faces of the nonmortar side.
     unsigned int face = 0;
-    /// Integrals over the whole face (area).
+    /// Integrals of the corner functions over the whole face (area), with the face's triangles as domain.
     std::array<double, 4> full = {{0., 0., 0., 0.}};
-    /// Covered area, and area of the face.
+    /// Area of F_c and of the face.
     double covered = 0., area = 0.;
-    /// 4x4 row by row: products of corner functions.
+    /// 4x4 row by row: products of corner functions (area).
     std::array<double, 16> mass = {};
     /// Corner function times Phi(x) - x (area * length); or, with a prescribed gap, that gap in component 0.
     std::array<Vector3, 4> gap;
-    /// For each mortar vertex (index of its surface): products with the corner functions.
+    /// For each mortar vertex (index of its surface): products of its bilinear function with the corner
+    /// functions.
     std::vector<std::pair<unsigned int, std::array<double, 4>>> coupling;
-
-    template <class Archive>
-    void
-    serialize(Archive &archive, const unsigned int)
-    {
-      archive &face &covered &area;
-      for (unsigned int v = 0; v < 4; ++v)
-        archive &full[v] &gap[v];
-      for (double &m : mass)
-        archive &m;
-      std::size_t n = coupling.size();
-      archive    &n;
-      coupling.resize(n);
-      for (auto &[vertex, values] : coupling)
-        {
-          archive &vertex;
-          for (double &value : values)
-            archive &value;
-        }
-    }
   };
 
+  /// A gap (length) prescribed at points of the nonmortar surface; empty for the geometric one.
   using GapFunction = std::function<double(const dealii::Point<3> &)>;
 
-  /// Collective. Moments of all faces that the overlay touches or that have area, sorted by face, on all ranks.
-  /// `overlay` holds the overlay of this rank's own faces, ordered by nonmortar triangle.
-  std::vector<FaceMoments>
-  compute_face_moments(const ContactSurface               &nonmortar,
-                       const ContactSurface               &mortar,
-                       const std::vector<OverlayTriangle> &overlay,
-                       const GapFunction                  &prescribed_gap,
-                       const MPI_Comm                      communicator);
+  /// Collective. Moments of all faces of the nonmortar surface, sorted by face, the same on all ranks; those
+  /// of uncovered faces hold the area only.
+  ///
+  /// Pairs of parallelograms are integrated exactly (degree 4 on every overlay triangle), other faces and
+  /// prescribed gaps by a collapsed 8x8 Gauss rule (method.md, section 3, Integration).
+  /// @param overlay the overlay of this rank's own faces, ordered by nonmortar triangle (ContactMapping)
+  std::vector<FaceMoments> compute_face_moments(const ContactSurface &nonmortar, const ContactSurface &mortar,
+                                                const std::vector<OverlayTriangle> &overlay,
+                                                const GapFunction                  &prescribed_gap,
+                                                const MPI_Comm                      communicator);
 } // namespace Signorini
 
 #endif

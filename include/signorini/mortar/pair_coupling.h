@@ -32,18 +32,31 @@ namespace Signorini
     double share;
   };
 
-  const char *
-  to_string(const DroppedNode::Reason reason);
+  /// The reason in words, for messages.
+  const char *to_string(const DroppedNode::Reason reason);
+
+  /// When a thinly covered node loses its multiplier (method.md, section 3, Dropping). Pure numbers.
+  struct DroppingRule
+  {
+    /// Least covered share of the integral of the node's own function.
+    double smallest_share = .15;
+    /// Largest row sum of |S|.
+    double largest_row_sum = 5.;
+  };
 
   /// D, M, S = D^-1 M and the weighted gap of one contact pair (method.md, section 3), the same on all ranks.
   struct PairCoupling
   {
+    /// Rows: the nodes K. Entries: M_kq/D_kk for mortar nodes and -D_kr/D_kk for nodes in R; weight D_kk
+    /// (area).
     InterfaceCoupling coupling;
     /// In the order of the rows: outward unit normal n_p in free directions, weighted gap g_p (length),
-    /// position, prescribed components, and the vertex of the nonmortar surface.
+    /// position, covered share of the node's function, prescribed components, and the vertex of the nonmortar
+    /// surface.
     std::vector<Vector3>          normals;
     std::vector<double>           gaps;
     std::vector<dealii::Point<3>> positions;
+    std::vector<double>           shares;
     std::vector<FixedMask>        fixed;
     std::vector<unsigned int>     vertices;
     /// Nodes of the columns that belong to the nonmortar surface (the set R), sorted.
@@ -54,25 +67,36 @@ namespace Signorini
     double area = 0., covered_area = 0., lost_area = 0.;
   };
 
-  /// Replicated. excluded: nodes that must not carry a multiplier because of another pair.
-  /// prescribed_gap: the moments hold gap values, not vectors.
-  PairCoupling
-  couple(const ContactSurface           &nonmortar,
-         const ContactSurface           &mortar,
-         const std::vector<FaceMoments> &moments,
-         const std::set<NodeIndex>      &excluded,
-         const bool                      prescribed_gap);
+  /// The coupling of one pair from its face moments. Not collective: the same input gives the same result,
+  /// bit by bit, on all ranks.
+  /// @param excluded nodes that must not carry a multiplier because of another pair (excluded_nodes())
+  /// @param prescribed_gap whether the moments hold gap values instead of vectors
+  PairCoupling couple(const ContactSurface &nonmortar, const ContactSurface &mortar,
+                      const std::vector<FaceMoments> &moments, const std::set<NodeIndex> &excluded,
+                      const bool prescribed_gap, const DroppingRule &rule = {});
 
   /// Nodes (conforming) of either side that the covered part of a pair touches.
-  std::set<NodeIndex>
-  touched_nonmortar_nodes(const ContactSurface &nonmortar, const std::vector<FaceMoments> &moments);
-  std::set<NodeIndex>
-  touched_mortar_nodes(const ContactSurface &mortar, const std::vector<FaceMoments> &moments);
+  std::set<NodeIndex> touched_nonmortar_nodes(const ContactSurface           &nonmortar,
+                                              const std::vector<FaceMoments> &moments);
+  std::set<NodeIndex> touched_mortar_nodes(const ContactSurface           &mortar,
+                                           const std::vector<FaceMoments> &moments);
+
+  /// For each pair the nodes that must not carry a multiplier there, given the nodes that all pairs touch:
+  /// those that are mortar in any pair, or nonmortar in another one. With these, join_couplings() cannot
+  /// fail.
+  ///
+  /// A node that is nonmortar in two pairs carries a multiplier in none of them: the second pair needs it as
+  /// a column (set R), and no column may be a row (S² = 0, method.md, section 4).
+  std::vector<std::set<NodeIndex>> excluded_nodes(const std::vector<std::set<NodeIndex>> &touched_nonmortar,
+                                                  const std::vector<std::set<NodeIndex>> &touched_mortar);
 
   /// Joins the couplings of all pairs, rows sorted by node. Returns for each row (pair, row in the pair).
-  /// Asserts S² = 0: no row is a column.
+  /// @param names of the pairs, for messages; numbers if left out
+  /// Errors: InputError naming the pairs if a node is a row twice, or a row of one pair and a column of
+  /// another (S² is not 0, the pairs form a chain or a cycle).
   std::vector<std::pair<unsigned int, std::size_t>>
-  join_couplings(InterfaceCoupling &joined, const std::vector<PairCoupling> &pairs);
+  join_couplings(InterfaceCoupling &joined, const std::vector<PairCoupling> &pairs,
+                 const std::vector<std::string> &names = {});
 } // namespace Signorini
 
 #endif

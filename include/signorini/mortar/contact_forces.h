@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_mortar_contact_forces_h
+#define signorini_mortar_contact_forces_h
+
+#include <signorini/mortar/pair_coupling.h>
+
+#include <vector>
+
+namespace Signorini
+{
+  /// The forces of a contact stress on the nodes of both sides of a pair.
+  struct ContactForces
+  {
+    struct NodalForce
+    {
+      NodeIndex        node;
+      dealii::Point<3> position;
+      Vector3          force;
+    };
+
+    /// One side, sorted by node, with the sum of the forces and of their moments about the origin.
+    struct Side
+    {
+      std::vector<NodalForce> nodes;
+      Vector3                 force, moment;
+    };
+
+    Side nonmortar, mortar;
+  };
+
+  /// F_non,j = -sum_k D_kj lambda_k n_k and F_mor,q = +sum_k M_kq lambda_k n_k (method.md, section 1). The
+  /// sums of both sides cancel to rounding, the moments up to sum_k lambda_k int psi_k (x - Phi(x)) x n_k.
+  /// Replicated, no communication.
+  /// @param pressure lambda_k (force per area), in the order of the rows of the pair
+  ContactForces compute_contact_forces(const ContactSurface &nonmortar, const ContactSurface &mortar,
+                                       const PairCoupling &pair, const std::vector<double> &pressure);
+} // namespace Signorini
+
+#endif

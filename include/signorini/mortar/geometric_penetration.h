@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_mortar_geometric_penetration_h
+#define signorini_mortar_geometric_penetration_h
+
+#include <signorini/mortar/face_moments.h>
+
+#include <vector>
+
+namespace Signorini
+{
+  /// How far the deformed surfaces are apart pointwise, not in the weighted sense of the constraint
+  /// (lengths).
+  struct GeometricPenetration
+  {
+    /// Least (Phi(x) - x)·n(x), and least of that after deformation; infinite where nothing is covered.
+    double min_initial_gap, min_gap;
+
+    /// Largest n(x)·(u_non(x) - u_mor(Phi(x))) - (Phi(x) - x)·n(x): negative if the surfaces are apart.
+    double max_penetration() const
+    {
+      return -min_gap;
+    }
+  };
+
+  /// Collective. Samples seven points (corners, middles of edges, centre) of every overlay triangle of all
+  /// ranks, with displacements at their true reference points and normals linear on triangles. The share of
+  /// the surface that is covered at all is PairCoupling::covered_area / PairCoupling::area.
+  /// @param overlay of this rank's own faces
+  /// @param displacement_nonmortar displacement_mortar per vertex of each surface (hanging ones too)
+  /// @param prescribed_gap replaces (Phi(x) - x)·n(x) if not empty
+  GeometricPenetration sample_geometric_penetration(const ContactSurface               &nonmortar,
+                                                    const ContactSurface               &mortar,
+                                                    const std::vector<OverlayTriangle> &overlay,
+                                                    const std::vector<Vector3> &displacement_nonmortar,
+                                                    const std::vector<Vector3> &displacement_mortar,
+                                                    const GapFunction          &prescribed_gap,
+                                                    const MPI_Comm              communicator);
+} // namespace Signorini
+
+#endif

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/mortar/contact_forces.h>
+
+#include <deal.II/base/exceptions.h>
+
+#include <algorithm>
+
+namespace Signorini
+{
+  using namespace dealii;
+
+  namespace
+  {
+    using Side = ContactForces::Side;
+
+    /// All conforming nodes of a surface, sorted, without force.
+    Side nodes_of(const ContactSurface &surface)
+    {
+      Side side;
+      for (unsigned int v = 0; v < surface.vertex_node.size(); ++v)
+        if (surface.hanging[v].empty())
+          side.nodes.push_back({surface.vertex_node[v], surface.mesh.vertices[v], Vector3()});
+      std::sort(side.nodes.begin(), side.nodes.end(),
+                [](const auto &a, const auto &b) { return a.node < b.node; });
+      return side;
+    }
+
+    void add(Side &side, const NodeIndex node, const Vector3 &force)
+    {
+      const auto it = std::lower_bound(side.nodes.begin(), side.nodes.end(), node,
+                                       [](const auto &entry, const NodeIndex n) { return entry.node < n; });
+      Assert(it != side.nodes.end() && it->node == node, ExcInternalError());
+      it->force += force;
+    }
+
+    /// Leaves out nodes without force and sums up.
+    void finish(Side &side)
+    {
+      side.nodes.erase(std::remove_if(side.nodes.begin(), side.nodes.end(),
+                                      [](const auto &entry) { return entry.force.norm_square() == 0.; }),
+                       side.nodes.end());
+      for (const auto &entry : side.nodes)
+        {
+          side.force += entry.force;
+          side.moment += cross_product_3d(Vector3(entry.position), entry.force);
+        }
+    }
+  } // namespace
+
+
+
+  ContactForces compute_contact_forces(const ContactSurface &nonmortar, const ContactSurface &mortar,
+                                       const PairCoupling &pair, const std::vector<double> &pressure)
+  {
+    AssertDimension(pressure.size(), pair.coupling.n_rows());
+    ContactForces result{nodes_of(nonmortar), nodes_of(mortar)};
+    for (std::size_t row = 0; row < pair.coupling.n_rows(); ++row)
+      {
+        const Vector3 force = (pair.coupling.weight[row] * pressure[row]) * pair.normals[row];
+        add(result.nonmortar, pair.coupling.rows[row], -force);
+        // Entries toward R hold -D_kr/D_kk: their force acts on the nonmortar side.
+        for (const auto *entry = pair.coupling.begin(row); entry != pair.coupling.end(row); ++entry)
+          if (std::binary_search(pair.r_nodes.begin(), pair.r_nodes.end(), entry->node))
+            add(result.nonmortar, entry->node, entry->weight * force);
+          else
+            add(result.mortar, entry->node, entry->weight * force);
+      }
+    finish(result.nonmortar);
+    finish(result.mortar);
+    return result;
+  }
+} // namespace Signorini
