@@ -355,10 +355,13 @@ namespace Signorini
         const auto   is_column  = [&](const unsigned int j) {
           return !nodes.is_row(j) && std::abs(d_sum.values[j]) > negligible;
         };
-        double weight = 0.;
+        double weight = 0., area = 0.;
         for (const unsigned int j : d_sum.touched)
-          if (!is_column(j))
-            weight += d_sum.values[j];
+          {
+            area += d_sum.values[j];
+            if (!is_column(j))
+              weight += d_sum.values[j];
+          }
 
         std::vector<InterfaceCoupling::Entry> entries;
         for (const unsigned int j : d_sum.touched)
@@ -378,6 +381,7 @@ namespace Signorini
         result.normals.push_back(normal);
         result.gaps.push_back((prescribed_gap ? gap[0] : gap * normal) / weight);
         result.positions.push_back(non.mesh.vertices[k]);
+        result.areas.push_back(area);
         result.shares.push_back(nodes.share(k));
         result.fixed.push_back(non.vertex_fixed[k]);
         result.vertices.push_back(k);

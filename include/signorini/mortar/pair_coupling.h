@@ -50,12 +50,14 @@ namespace Signorini
     /// Rows: the nodes K. Entries: M_kq/D_kk for mortar nodes and -D_kr/D_kk for nodes in R; weight D_kk
     /// (area).
     InterfaceCoupling coupling;
-    /// In the order of the rows: outward unit normal n_p in free directions, weighted gap g_p (length),
-    /// position, covered share of the node's function, prescribed components, and the vertex of the nonmortar
-    /// surface.
+    /// In the order of the rows: outward unit normal n_p in free directions; weighted gap
+    /// g_p = (1/D_pp) int psi_p (Phi(x) - x)·n_p (length); position; int psi_p (area; not D_pp beside nodes
+    /// in R, then a constant gap g gives g_p = g int psi_p / D_pp); covered share of the node's function;
+    /// prescribed components; vertex of the nonmortar surface.
     std::vector<Vector3>          normals;
     std::vector<double>           gaps;
     std::vector<dealii::Point<3>> positions;
+    std::vector<double>           areas;
     std::vector<double>           shares;
     std::vector<FixedMask>        fixed;
     std::vector<unsigned int>     vertices;

@@ -1,3 +1,7 @@
 signorini_add_unit_tests(mortar RANKS "1;2"
+  contact_forces.cc
+  dual_basis.cc
+  face_moments.cc
+  pair_conflicts.cc
   two_step_rule.cc
 )

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+// Forces of a contact stress, and the pointwise penetration of deformed surfaces.
+
+#include "flat_surfaces.h"
+
+#include <signorini/mortar/contact_forces.h>
+#include <signorini/mortar/geometric_penetration.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace
+{
+  using namespace FlatSurfaces;
+
+  struct Surfaces
+  {
+    explicit Surfaces(const unsigned int n_ranks = 1)
+    {
+      Grid grid       = {4, 4, 0., 1., 0., 1., {{1, 1}}};
+      grid.n_ranks    = n_ranks;
+      non             = make_surface(grid);
+      grid            = {3, 5, 0., .8, 0., 1., {{2, 2}}};
+      grid.first_node = 1000;
+      grid.faces_up   = false;
+      mor             = make_surface(grid);
+    }
+
+    ContactSurface non, mor;
+  };
+} // namespace
+
+// Phi shifts sideways by t: the moments differ by sum_k lambda_k int psi_k (x - Phi(x)) x n_k.
+TEST(ContactForces, BalanceOfForcesAndMoments)
+{
+  Surfaces   s;
+  const auto overlay = make_overlay(s.non, s.mor);
+  fix(s.non, [](const Point<3> &x) { return x[1] > 1. - 1e-12; });
+  const Tensor<1, 3> shift = Point<3>(.1, -.2, .05);
+  for (Point<3> &x : s.mor.mesh.vertices)
+    x += shift;
+  const auto          moments = compute_face_moments(s.non, s.mor, overlay, {}, MPI_COMM_SELF);
+  const auto          pair    = couple(s.non, s.mor, moments, {}, false);
+  std::vector<double> pressure;
+  double              total = 0., covered = 0.;
+  for (std::size_t row = 0; row < pair.gaps.size(); ++row)
+    {
+      EXPECT_NEAR(pair.gaps[row], .05 * pair.areas[row] / pair.coupling.weight[row], 1e-14);
+      pressure.push_back(1. + pair.positions[row][0] * pair.positions[row][1]);
+      total += pressure.back() * pair.areas[row];
+      covered += pair.areas[row];
+    }
+  EXPECT_NEAR(covered, pair.covered_area, 1e-14);
+  const auto forces = compute_contact_forces(s.non, s.mor, pair, pressure);
+  EXPECT_NEAR(forces.mortar.force[2], total, 1e-14);
+  EXPECT_LT((forces.mortar.force + forces.nonmortar.force).norm(), 1e-14);
+  const Vector3 normal  = s.non.mesh.vertex_normals[0];
+  const Vector3 missing = total * cross_product_3d(shift, normal);
+  EXPECT_LT((forces.mortar.moment + forces.nonmortar.moment - missing).norm(), 1e-13);
+  // Nodes of R carry forces on the nonmortar side.
+  for (const NodeIndex node : pair.r_nodes)
+    EXPECT_TRUE(std::any_of(forces.nonmortar.nodes.begin(), forces.nonmortar.nodes.end(),
+                            [&](const auto &f) { return f.node == node; }));
+}
+
+TEST(GeometricPenetration, ConstantAndBilinearDisplacements)
+{
+  const int  rank = static_cast<int>(dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD));
+  Surfaces   s(dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD));
+  const auto overlay = make_overlay(s.non, s.mor, rank);
+  for (Point<3> &x : s.mor.mesh.vertices)
+    x[2] += .3;
+  std::vector<Vector3> u_non(s.non.vertex_node.size(), Point<3>(.1, .2, .5));
+  std::vector<Vector3> u_mor(s.mor.vertex_node.size(), Point<3>(7., 0., .1));
+  auto result = sample_geometric_penetration(s.non, s.mor, overlay, u_non, u_mor, {}, MPI_COMM_WORLD);
+  EXPECT_NEAR(result.min_initial_gap, .3, 1e-15);
+  EXPECT_NEAR(result.max_penetration(), .1, 1e-15);
+
+  // xy is in the space of each side: no difference although the grids do not match.
+  const auto bilinear = [](const ContactSurface &surface) {
+    std::vector<Vector3> u;
+    for (const Point<3> &x : surface.mesh.vertices)
+      u.push_back(Point<3>(0., 0., x[0] * x[1]));
+    return u;
+  };
+  u_non  = bilinear(s.non);
+  u_mor  = bilinear(s.mor);
+  result = sample_geometric_penetration(s.non, s.mor, overlay, u_non, u_mor, {}, MPI_COMM_WORLD);
+  EXPECT_NEAR(result.min_gap, .3, 1e-14);
+
+  result = sample_geometric_penetration(
+      s.non, s.mor, overlay, u_non, u_mor, [](const Point<3> &x) { return x[0] - 1.; }, MPI_COMM_WORLD);
+  EXPECT_NEAR(result.min_initial_gap, -1., 1e-15);
+  EXPECT_NEAR(result.max_penetration(), 1., 1e-14);
+}
+
+TEST(GeometricPenetration, NothingCovered)
+{
+  Surfaces                   s;
+  const std::vector<Vector3> u_non(s.non.vertex_node.size()), u_mor(s.mor.vertex_node.size());
+  const auto result = sample_geometric_penetration(s.non, s.mor, {}, u_non, u_mor, {}, MPI_COMM_WORLD);
+  EXPECT_EQ(result.min_gap, std::numeric_limits<double>::infinity());
+}
