@@ -15,12 +15,13 @@ namespace
   using namespace Signorini;
 
   const char *const usage =
-    "usage: signorini FILE.prm [--set \"Section/Name=value\"]... [--output DIR]\n"
-    "       signorini --check FILE.prm      parse, read the meshes, list bodies, boundaries and gaps; solve nothing\n"
-    "       signorini --mesh-only FILE.prm  write meshes and the contact mapping, then stop\n"
-    "       signorini --print-parameters [FILE.prm]   a complete, commented parameter file\n"
-    "       signorini --help | --version\n"
-    "Under MPI: mpirun -np N signorini FILE.prm\n";
+      "usage: signorini FILE.prm [--set \"Section/Name=value\"]... [--output DIR]\n"
+      "       signorini --check FILE.prm      parse, read the meshes, list bodies, boundaries and gaps; "
+      "solve nothing\n"
+      "       signorini --mesh-only FILE.prm  write meshes and the contact mapping, then stop\n"
+      "       signorini --print-parameters [FILE.prm]   a complete, commented parameter file\n"
+      "       signorini --help | --version\n"
+      "Under MPI: mpirun -np N signorini FILE.prm\n";
 
   struct CommandLine
   {
@@ -29,8 +30,7 @@ namespace
     bool                     check = false, mesh_only = false, print = false, help = false, version = false;
   };
 
-  CommandLine
-  parse(const int argc, char **argv)
+  CommandLine parse(const int argc, char **argv)
   {
     CommandLine line;
     for (int i = 1; i < argc; ++i)
@@ -66,8 +66,7 @@ namespace
   }
 
   /// A parameter file with one body and one pair, for people who start from nothing.
-  void
-  print_default_parameters()
+  void print_default_parameters()
   {
     ProblemParameters parameters;
     parameters.bodies.resize(2);
@@ -80,8 +79,7 @@ namespace
     parameters.print(std::cout, true);
   }
 
-  void
-  run(const CommandLine &line)
+  void run(const CommandLine &line)
   {
     const MPI_Comm             comm = MPI_COMM_WORLD;
     dealii::ConditionalOStream out(std::cout, dealii::Utilities::MPI::this_mpi_process(comm) == 0);

@@ -7,8 +7,8 @@ namespace Signorini
 {
   using namespace dealii;
 
-  void
-  NodalTransfer::reinit(NodeRows rows, const std::vector<BlockRow> &block_rows, const unsigned int n_owned_fine)
+  void NodalTransfer::reinit(NodeRows rows, const std::vector<BlockRow> &block_rows,
+                             const unsigned int n_owned_fine)
   {
     n_owned = n_owned_fine;
     block_start.assign(rows.n_rows(), no_blocks);
@@ -41,11 +41,9 @@ namespace Signorini
           }
         else
           {
-            global_columns.insert(global_columns.end(),
-                                  rows.columns.begin() + rows.start[i],
+            global_columns.insert(global_columns.end(), rows.columns.begin() + rows.start[i],
                                   rows.columns.begin() + rows.start[i + 1]);
-            weights.insert(weights.end(),
-                           rows.weights.begin() + rows.start[i],
+            weights.insert(weights.end(), rows.weights.begin() + rows.start[i],
                            rows.weights.begin() + rows.start[i + 1]);
           }
         row_start.push_back(global_columns.size());
@@ -55,8 +53,7 @@ namespace Signorini
 
 
 
-  void
-  NodalTransfer::set_block_row(const unsigned int row, const std::vector<Block> &new_blocks)
+  void NodalTransfer::set_block_row(const unsigned int row, const std::vector<Block> &new_blocks)
   {
     AssertDimension(new_blocks.size(), row_end(row) - row_begin(row));
     std::copy(new_blocks.begin(), new_blocks.end(), blocks.begin() + block_start[row]);
@@ -64,8 +61,7 @@ namespace Signorini
 
 
 
-  IndexSet
-  NodalTransfer::coarse_nodes(const NodeIndex n_coarse_nodes) const
+  IndexSet NodalTransfer::coarse_nodes(const NodeIndex n_coarse_nodes) const
   {
     std::vector<NodeIndex> nodes(global_columns);
     std::sort(nodes.begin(), nodes.end());
@@ -78,8 +74,7 @@ namespace Signorini
 
 
 
-  void
-  NodalTransfer::localize(std::shared_ptr<const NodePartition> new_coarse)
+  void NodalTransfer::localize(std::shared_ptr<const NodePartition> new_coarse)
   {
     if (global_columns.empty())
       for (unsigned int &column : columns)
@@ -97,8 +92,7 @@ namespace Signorini
 
 
 
-  void
-  NodalTransfer::prolongate(Vector &fine, const Vector &coarse_vector) const
+  void NodalTransfer::prolongate(Vector &fine, const Vector &coarse_vector) const
   {
     coarse_vector.update_ghost_values();
     const double *const x = coarse_vector.begin();
@@ -124,8 +118,7 @@ namespace Signorini
 
 
 
-  void
-  NodalTransfer::restrict_and_add(Vector &coarse_vector, const Vector &fine) const
+  void NodalTransfer::restrict_and_add(Vector &coarse_vector, const Vector &fine) const
   {
     coarse_vector.zero_out_ghost_values();
     const double *const x = fine.begin();
@@ -153,12 +146,9 @@ namespace Signorini
   namespace
   {
     /// The sparsity of the owned rows of A P, with local coarse columns.
-    void
-    product_pattern(std::vector<std::size_t>  &start,
-                    std::vector<unsigned int> &columns,
-                    const NodeBlockMatrix     &matrix,
-                    const NodalTransfer       &transfer,
-                    const unsigned int         n_coarse)
+    void product_pattern(std::vector<std::size_t> &start, std::vector<unsigned int> &columns,
+                         const NodeBlockMatrix &matrix, const NodalTransfer &transfer,
+                         const unsigned int n_coarse)
     {
       std::vector<unsigned int> seen(n_coarse, numbers::invalid_unsigned_int);
       start.assign(1, 0);
@@ -183,11 +173,8 @@ namespace Signorini
 
 
     /// For each local coarse node the owned fine rows that depend on it.
-    void
-    transpose_pattern(std::vector<std::size_t>  &start,
-                      std::vector<unsigned int> &rows,
-                      const NodalTransfer       &transfer,
-                      const unsigned int         n_coarse)
+    void transpose_pattern(std::vector<std::size_t> &start, std::vector<unsigned int> &rows,
+                           const NodalTransfer &transfer, const unsigned int n_coarse)
     {
       start.assign(n_coarse + 1, 0);
       const std::size_t end = transfer.row_end(transfer.n_owned_rows() - 1);
@@ -204,11 +191,8 @@ namespace Signorini
 
 
 
-  void
-  reinit_galerkin(NodeBlockMatrix       &coarse_matrix,
-                  const NodeBlockMatrix &matrix,
-                  NodalTransfer         &transfer,
-                  const IndexSet        &owned_coarse_nodes)
+  void reinit_galerkin(NodeBlockMatrix &coarse_matrix, const NodeBlockMatrix &matrix, NodalTransfer &transfer,
+                       const IndexSet &owned_coarse_nodes)
   {
     const MPI_Comm communicator = matrix.partition().communicator();
     const IndexSet coarse_nodes = transfer.coarse_nodes(owned_coarse_nodes.size());
@@ -254,8 +238,7 @@ namespace Signorini
 
   namespace
   {
-    inline void
-    add_scaled(double *y, const double factor, const double *x)
+    inline void add_scaled(double *y, const double factor, const double *x)
     {
       for (unsigned int c = 0; c < 9; ++c)
         y[c] += factor * x[c];
@@ -267,10 +250,10 @@ namespace Signorini
     public:
       explicit ProductRow(const unsigned int n_coarse)
         : slot(n_coarse, -1)
-      {}
+      {
+      }
 
-      void
-      compute(const NodeBlockMatrix &matrix, const NodalTransfer &transfer, const unsigned int row)
+      void compute(const NodeBlockMatrix &matrix, const NodalTransfer &transfer, const unsigned int row)
       {
         for (const unsigned int column : columns)
           slot[column] = -1;
@@ -292,15 +275,15 @@ namespace Signorini
                     for (unsigned int c = 0; c < dim; ++c)
                       for (unsigned int d = 0; d < dim; ++d)
                         target[dim * c + d] +=
-                          a[dim * c] * p[0][d] + a[dim * c + 1] * p[1][d] + a[dim * c + 2] * p[2][d];
+                            a[dim * c] * p[0][d] + a[dim * c + 1] * p[1][d] + a[dim * c + 2] * p[2][d];
                   }
               }
           }
       }
 
       /// Adds P_iI^T times this row to a row of the coarse matrix.
-      void
-      add_to(NodeBlockMatrix &coarse, const unsigned int coarse_row, const double weight, const Block *p) const
+      void add_to(NodeBlockMatrix &coarse, const unsigned int coarse_row, const double weight,
+                  const Block *p) const
       {
         const std::size_t end = coarse.row_end(coarse_row);
         for (std::size_t k = coarse.row_begin(coarse_row); k < end; ++k)
@@ -320,8 +303,7 @@ namespace Signorini
       }
 
     private:
-      double *
-      entry(const unsigned int column)
+      double *entry(const unsigned int column)
       {
         if (slot[column] < 0)
           {
@@ -340,11 +322,8 @@ namespace Signorini
 
 
 
-  void
-  compute_galerkin(NodeBlockMatrix                  &coarse_matrix,
-                   const NodeBlockMatrix            &matrix,
-                   const NodalTransfer              &transfer,
-                   const std::vector<unsigned char> &marked)
+  void compute_galerkin(NodeBlockMatrix &coarse_matrix, const NodeBlockMatrix &matrix,
+                        const NodalTransfer &transfer, const std::vector<unsigned char> &marked)
   {
     const NodePartition &coarse = coarse_matrix.partition();
     for (unsigned int i = 0; i < coarse.n_local(); ++i)
@@ -364,9 +343,7 @@ namespace Signorini
         const Block *b = transfer.row_blocks(i);
         for (std::size_t k = transfer.row_begin(i); k < transfer.row_end(i); ++k)
           if (marked.empty() || marked[transfer.column(k)])
-            product.add_to(coarse_matrix,
-                           coarse_matrix.row_of(transfer.column(k)),
-                           transfer.weight(k),
+            product.add_to(coarse_matrix, coarse_matrix.row_of(transfer.column(k)), transfer.weight(k),
                            b == nullptr ? nullptr : b + (k - transfer.row_begin(i)));
       }
     coarse_matrix.compress();
@@ -374,8 +351,8 @@ namespace Signorini
 
 
 
-  std::vector<unsigned char>
-  mark_coarse_nodes(const NodalTransfer &transfer, const std::vector<unsigned int> &fine_rows)
+  std::vector<unsigned char> mark_coarse_nodes(const NodalTransfer             &transfer,
+                                               const std::vector<unsigned int> &fine_rows)
   {
     const NodePartition &coarse = transfer.coarse_partition();
     Vector               flags;

@@ -31,11 +31,8 @@ namespace Signorini
 
 
 
-  void
-  NodeBlockMatrix::reinit(const IndexSet    &owned,
-                          const NodePattern &pattern,
-                          const IndexSet    &extra_ghosts,
-                          const MPI_Comm     communicator)
+  void NodeBlockMatrix::reinit(const IndexSet &owned, const NodePattern &pattern,
+                               const IndexSet &extra_ghosts, const MPI_Comm communicator)
   {
     const NodePartition numbering(owned, IndexSet(owned.size()), communicator);
     const unsigned int  n_owned = numbering.n_owned();
@@ -125,36 +122,33 @@ namespace Signorini
         for (std::size_t i = 0; i < header.size(); i += 2 + header[i + 1])
           for (std::size_t k = 0; k < header[i + 1]; ++k)
             receive_positions.back().second.push_back(
-              find(header[i] - nodes->first_owned(), nodes->to_local(header[i + 2 + k])));
+                find(header[i] - nodes->first_owned(), nodes->to_local(header[i + 2 + k])));
       }
   }
 
 
 
-  std::size_t
-  NodeBlockMatrix::find(const unsigned int row, const unsigned int local_column) const
+  std::size_t NodeBlockMatrix::find(const unsigned int row, const unsigned int local_column) const
   {
     const std::size_t begin = row_start[row];
     if (columns[begin] == local_column)
       return begin;
     const auto it =
-      std::lower_bound(columns.begin() + begin + 1, columns.begin() + row_start[row + 1], local_column);
+        std::lower_bound(columns.begin() + begin + 1, columns.begin() + row_start[row + 1], local_column);
     Assert(it != columns.begin() + row_start[row + 1] && *it == local_column, ExcInternalError());
     return it - columns.begin();
   }
 
 
 
-  void
-  NodeBlockMatrix::clear_row(const unsigned int row)
+  void NodeBlockMatrix::clear_row(const unsigned int row)
   {
     std::fill(values.begin() + 9 * row_start[row], values.begin() + 9 * row_start[row + 1], 0.);
   }
 
 
 
-  void
-  NodeBlockMatrix::compress()
+  void NodeBlockMatrix::compress()
   {
     if (nodes->n_ranks() == 1)
       return;
@@ -179,8 +173,7 @@ namespace Signorini
 
 
 
-  void
-  NodeBlockMatrix::vmult(Vector &dst, const Vector &src) const
+  void NodeBlockMatrix::vmult(Vector &dst, const Vector &src) const
   {
     src.update_ghost_values();
     const double *const       x = src.begin();
@@ -207,8 +200,7 @@ namespace Signorini
 
 
 
-  std::size_t
-  NodeBlockMatrix::memory_consumption() const
+  std::size_t NodeBlockMatrix::memory_consumption() const
   {
     return values.capacity() * sizeof(double) + columns.capacity() * sizeof(unsigned int) +
            row_start.capacity() * sizeof(std::size_t);

@@ -12,8 +12,7 @@ namespace Signorini
   namespace
   {
     /// The index set of the three components of every node of a set.
-    IndexSet
-    component_set(const NodeIndex n_nodes, const std::vector<NodeIndex> &nodes)
+    IndexSet component_set(const NodeIndex n_nodes, const std::vector<NodeIndex> &nodes)
     {
       IndexSet set(dim * n_nodes);
       for (std::size_t i = 0; i < nodes.size();)
@@ -48,13 +47,13 @@ namespace Signorini
 
     IndexSet owned_dofs(dim * n_global());
     owned_dofs.add_range(dim * begin, dim * (begin + owned_size));
-    dofs = std::make_shared<Utilities::MPI::Partitioner>(owned_dofs, component_set(n_global(), ghost_list), comm);
+    dofs = std::make_shared<Utilities::MPI::Partitioner>(owned_dofs, component_set(n_global(), ghost_list),
+                                                         comm);
   }
 
 
 
-  unsigned int
-  NodePartition::to_local(const NodeIndex node) const
+  unsigned int NodePartition::to_local(const NodeIndex node) const
   {
     if (owns(node))
       return static_cast<unsigned int>(node - begin);
@@ -66,8 +65,7 @@ namespace Signorini
 
 
 
-  unsigned int
-  NodePartition::owner(const NodeIndex node) const
+  unsigned int NodePartition::owner(const NodeIndex node) const
   {
     return static_cast<unsigned int>(std::upper_bound(rank_begin.begin(), rank_begin.end(), node) -
                                      rank_begin.begin()) -
@@ -76,8 +74,7 @@ namespace Signorini
 
 
 
-  std::vector<unsigned int>
-  NodePartition::shared_nodes() const
+  std::vector<unsigned int> NodePartition::shared_nodes() const
   {
     std::vector<unsigned int> nodes;
     for (const auto &range : dofs->import_indices())

@@ -18,14 +18,12 @@ namespace Signorini
       std::vector<double>       weights;
 
       template <class Archive>
-      void
-      serialize(Archive &archive, const unsigned int)
+      void serialize(Archive &archive, const unsigned int)
       {
         archive &lengths &columns &weights;
       }
 
-      void
-      append(const NodeRows &rows, const std::size_t row)
+      void append(const NodeRows &rows, const std::size_t row)
       {
         const std::size_t begin = rows.start[row], end = rows.start[row + 1];
         lengths.push_back(static_cast<unsigned int>(end - begin));
@@ -33,8 +31,7 @@ namespace Signorini
         weights.insert(weights.end(), rows.weights.begin() + begin, rows.weights.begin() + end);
       }
 
-      void
-      unpack(NodeRows &rows) const
+      void unpack(NodeRows &rows) const
       {
         rows.columns.insert(rows.columns.end(), columns.begin(), columns.end());
         rows.weights.insert(rows.weights.end(), weights.begin(), weights.end());
@@ -45,8 +42,8 @@ namespace Signorini
 
     /// The part of a sorted list of nodes that this rank owns. The ranges of the ranks follow each
     /// other, so the pieces of all ranks, in the order of the ranks, make up the list.
-    std::pair<std::size_t, std::size_t>
-    owned_range(const NodePartition &partition, const std::vector<NodeIndex> &nodes)
+    std::pair<std::size_t, std::size_t> owned_range(const NodePartition          &partition,
+                                                    const std::vector<NodeIndex> &nodes)
     {
       const auto begin = std::lower_bound(nodes.begin(), nodes.end(), partition.first_owned());
       const auto end   = std::lower_bound(begin, nodes.end(), partition.first_owned() + partition.n_owned());
@@ -54,8 +51,7 @@ namespace Signorini
     }
 
     template <typename T>
-    std::vector<T>
-    concatenate(const NodePartition &partition, const std::vector<T> &mine)
+    std::vector<T> concatenate(const NodePartition &partition, const std::vector<T> &mine)
     {
       if (partition.n_ranks() == 1)
         return mine;
@@ -68,8 +64,7 @@ namespace Signorini
 
 
 
-  NodeRows
-  import_ghost_rows(const NodePartition &partition, NodeRows rows)
+  NodeRows import_ghost_rows(const NodePartition &partition, NodeRows rows)
   {
     AssertDimension(rows.n_rows(), partition.n_owned());
     if (partition.n_ranks() == 1)
@@ -92,8 +87,8 @@ namespace Signorini
 
 
 
-  NodeRows
-  replicate_rows(const NodePartition &partition, const NodeRows &rows, const std::vector<NodeIndex> &nodes)
+  NodeRows replicate_rows(const NodePartition &partition, const NodeRows &rows,
+                          const std::vector<NodeIndex> &nodes)
   {
     const auto [begin, end] = owned_range(partition, nodes);
     PackedRows mine;
@@ -110,8 +105,8 @@ namespace Signorini
 
 
 
-  std::vector<Vector3>
-  replicate_values(const NodePartition &partition, const Vector &field, const std::vector<NodeIndex> &nodes)
+  std::vector<Vector3> replicate_values(const NodePartition &partition, const Vector &field,
+                                        const std::vector<NodeIndex> &nodes)
   {
     const auto [begin, end] = owned_range(partition, nodes);
     std::vector<double> mine;
@@ -128,10 +123,8 @@ namespace Signorini
 
 
 
-  std::vector<FixedMask>
-  replicate_masks(const NodePartition          &partition,
-                  const std::vector<FixedMask> &owned,
-                  const std::vector<NodeIndex> &nodes)
+  std::vector<FixedMask> replicate_masks(const NodePartition &partition, const std::vector<FixedMask> &owned,
+                                         const std::vector<NodeIndex> &nodes)
   {
     const auto [begin, end] = owned_range(partition, nodes);
     std::vector<FixedMask> mine;
@@ -142,8 +135,8 @@ namespace Signorini
 
 
 
-  std::vector<FixedMask>
-  import_ghost_masks(const NodePartition &partition, const std::vector<FixedMask> &owned)
+  std::vector<FixedMask> import_ghost_masks(const NodePartition          &partition,
+                                            const std::vector<FixedMask> &owned)
   {
     Vector flags;
     partition.reinit(flags);

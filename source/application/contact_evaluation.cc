@@ -15,8 +15,8 @@ namespace Signorini
   namespace
   {
     /// Displacements of all vertices of a surface, on all ranks.
-    std::vector<Vector3>
-    vertex_displacements(const ContactSurface &surface, const NodePartition &partition, const Vector &u)
+    std::vector<Vector3> vertex_displacements(const ContactSurface &surface, const NodePartition &partition,
+                                              const Vector &u)
     {
       std::vector<NodeIndex> nodes(surface.vertex_node);
       std::sort(nodes.begin(), nodes.end());
@@ -31,11 +31,8 @@ namespace Signorini
     constexpr double samples[4][3] = {{1., 0., 0.}, {0., 1., 0.}, {0., 0., 1.}, {1. / 3., 1. / 3., 1. / 3.}};
 
     template <typename T>
-    T
-    interpolate(const std::vector<T>                       &values,
-                const std::array<unsigned int, 3>          &triangle,
-                const std::array<std::array<double, 3>, 3> &corners,
-                const double (&weights)[3])
+    T interpolate(const std::vector<T> &values, const std::array<unsigned int, 3> &triangle,
+                  const std::array<std::array<double, 3>, 3> &corners, const double (&weights)[3])
     {
       T result = T();
       for (unsigned int c = 0; c < 3; ++c)
@@ -44,8 +41,7 @@ namespace Signorini
       return result;
     }
 
-    Vector3
-    sum(const Vector3 &v, const MPI_Comm comm)
+    Vector3 sum(const Vector3 &v, const MPI_Comm comm)
     {
       Vector3 result;
       for (unsigned int c = 0; c < dim; ++c)
@@ -56,8 +52,7 @@ namespace Signorini
 
 
 
-  void
-  ContactProblem::collect_pairs()
+  void ContactProblem::collect_pairs()
   {
     Discretization &d = discretization;
     results.pairs.clear();
@@ -91,26 +86,30 @@ namespace Signorini
               result.max_pressure = std::max(result.max_pressure, d.pressure[row]);
               if (d.active[row])
                 result.contact_area += d.coupling.weight[row];
-              results.pressure.push_back(
-                {coupling.positions[i], d.coupling.weight[row], d.pressure[row], d.opening[row], d.active[row] != 0});
+              results.pressure.push_back({coupling.positions[i], d.coupling.weight[row], d.pressure[row],
+                                          d.opening[row], d.active[row] != 0});
             }
 
-        const auto   u_non = vertex_displacements(pair.nonmortar, *d.partition, d.displacement);
-        const auto   u_mor = vertex_displacements(pair.mortar, *d.partition, d.displacement);
-        double       min_gap = std::numeric_limits<double>::max(), min_initial = min_gap;
-        const auto  &non = pair.nonmortar.mesh, &mor = pair.mortar.mesh;
-        std::vector<Vector3> x_non(non.vertices.begin(), non.vertices.end()), x_mor(mor.vertices.begin(), mor.vertices.end());
+        const auto           u_non   = vertex_displacements(pair.nonmortar, *d.partition, d.displacement);
+        const auto           u_mor   = vertex_displacements(pair.mortar, *d.partition, d.displacement);
+        double               min_gap = std::numeric_limits<double>::max(), min_initial = min_gap;
+        const auto          &non = pair.nonmortar.mesh, &mor = pair.mortar.mesh;
+        std::vector<Vector3> x_non(non.vertices.begin(), non.vertices.end()),
+            x_mor(mor.vertices.begin(), mor.vertices.end());
         for (const OverlayTriangle &cell : pair.mapping->overlay())
           for (const auto &w : samples)
             {
-              const auto   &t = non.triangles[cell.nonmortar_triangle], &m = mor.triangles[cell.mortar_triangle];
-              Vector3       n = interpolate(non.vertex_normals, t, cell.nonmortar, w);
+              const auto &t = non.triangles[cell.nonmortar_triangle],
+                         &m = mor.triangles[cell.mortar_triangle];
+              Vector3 n     = interpolate(non.vertex_normals, t, cell.nonmortar, w);
               n /= n.norm();
               const Vector3 x = interpolate(x_non, t, cell.nonmortar, w);
-              const double  g = pair.prescribed_gap ? pair.prescribed_gap(Point<3>(x)) : n * (interpolate(x_mor, m, cell.mortar, w) - x);
-              const double  relative = n * (interpolate(u_non, t, cell.nonmortar, w) - interpolate(u_mor, m, cell.mortar, w));
-              min_initial            = std::min(min_initial, g);
-              min_gap                = std::min(min_gap, g - relative);
+              const double  g = pair.prescribed_gap ? pair.prescribed_gap(Point<3>(x))
+                                                    : n * (interpolate(x_mor, m, cell.mortar, w) - x);
+              const double  relative =
+                  n * (interpolate(u_non, t, cell.nonmortar, w) - interpolate(u_mor, m, cell.mortar, w));
+              min_initial = std::min(min_initial, g);
+              min_gap     = std::min(min_gap, g - relative);
             }
         result.min_gap             = Utilities::MPI::min(min_gap, comm);
         result.max_penetration     = std::max(0., -result.min_gap);
@@ -123,8 +122,7 @@ namespace Signorini
 
 
 
-  void
-  ContactProblem::collect_reactions()
+  void ContactProblem::collect_reactions()
   {
     Discretization &d        = discretization;
     Vector          residual = physical_residual(bodies, *d.space, *d.partition, loads, d.displacement);
@@ -158,20 +156,20 @@ namespace Signorini
               unbalanced += f * f;
           }
       }
-    results.certificate.equilibrium = scale > 0. ? std::sqrt(Utilities::MPI::sum(unbalanced, comm)) / scale : 0.;
+    results.certificate.equilibrium =
+        scale > 0. ? std::sqrt(Utilities::MPI::sum(unbalanced, comm)) / scale : 0.;
     for (std::size_t i = 0; i < reactions.size(); ++i)
       results.boundaries.push_back(
-        {bodies.body_name(loads.dirichlet[i].body), loads.dirichlet[i].boundary, sum(reactions[i], comm)});
+          {bodies.body_name(loads.dirichlet[i].body), loads.dirichlet[i].boundary, sum(reactions[i], comm)});
   }
 
 
 
-  void
-  ContactProblem::certify()
+  void ContactProblem::certify()
   {
-    Discretization &d = discretization;
-    Certificate    &c = results.certificate;
-    const double    u = d.displacement.linfty_norm();
+    Discretization &d       = discretization;
+    Certificate    &c       = results.certificate;
+    const double    u       = d.displacement.linfty_norm();
     double          largest = 0., tension = 0., penetration = 0., product = 0.;
     for (std::size_t row = 0; row < d.coupling.n_rows(); ++row)
       {
@@ -189,7 +187,8 @@ namespace Signorini
     for (const PairResult &pair : results.pairs)
       {
         if (pair.force.norm() > 0.)
-          c.force_balance = std::max(c.force_balance, (pair.force + pair.force_on_mortar).norm() / pair.force.norm());
+          c.force_balance =
+              std::max(c.force_balance, (pair.force + pair.force_on_mortar).norm() / pair.force.norm());
         if (u > 0.)
           c.geometric_penetration = std::max(c.geometric_penetration, pair.max_penetration / u);
         std::size_t active = 0;
@@ -202,13 +201,13 @@ namespace Signorini
 
 
 
-  void
-  ContactProblem::collect_probes()
+  void ContactProblem::collect_probes()
   {
     Discretization          &d = discretization;
     std::array<NodeIndex, 8> nodes;
     for (unsigned int b = 0; b < bodies.n_bodies(); ++b)
-      for (const auto &[name, text] : split_named_entries(parameters.probes[b], "Body " + bodies.body_name(b) + "/Probes"))
+      for (const auto &[name, text] :
+           split_named_entries(parameters.probes[b], "Body " + bodies.body_name(b) + "/Probes"))
         {
           const std::string where   = "Body " + bodies.body_name(b) + "/Probes, \"" + name + "\"";
           const auto        entries = split_vector(text, where);
@@ -243,20 +242,21 @@ namespace Signorini
                 const auto values = Hexahedron::shape_values(reference);
                 for (unsigned int v = 0; v < 8; ++v)
                   for (unsigned int c = 0; c < dim; ++c)
-                    value[c] += values[v] * d.displacement.local_element(dim * d.partition->to_local(nodes[v]) + c);
+                    value[c] +=
+                        values[v] * d.displacement.local_element(dim * d.partition->to_local(nodes[v]) + c);
               }
           const auto nearest = Utilities::MPI::min_max_avg(best, comm);
           if (!(nearest.min < .05))
             throw InputError(where + ": the point lies outside of the body.");
           const bool mine = Utilities::MPI::this_mpi_process(comm) == nearest.min_index;
-          results.probes.push_back({bodies.body_name(b) + ": " + name, point, sum(mine ? value : Vector3(), comm)});
+          results.probes.push_back(
+              {bodies.body_name(b) + ": " + name, point, sum(mine ? value : Vector3(), comm)});
         }
   }
 
 
 
-  void
-  ContactProblem::finish()
+  void ContactProblem::finish()
   {
     collect_pairs();
     collect_reactions();
@@ -266,8 +266,7 @@ namespace Signorini
 
 
 
-  void
-  ContactProblem::describe()
+  void ContactProblem::describe()
   {
     setup_space();
     CycleResult cycle;
@@ -300,14 +299,16 @@ namespace Signorini
                         extent.high[c] = std::max(extent.high[c], x[v][c]);
                       }
                   }
-                extent.area += .5 * (cross_product_3d(x[1] - x[0], x[2] - x[0]).norm() + cross_product_3d(x[3] - x[1], x[3] - x[2]).norm());
+                extent.area += .5 * (cross_product_3d(x[1] - x[0], x[2] - x[0]).norm() +
+                                     cross_product_3d(x[3] - x[1], x[3] - x[2]).norm());
               }
         }
     for (unsigned int b = 0; b < bodies.n_bodies(); ++b)
       {
         const std::size_t n_cells = Utilities::MPI::sum(cells[b], comm);
         const Material   &m       = bodies.material(b);
-        out << "body " << bodies.body_name(b) << ": " << n_cells << " cells, E = " << parameters.bodies[m.body].young
+        out << "body " << bodies.body_name(b) << ": " << n_cells
+            << " cells, E = " << parameters.bodies[m.body].young
             << ", nu = " << parameters.bodies[m.body].poisson << std::endl;
         for (unsigned int i = 0; i < bodies.boundary_names(b).size(); ++i)
           {
@@ -319,15 +320,16 @@ namespace Signorini
                 low[c]  = Utilities::MPI::min(e.low[c], comm);
                 high[c] = Utilities::MPI::max(e.high[c], comm);
               }
-            out << "  boundary " << bodies.boundary_names(b)[i] << ": area " << area << ", box (" << low << ") to (" << high << ")"
-                << std::endl;
+            out << "  boundary " << bodies.boundary_names(b)[i] << ": area " << area << ", box (" << low
+                << ") to (" << high << ")" << std::endl;
           }
       }
     for (unsigned int p = 0; p < d.pairs.size(); ++p)
       {
         const auto &gaps = d.couplings[p].gaps;
-        out << "pair " << d.pairs[p].name << ": nonmortar " << d.pairs[p].nonmortar_name << ", mortar " << d.pairs[p].mortar_name
-            << ", " << gaps.size() << " contact nodes, gap " << *std::min_element(gaps.begin(), gaps.end()) << " to "
+        out << "pair " << d.pairs[p].name << ": nonmortar " << d.pairs[p].nonmortar_name << ", mortar "
+            << d.pairs[p].mortar_name << ", " << gaps.size() << " contact nodes, gap "
+            << *std::min_element(gaps.begin(), gaps.end()) << " to "
             << *std::max_element(gaps.begin(), gaps.end()) << ", coverage "
             << d.couplings[p].covered_area / d.couplings[p].area << std::endl;
       }

@@ -16,8 +16,7 @@ namespace Signorini
   namespace
   {
     /// "body: boundary".
-    std::pair<std::string, std::string>
-    split_side(const std::string &text, const std::string &where)
+    std::pair<std::string, std::string> split_side(const std::string &text, const std::string &where)
     {
       const std::size_t colon = text.find(':');
       if (colon == std::string::npos)
@@ -25,8 +24,7 @@ namespace Signorini
       return {Utilities::trim(text.substr(0, colon)), Utilities::trim(text.substr(colon + 1))};
     }
 
-    double
-    average_face_area(const ContactSurface &surface)
+    double average_face_area(const ContactSurface &surface)
     {
       double area = 0.;
       for (unsigned int t = 0; t < surface.mesh.triangles.size(); ++t)
@@ -37,7 +35,8 @@ namespace Signorini
 
 
 
-  ContactProblem::ContactProblem(ProblemParameters &parameters, const MPI_Comm communicator, ConditionalOStream &out)
+  ContactProblem::ContactProblem(ProblemParameters &parameters, const MPI_Comm communicator,
+                                 ConditionalOStream &out)
     : parameters(parameters)
     , comm(communicator)
     , out(out)
@@ -55,8 +54,7 @@ namespace Signorini
 
 
 
-  void
-  ContactProblem::note(const std::string &text)
+  void ContactProblem::note(const std::string &text)
   {
     if (std::find(results.notes.begin(), results.notes.end(), text) != results.notes.end())
       return;
@@ -67,20 +65,19 @@ namespace Signorini
 
 
 
-  void
-  ContactProblem::define_pairs()
+  void ContactProblem::define_pairs()
   {
     for (const PairParameters &p : parameters.pairs)
       {
         PairDefinition    definition;
-        const std::string section = "Pair " + p.name + "/";
-        definition.parameters     = p;
+        const std::string section     = "Pair " + p.name + "/";
+        definition.parameters         = p;
         const std::string *sides[2]   = {&p.first, &p.second};
         const std::string *regions[2] = {&p.first_region, &p.second_region};
         const char        *names[2]   = {"First", "Second"};
         for (unsigned int i = 0; i < 2; ++i)
           {
-            const std::string where = section + names[i];
+            const std::string where     = section + names[i];
             const auto [body, boundary] = split_side(*sides[i], where);
             definition.body[i]          = bodies.body_index(body, where);
             definition.boundary[i]      = boundary;
@@ -107,8 +104,7 @@ namespace Signorini
 
 
 
-  void
-  ContactProblem::setup_space()
+  void ContactProblem::setup_space()
   {
     Discretization &d = discretization;
     d.space           = std::make_unique<NodalSpace>(bodies.triangulation());
@@ -118,10 +114,11 @@ namespace Signorini
 
 
 
-  unsigned int
-  ContactProblem::choose_nonmortar(const PairDefinition &definition, const ContactSurface (&surfaces)[2])
+  unsigned int ContactProblem::choose_nonmortar(const PairDefinition &definition,
+                                                const ContactSurface (&surfaces)[2])
   {
-    const double young[2] = {parameters.bodies[definition.body[0]].young, parameters.bodies[definition.body[1]].young};
+    const double young[2] = {parameters.bodies[definition.body[0]].young,
+                             parameters.bodies[definition.body[1]].young};
     unsigned int softer   = 0;
     if (std::abs(young[0] - young[1]) > 1e-6 * std::max(young[0], young[1]))
       softer = young[0] < young[1] ? 0 : 1;
@@ -142,23 +139,22 @@ namespace Signorini
 
 
 
-  ContactPair
-  ContactProblem::make_pair(const PairDefinition &definition, CycleResult &cycle)
+  ContactPair ContactProblem::make_pair(const PairDefinition &definition, CycleResult &cycle)
   {
     Discretization &d = discretization;
     Timer           time;
     ContactSurface  surfaces[2];
     for (unsigned int i = 0; i < 2; ++i)
       surfaces[i] = extract_contact_surface(
-        *d.space,
-        bodies.boundary_ids(definition.body[i], definition.boundary[i]),
-        [&](const NodeIndex node) { return d.dirichlet.mask[d.space->relevant().index_within_set(node)]; },
-        definition.has_region[i] ? [&](const Point<3> &p) { return definition.region[i](p) > 0.; } :
-                                   std::function<bool(const Point<3> &)>());
+          *d.space, bodies.boundary_ids(definition.body[i], definition.boundary[i]),
+          [&](const NodeIndex node) { return d.dirichlet.mask[d.space->relevant().index_within_set(node)]; },
+          definition.has_region[i] ? [&](const Point<3> &p) { return definition.region[i](p) > 0.; }
+                                   : std::function<bool(const Point<3> &)>());
     for (unsigned int i = 0; i < 2; ++i)
       if (surfaces[i].faces.empty())
-        throw InputError("Pair " + definition.parameters.name + ": the boundary \"" + definition.boundary[i] + "\" of body \"" +
-                         bodies.body_name(definition.body[i]) + "\" has no faces in its region.");
+        throw InputError("Pair " + definition.parameters.name + ": the boundary \"" + definition.boundary[i] +
+                         "\" of body \"" + bodies.body_name(definition.body[i]) +
+                         "\" has no faces in its region.");
 
     const unsigned int non = choose_nonmortar(definition, surfaces);
     ContactPair        pair;
@@ -175,24 +171,26 @@ namespace Signorini
 
     time.restart();
     const unsigned int rank = Utilities::MPI::this_mpi_process(comm);
-    pair.mapping            = std::make_unique<ContactMapping>(pair.nonmortar.mesh, pair.mortar.mesh, [&](const unsigned int t) {
-      return pair.nonmortar.faces[pair.nonmortar.triangle_face[t]].owner == rank;
-    });
+    pair.mapping =
+        std::make_unique<ContactMapping>(pair.nonmortar.mesh, pair.mortar.mesh, [&](const unsigned int t) {
+          return pair.nonmortar.faces[pair.nonmortar.triangle_face[t]].owner == rank;
+        });
     if (Utilities::MPI::sum(pair.mapping->report().n_cells, comm) == 0)
-      throw InputError("Pair " + pair.name + ": the surfaces \"" + pair.nonmortar_name + "\" and \"" + pair.mortar_name +
+      throw InputError("Pair " + pair.name + ": the surfaces \"" + pair.nonmortar_name + "\" and \"" +
+                       pair.mortar_name +
                        "\" do not face each other anywhere: there is not a single overlay cell.");
     cycle.times["mapping"] += time.wall_time();
 
     time.restart();
-    pair.moments = compute_face_moments(pair.nonmortar, pair.mortar, pair.mapping->overlay(), pair.prescribed_gap, comm);
+    pair.moments =
+        compute_face_moments(pair.nonmortar, pair.mortar, pair.mapping->overlay(), pair.prescribed_gap, comm);
     cycle.times["mortar"] += time.wall_time();
     return pair;
   }
 
 
 
-  void
-  ContactProblem::setup_contact(CycleResult &cycle)
+  void ContactProblem::setup_contact(CycleResult &cycle)
   {
     Discretization &d = discretization;
     d.pairs.clear();
@@ -218,8 +216,9 @@ namespace Signorini
               excluded.insert(mortar_nodes[q].begin(), mortar_nodes[q].end());
           }
         const ContactPair &pair = d.pairs[p];
-        d.couplings.push_back(couple(pair.nonmortar, pair.mortar, pair.moments, excluded, static_cast<bool>(pair.prescribed_gap)));
-        const PairCoupling &c = d.couplings.back();
+        d.couplings.push_back(couple(pair.nonmortar, pair.mortar, pair.moments, excluded,
+                                     static_cast<bool>(pair.prescribed_gap)));
+        const PairCoupling                 &c = d.couplings.back();
         std::map<std::string, unsigned int> reasons;
         for (const DroppedNode &node : c.dropped)
           ++reasons[to_string(node.reason)];
@@ -227,7 +226,8 @@ namespace Signorini
           note("pair " + pair.name + ", cycle " + std::to_string(cycle.cycle) + ": " + std::to_string(n) +
                " nonmortar nodes without multiplier (" + reason + ").");
         if (c.lost_area > 1e-12 * c.area)
-          note("pair " + pair.name + ": an area of " + std::to_string(c.lost_area) + " is covered but carries no multiplier.");
+          note("pair " + pair.name + ": an area of " + std::to_string(c.lost_area) +
+               " is covered but carries no multiplier.");
         const double smallest = c.gaps.empty() ? 0. : *std::min_element(c.gaps.begin(), c.gaps.end());
         double       size     = 0.;
         for (const Point<3> &x : c.positions)
@@ -253,17 +253,14 @@ namespace Signorini
         d.gaps.push_back(d.couplings[p].gaps[row]);
       }
     d.transformation =
-      std::make_unique<BasisTransformation>(*d.space, *d.partition, d.dirichlet, d.coupling, d.row_masks);
+        std::make_unique<BasisTransformation>(*d.space, *d.partition, d.dirichlet, d.coupling, d.row_masks);
     cycle.times["mortar"] += time.wall_time();
   }
 
 
 
-  void
-  ContactProblem::evaluate_contact(const Vector              &v,
-                                   const ObstacleProblem     &problem,
-                                   const NodeBlockMatrix     &matrix,
-                                   const std::vector<double> &gaps)
+  void ContactProblem::evaluate_contact(const Vector &v, const ObstacleProblem &problem,
+                                        const NodeBlockMatrix &matrix, const std::vector<double> &gaps)
   {
     Discretization &d = discretization;
     Vector          residual;
@@ -288,20 +285,20 @@ namespace Signorini
 
 
 
-  void
-  ContactProblem::solve_cycle(CycleResult &cycle)
+  void ContactProblem::solve_cycle(CycleResult &cycle)
   {
     Discretization &d = discretization;
     Timer           time;
-    LinearSystem    system = assemble_elasticity(bodies, *d.space, loads, d.dirichlet, d.coupling, d.row_masks);
+    LinearSystem system = assemble_elasticity(bodies, *d.space, loads, d.dirichlet, d.coupling, d.row_masks);
     ObstacleProblem problem;
     problem.rhs = std::move(system.rhs);
     cycle.times["assembly"] += time.wall_time();
 
     time.restart();
-    const LevelSpaces  levels(*d.space, loads);
-    auto               hierarchy = std::make_unique<MultigridHierarchy>(build_hierarchy(std::move(system), levels, d.coupling));
-    cycle.levels                 = levels.n_levels();
+    const LevelSpaces levels(*d.space, loads);
+    auto              hierarchy =
+        std::make_unique<MultigridHierarchy>(build_hierarchy(std::move(system), levels, d.coupling));
+    cycle.levels = levels.n_levels();
     cycle.times["hierarchy"] += time.wall_time();
 
     time.restart();
@@ -328,10 +325,11 @@ namespace Signorini
         d.partition->reinit(start);
         start = d.transformation->to_displacement(v, matrix.partition());
       }
-    const auto monitor = [&](const unsigned int iteration, const double correction, const unsigned int active) {
+    const auto monitor = [&](const unsigned int iteration, const double correction,
+                             const unsigned int active) {
       if (parameters.verbosity > 1)
-        out << "    iteration " << std::setw(3) << iteration << "   correction " << std::scientific << std::setprecision(3)
-            << correction << std::defaultfloat << "   active " << active << std::endl;
+        out << "    iteration " << std::setw(3) << iteration << "   correction " << std::scientific
+            << std::setprecision(3) << correction << std::defaultfloat << "   active " << active << std::endl;
     };
     TruncatedNewtonMultigrid solver(*hierarchy, parameters.solver);
     cycle.nonlinear = solver.solve(v, problem, monitor);
@@ -343,9 +341,9 @@ namespace Signorini
       }
 
     evaluate_contact(v, problem, matrix, gaps);
-    cycle.contact_nodes  = d.coupling.n_rows();
-    cycle.active_nodes   = std::accumulate(d.active.begin(), d.active.end(), std::size_t(0));
-    d.displacement       = d.transformation->to_displacement(v, matrix.partition());
+    cycle.contact_nodes = d.coupling.n_rows();
+    cycle.active_nodes  = std::accumulate(d.active.begin(), d.active.end(), std::size_t(0));
+    d.displacement      = d.transformation->to_displacement(v, matrix.partition());
     if (parameters.measure_sweeps && cycle.cycle == refinement.n_cycles())
       measure_sweeps(cycle, *hierarchy, problem.rhs);
     if (parameters.compare_linear && !d.pairs.empty())
@@ -358,15 +356,14 @@ namespace Signorini
 
 
 
-  void
-  ContactProblem::solve_linear(CycleResult &cycle, const LevelSpaces &levels, const Vector &start)
+  void ContactProblem::solve_linear(CycleResult &cycle, const LevelSpaces &levels, const Vector &start)
   {
     Discretization              &d = discretization;
     Timer                        time;
     const InterfaceCoupling      none;
     const std::vector<FixedMask> no_masks;
-    LinearSystem                 system = assemble_elasticity(bodies, *d.space, loads, d.dirichlet, none, no_masks);
-    ObstacleProblem              problem;
+    LinearSystem    system = assemble_elasticity(bodies, *d.space, loads, d.dirichlet, none, no_masks);
+    ObstacleProblem problem;
     problem.rhs = std::move(system.rhs);
     // The contact stresses as loads: -D λ n on the nonmortar side, +Mᵀ λ n on the mortar side.
     const auto add = [&](const NodeIndex node, const Vector3 &force) {
@@ -408,8 +405,7 @@ namespace Signorini
 
 
 
-  void
-  ContactProblem::measure_sweeps(CycleResult &cycle, MultigridHierarchy &hierarchy, const Vector &rhs)
+  void ContactProblem::measure_sweeps(CycleResult &cycle, MultigridHierarchy &hierarchy, const Vector &rhs)
   {
     ProjectedGaussSeidel &smoother = *hierarchy.finest().smoother;
     Vector                v;
@@ -441,15 +437,15 @@ namespace Signorini
         times.push_back(time.wall_time());
       }
     std::sort(times.begin(), times.end());
-    volatile double keep        = sum;
+    volatile double keep = sum;
     (void)keep;
-    cycle.read_bytes_per_second = Utilities::MPI::sum(static_cast<double>(n * sizeof(double)), comm) / times[2];
+    cycle.read_bytes_per_second =
+        Utilities::MPI::sum(static_cast<double>(n * sizeof(double)), comm) / times[2];
   }
 
 
 
-  void
-  ContactProblem::refine()
+  void ContactProblem::refine()
   {
     Discretization &d = discretization;
     // The numbering of the nodes follows from the triangulation alone, so a second handler of dofs, which
@@ -457,10 +453,10 @@ namespace Signorini
     const FE_Q<3> fe(1);
     DoFHandler<3> dofs(bodies.triangulation());
     dofs.distribute_dofs(fe);
-    const bool                                               transfers = d.displacement.size() > 0;
-    std::array<Vector, 3>                                    components;
-    std::vector<const Vector *>                              old;
-    parallel::distributed::SolutionTransfer<3, Vector>       transfer(dofs);
+    const bool                                         transfers = d.displacement.size() > 0;
+    std::array<Vector, 3>                              components;
+    std::vector<const Vector *>                        old;
+    parallel::distributed::SolutionTransfer<3, Vector> transfer(dofs);
     bodies.triangulation().prepare_coarsening_and_refinement();
     if (transfers)
       {
@@ -498,8 +494,7 @@ namespace Signorini
 
 
 
-  void
-  ContactProblem::run()
+  void ContactProblem::run()
   {
     for (unsigned int cycle = 0; cycle <= refinement.n_cycles(); ++cycle)
       {
@@ -523,15 +518,18 @@ namespace Signorini
         result.dofs  = dim * discretization.space->n_conforming_nodes();
         result.times["mesh"] += time.wall_time();
         if (parameters.verbosity > 0)
-          out << "cycle " << cycle << ": " << result.cells << " cells, " << result.dofs << " dofs" << std::endl;
+          out << "cycle " << cycle << ": " << result.cells << " cells, " << result.dofs << " dofs"
+              << std::endl;
         setup_contact(result);
         solve_cycle(result);
         if (parameters.verbosity > 0)
           {
             out << "  " << result.nonlinear.iterations << " iterations";
             if (result.has_linear)
-              out << " (linear multigrid " << result.linear.iterations << ", difference " << result.difference << ")";
-            out << ", " << result.active_nodes << " of " << result.contact_nodes << " contact nodes active" << std::endl;
+              out << " (linear multigrid " << result.linear.iterations << ", difference " << result.difference
+                  << ")";
+            out << ", " << result.active_nodes << " of " << result.contact_nodes << " contact nodes active"
+                << std::endl;
           }
       }
     finish();
@@ -540,8 +538,7 @@ namespace Signorini
 
 
 
-  void
-  ContactProblem::build_meshes()
+  void ContactProblem::build_meshes()
   {
     setup_space();
     CycleResult cycle;

@@ -12,28 +12,27 @@ namespace Signorini
 {
   using namespace dealii;
 
-  void
-  PairParameters::add_parameters(ParameterHandler &prm)
+  void PairParameters::add_parameters(ParameterHandler &prm)
   {
     prm.add_parameter("First", first, "One surface of the pair, \"body: boundary\".");
     prm.add_parameter("Second", second, "The other surface, \"body: boundary\".");
-    prm.add_parameter("Nonmortar",
-                      nonmortar,
-                      "Which surface carries the contact pressure. auto picks the softer body (then the finer "
-                      "mesh): with the stiffer one the solver needs many times more iterations.",
-                      Patterns::Selection("auto|first|second"));
-    prm.add_parameter("Initial gap",
-                      initial_gap,
-                      "geometry, or an expression in x, y, z (length) evaluated on the nonmortar surface, for "
-                      "crowned surfaces that are meshed flat.");
-    prm.add_parameter("Initial penetration",
-                      penetration,
-                      "What to do where the surfaces overlap at the start: resolve it as an interference fit, or "
-                      "refuse to compute.",
-                      Patterns::Selection("resolve|refuse"));
-    prm.add_parameter("First region",
-                      first_region,
-                      "Expression in x, y, z that is positive where the first surface may touch (a face belongs to it if a corner or its centre does); "
+    prm.add_parameter(
+        "Nonmortar", nonmortar,
+        "Which surface carries the contact pressure. auto picks the softer body (then the finer "
+        "mesh): with the stiffer one the solver needs many times more iterations.",
+        Patterns::Selection("auto|first|second"));
+    prm.add_parameter(
+        "Initial gap", initial_gap,
+        "geometry, or an expression in x, y, z (length) evaluated on the nonmortar surface, for "
+        "crowned surfaces that are meshed flat.");
+    prm.add_parameter(
+        "Initial penetration", penetration,
+        "What to do where the surfaces overlap at the start: resolve it as an interference fit, or "
+        "refuse to compute.",
+        Patterns::Selection("resolve|refuse"));
+    prm.add_parameter("First region", first_region,
+                      "Expression in x, y, z that is positive where the first surface may touch (a face "
+                      "belongs to it if a corner or its centre does); "
                       "empty for everywhere.");
     prm.add_parameter("Second region", second_region, "The same for the second surface.");
   }
@@ -46,21 +45,18 @@ namespace Signorini
     {
       std::string title, bodies, pairs;
 
-      void
-      add_parameters(ParameterHandler &prm)
+      void add_parameters(ParameterHandler &prm)
       {
         prm.add_parameter("Title", title, "Text that appears in the results.");
-        prm.add_parameter("Bodies",
-                          bodies,
+        prm.add_parameter("Bodies", bodies,
                           "Names of the bodies, separated by commas. Each has a subsection \"Body NAME\".");
-        prm.add_parameter("Contact pairs",
-                          pairs,
-                          "Names of the contact pairs, separated by commas. Each has a subsection \"Pair NAME\".");
+        prm.add_parameter(
+            "Contact pairs", pairs,
+            "Names of the contact pairs, separated by commas. Each has a subsection \"Pair NAME\".");
       }
     };
 
-    std::vector<std::string>
-    names(const std::string &list, const std::string &where)
+    std::vector<std::string> names(const std::string &list, const std::string &where)
     {
       std::vector<std::string> result;
       for (const std::string &name : Utilities::split_string_list(list, ','))
@@ -75,8 +71,7 @@ namespace Signorini
     }
 
     /// The text of a deal.II exception without its banner.
-    std::string
-    plain_text(const std::exception &e)
+    std::string plain_text(const std::exception &e)
     {
       std::string text;
       if (const auto *exception = dynamic_cast<const ExceptionBase *>(&e))
@@ -101,8 +96,7 @@ namespace Signorini
     }
 
     /// Applies "Section/Name=value".
-    void
-    apply_override(ParameterHandler &prm, const std::string &text, const bool skip_unknown)
+    void apply_override(ParameterHandler &prm, const std::string &text, const bool skip_unknown)
     {
       const std::size_t equals = text.find('=');
       if (equals == std::string::npos)
@@ -126,8 +120,7 @@ namespace Signorini
         prm.leave_subsection();
     }
 
-    void
-    parse(ParameterHandler &prm, const std::string &file, const bool skip_undefined)
+    void parse(ParameterHandler &prm, const std::string &file, const bool skip_undefined)
     {
       std::ifstream in(file);
       if (!in)
@@ -145,17 +138,16 @@ namespace Signorini
 
 
 
-  void
-  ProblemParameters::declare(ParameterHandler &prm)
+  void ProblemParameters::declare(ParameterHandler &prm)
   {
     for (std::size_t b = 0; b < bodies.size(); ++b)
       {
         prm.enter_subsection("Body " + bodies[b].name);
         bodies[b].add_parameters(prm);
         loads[b].add_parameters(prm);
-        prm.add_parameter("Probes",
-                          probes[b],
-                          "Points whose displacement is reported, \"name: (x, y, z); ...\" (length, undeformed).");
+        prm.add_parameter(
+            "Probes", probes[b],
+            "Points whose displacement is reported, \"name: (x, y, z); ...\" (length, undeformed).");
         prm.leave_subsection();
       }
     for (PairParameters &pair : pairs)
@@ -169,30 +161,29 @@ namespace Signorini
     prm.leave_subsection();
     prm.enter_subsection("Solver");
     solver.add_parameters(prm);
-    prm.add_parameter("Compare linear multigrid",
-                      compare_linear,
-                      "Solve the decoupled linear problem, loaded with the computed contact stresses, with the "
-                      "same multigrid from the same start, and report its iterations beside those of contact.");
+    prm.add_parameter(
+        "Compare linear multigrid", compare_linear,
+        "Solve the decoupled linear problem, loaded with the computed contact stresses, with the "
+        "same multigrid from the same start, and report its iterations beside those of contact.");
     prm.leave_subsection();
     prm.enter_subsection("Output");
-    prm.add_parameter("Folder", output_folder, "Where the results go; --output on the command line overrides it.");
-    prm.add_parameter("Verbosity",
-                      verbosity,
+    prm.add_parameter("Folder", output_folder,
+                      "Where the results go; --output on the command line overrides it.");
+    prm.add_parameter("Verbosity", verbosity,
                       "0: errors only, 1: a line per cycle, 2: also a line per iteration.",
                       Patterns::Integer(0, 2));
     prm.add_parameter("Bodies", write_bodies, "Write the bodies for ParaView (.pvtu).");
     prm.add_parameter("Contact surfaces", write_surfaces, "Write the contact surfaces for ParaView (.pvtu).");
     prm.add_parameter("Stress", write_stress, "Nodal averaged stress, von Mises and principal stresses.");
-    prm.add_parameter("Measure sweeps",
-                      measure_sweeps,
-                      "Time Gauss-Seidel sweeps and a plain read of memory on the finest level (costs some ten sweeps).");
+    prm.add_parameter(
+        "Measure sweeps", measure_sweeps,
+        "Time Gauss-Seidel sweeps and a plain read of memory on the finest level (costs some ten sweeps).");
     prm.leave_subsection();
   }
 
 
 
-  void
-  ProblemParameters::read(const std::string &file_name, const std::vector<std::string> &overrides)
+  void ProblemParameters::read(const std::string &file_name, const std::vector<std::string> &overrides)
   {
     file        = file_name;
     base_folder = std::filesystem::path(file_name).parent_path().string();
@@ -231,8 +222,7 @@ namespace Signorini
 
 
 
-  void
-  ProblemParameters::print(std::ostream &out, const bool with_documentation)
+  void ProblemParameters::print(std::ostream &out, const bool with_documentation)
   {
     TopLevel top;
     top.title       = title;
@@ -247,8 +237,8 @@ namespace Signorini
     ParameterHandler prm;
     top.add_parameters(prm);
     declare(prm);
-    prm.print_parameters(out,
-                         with_documentation ? ParameterHandler::PRM | ParameterHandler::KeepDeclarationOrder :
-                                              ParameterHandler::ShortPRM | ParameterHandler::KeepDeclarationOrder);
+    prm.print_parameters(out, with_documentation
+                                  ? ParameterHandler::PRM | ParameterHandler::KeepDeclarationOrder
+                                  : ParameterHandler::ShortPRM | ParameterHandler::KeepDeclarationOrder);
   }
 } // namespace Signorini

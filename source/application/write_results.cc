@@ -14,8 +14,7 @@ namespace Signorini
 {
   using namespace dealii;
 
-  std::string
-  version_text()
+  std::string version_text()
   {
     return std::string("signorini ") + SIGNORINI_VERSION + " (deal.II " + DEAL_II_PACKAGE_VERSION + ")";
   }
@@ -25,8 +24,7 @@ namespace Signorini
   namespace
   {
     /// Nodal values in the order of NodalSpace::relevant().
-    std::vector<double>
-    relevant_values(const Discretization &d)
+    std::vector<double> relevant_values(const Discretization &d)
     {
       std::vector<double> values;
       values.reserve(3 * d.space->relevant().n_elements());
@@ -39,8 +37,8 @@ namespace Signorini
       return values;
     }
 
-    void
-    write_bodies_of(const ContactProblem &problem, const ProblemParameters &parameters, const std::string &folder)
+    void write_bodies_of(const ContactProblem &problem, const ProblemParameters &parameters,
+                         const std::string &folder)
     {
       const Discretization    &d = problem.discretization;
       std::vector<OutputField> fields;
@@ -57,14 +55,14 @@ namespace Signorini
     }
 
     /// Fields by vertex of the nonmortar surface of a pair.
-    std::vector<OutputField>
-    surface_fields(const Discretization &d, const unsigned int p)
+    std::vector<OutputField> surface_fields(const Discretization &d, const unsigned int p)
     {
       const ContactPair &pair = d.pairs[p];
       const std::size_t  n    = pair.nonmortar.mesh.vertices.size();
-      OutputField        pressure{"pressure", 1, std::vector<double>(n, 0.)}, gap{"gap", 1, std::vector<double>(n, 0.)},
-        active{"active", 1, std::vector<double>(n, 0.)}, normal{"normal", 3, {}}, displacement{"displacement", 3, {}},
-        image{"mortar_image", 3, std::vector<double>(3 * n, 0.)};
+      OutputField        pressure{"pressure", 1, std::vector<double>(n, 0.)},
+          gap{"gap", 1, std::vector<double>(n, 0.)}, active{"active", 1, std::vector<double>(n, 0.)},
+          normal{"normal", 3, {}}, displacement{"displacement", 3, {}},
+          image{"mortar_image", 3, std::vector<double>(3 * n, 0.)};
       for (std::size_t row = 0; row < d.coupling.n_rows(); ++row)
         if (d.origin[row].first == p)
           {
@@ -95,7 +93,8 @@ namespace Signorini
       const auto u = replicate_values(*d.partition, d.displacement, nodes);
       for (std::size_t v = 0; v < n; ++v)
         {
-          const auto &value = u[std::lower_bound(nodes.begin(), nodes.end(), pair.nonmortar.vertex_node[v]) - nodes.begin()];
+          const auto &value =
+              u[std::lower_bound(nodes.begin(), nodes.end(), pair.nonmortar.vertex_node[v]) - nodes.begin()];
           for (unsigned int c = 0; c < 3; ++c)
             {
               normal.values.push_back(pair.nonmortar.mesh.vertex_normals[v][c]);
@@ -106,8 +105,7 @@ namespace Signorini
     }
 
     template <typename F>
-    void
-    write_file(const std::string &path, const F &writer)
+    void write_file(const std::string &path, const F &writer)
     {
       std::ofstream out(path);
       writer(out);
@@ -119,12 +117,8 @@ namespace Signorini
 
 
 
-  void
-  write_results(ContactProblem      &problem,
-                ProblemParameters   &parameters,
-                const OutputFolder  &folder,
-                const bool           mesh_only,
-                ConditionalOStream  &out)
+  void write_results(ContactProblem &problem, ProblemParameters &parameters, const OutputFolder &folder,
+                     const bool mesh_only, ConditionalOStream &out)
   {
     Discretization &d       = problem.discretization;
     Results        &results = problem.results;
@@ -134,8 +128,8 @@ namespace Signorini
       write_bodies_of(problem, parameters, folder.path());
     if (parameters.write_surfaces || mesh_only)
       for (unsigned int p = 0; p < d.pairs.size(); ++p)
-        write_surface(folder.path(), "contact-" + Utilities::replace_in_string(d.pairs[p].name, " ", "-"), d.pairs[p].nonmortar,
-                      surface_fields(d, p), comm);
+        write_surface(folder.path(), "contact-" + Utilities::replace_in_string(d.pairs[p].name, " ", "-"),
+                      d.pairs[p].nonmortar, surface_fields(d, p), comm);
 
     Utilities::System::MemoryStats memory;
     Utilities::System::get_memory_stats(memory);

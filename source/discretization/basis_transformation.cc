@@ -8,10 +8,8 @@ namespace Signorini
 {
   using namespace dealii;
 
-  BasisTransformation::BasisTransformation(const NodalSpace             &space,
-                                           const NodePartition          &space_partition,
-                                           const DirichletData          &dirichlet,
-                                           const InterfaceCoupling      &coupling,
+  BasisTransformation::BasisTransformation(const NodalSpace &space, const NodePartition &space_partition,
+                                           const DirichletData &dirichlet, const InterfaceCoupling &coupling,
                                            const std::vector<FixedMask> &row_masks)
     : space(space)
     , partition(space_partition)
@@ -30,8 +28,7 @@ namespace Signorini
 
 
 
-  void
-  BasisTransformation::interpolate_hanging_nodes(Vector &u) const
+  void BasisTransformation::interpolate_hanging_nodes(Vector &u) const
   {
     u.update_ghost_values();
     for (const NodeIndex node : space.owned())
@@ -50,8 +47,7 @@ namespace Signorini
 
 
 
-  Vector
-  BasisTransformation::to_displacement(const Vector &v, const NodePartition &unknowns) const
+  Vector BasisTransformation::to_displacement(const Vector &v, const NodePartition &unknowns) const
   {
     v.update_ghost_values();
     Vector u;
@@ -81,8 +77,7 @@ namespace Signorini
 
 
 
-  void
-  BasisTransformation::from_displacement(Vector &v, const Vector &u) const
+  void BasisTransformation::from_displacement(Vector &v, const Vector &u) const
   {
     Vector w;
     partition.reinit(w);
@@ -101,7 +96,8 @@ namespace Signorini
         Vector3 shift;
         for (const auto *entry = coupling.begin(p); entry != coupling.end(p); ++entry)
           shift += entry->weight *
-                   columns[std::lower_bound(column_nodes.begin(), column_nodes.end(), entry->node) - column_nodes.begin()];
+                   columns[std::lower_bound(column_nodes.begin(), column_nodes.end(), entry->node) -
+                           column_nodes.begin()];
         shift = project_free(row_masks[p], shift);
         for (unsigned int c = 0; c < dim; ++c)
           w.local_element(dim * local + c) -= shift[c];
@@ -111,8 +107,8 @@ namespace Signorini
 
 
 
-  std::vector<double>
-  BasisTransformation::reduce_gaps(const std::vector<double> &gaps, const std::vector<Vector3> &normals) const
+  std::vector<double> BasisTransformation::reduce_gaps(const std::vector<double>  &gaps,
+                                                       const std::vector<Vector3> &normals) const
   {
     Vector lift;
     partition.reinit(lift);
@@ -130,7 +126,8 @@ namespace Signorini
         Vector3 relative = own[p];
         for (const auto *entry = coupling.begin(p); entry != coupling.end(p); ++entry)
           relative -= entry->weight *
-                      columns[std::lower_bound(column_nodes.begin(), column_nodes.end(), entry->node) - column_nodes.begin()];
+                      columns[std::lower_bound(column_nodes.begin(), column_nodes.end(), entry->node) -
+                              column_nodes.begin()];
         reduced[p] -= normals[p] * relative;
       }
     return reduced;

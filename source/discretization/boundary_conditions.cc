@@ -14,27 +14,22 @@ namespace Signorini
 {
   using namespace dealii;
 
-  void
-  LoadParameters::add_parameters(ParameterHandler &prm)
+  void LoadParameters::add_parameters(ParameterHandler &prm)
   {
-    prm.add_parameter("Dirichlet",
-                      dirichlet,
+    prm.add_parameter("Dirichlet", dirichlet,
                       "Prescribed displacements, \"boundary: (ux, uy, uz); boundary: ...\". Each entry is an "
                       "expression in x, y, z (length), or * for a free component: a symmetry plane x = 0 is "
                       "\"symmetry x: (0, *, *)\". Where conditions overlap, the later one counts.");
-    prm.add_parameter("Tractions",
-                      tractions,
+    prm.add_parameter("Tractions", tractions,
                       "Forces per area, \"boundary: (tx, ty, tz); ...\", expressions in x, y, z.");
-    prm.add_parameter("Pressures",
-                      pressures,
+    prm.add_parameter("Pressures", pressures,
                       "Pressures against the outward normal (force per area), \"boundary: p; ...\".");
     prm.add_parameter("Volume force", volume_force, "Force per volume, \"(fx, fy, fz)\"; empty for none.");
   }
 
 
 
-  void
-  Loads::add(const Bodies &bodies, const unsigned int body, const LoadParameters &parameters)
+  void Loads::add(const Bodies &bodies, const unsigned int body, const LoadParameters &parameters)
   {
     const std::string section = "Body " + bodies.body_name(body) + "/";
     for (const auto &[name, text] : split_named_entries(parameters.dirichlet, section + "Dirichlet"))
@@ -76,8 +71,7 @@ namespace Signorini
   namespace
   {
     /// Entries of the conditions as they appear on the faces this rank can see.
-    void
-    collect_from_faces(DirichletData &data, const NodalSpace &space, const Loads &loads)
+    void collect_from_faces(DirichletData &data, const NodalSpace &space, const Loads &loads)
     {
       std::map<types::boundary_id, std::vector<int>> conditions_of;
       for (unsigned int i = 0; i < loads.dirichlet.size(); ++i)
@@ -114,8 +108,7 @@ namespace Signorini
 
 
 
-  DirichletData
-  evaluate_dirichlet(const NodalSpace &space, const Loads &loads, const bool with_values)
+  DirichletData evaluate_dirichlet(const NodalSpace &space, const Loads &loads, const bool with_values)
   {
     const std::size_t n = space.relevant().n_elements();
     DirichletData     data;
@@ -133,7 +126,7 @@ namespace Signorini
         for (unsigned int i = 0; i < partition.n_owned(); ++i)
           for (unsigned int c = 0; c < dim; ++c)
             conditions.local_element(dim * i + c) =
-              data.condition[space.relevant().index_within_set(partition.to_global(i))][c];
+                data.condition[space.relevant().index_within_set(partition.to_global(i))][c];
         conditions.update_ghost_values();
         for (unsigned int i = partition.n_owned(); i < partition.n_local(); ++i)
           {
@@ -153,7 +146,7 @@ namespace Signorini
         for (unsigned int c = 0; c < dim; ++c)
           if (data.condition[i][c] >= 0)
             data.value[i][c] = (*loads.dirichlet[data.condition[i][c]].components[c])(
-              space.position(space.relevant().nth_index_in_set(i)));
+                space.position(space.relevant().nth_index_in_set(i)));
     return data;
   }
 
@@ -162,8 +155,8 @@ namespace Signorini
   namespace
   {
     /// The six rigid motions at a point, about a centre, for component c; rotations scaled by a length.
-    Eigen::Matrix<double, 6, 1>
-    rigid_row(const Point<3> &p, const Point<3> &centre, const double length, const unsigned int c)
+    Eigen::Matrix<double, 6, 1> rigid_row(const Point<3> &p, const Point<3> &centre, const double length,
+                                          const unsigned int c)
     {
       const Tensor<1, 3>          r   = (p - centre) / length;
       Eigen::Matrix<double, 6, 1> row = Eigen::Matrix<double, 6, 1>::Zero();
@@ -181,8 +174,7 @@ namespace Signorini
 
 
 
-  void
-  check_rigid_motions(const Bodies &bodies, const NodalSpace &space, const DirichletData &dirichlet)
+  void check_rigid_motions(const Bodies &bodies, const NodalSpace &space, const DirichletData &dirichlet)
   {
     const unsigned int  n_bodies = bodies.n_bodies();
     std::vector<double> low(dim * n_bodies, std::numeric_limits<double>::max()), high(low);
@@ -218,7 +210,8 @@ namespace Signorini
         if (dirichlet.mask[i] == 0 || body_of_node[i] < 0)
           continue;
         const unsigned int b = body_of_node[i];
-        const Point<3>     l(low[3 * b], low[3 * b + 1], low[3 * b + 2]), h(high[3 * b], high[3 * b + 1], high[3 * b + 2]);
+        const Point<3>     l(low[3 * b], low[3 * b + 1], low[3 * b + 2]),
+            h(high[3 * b], high[3 * b + 1], high[3 * b + 2]);
         for (unsigned int c = 0; c < dim; ++c)
           if (dirichlet.mask[i] & (1u << c))
             {
@@ -230,18 +223,20 @@ namespace Signorini
       s = Utilities::MPI::sum(s, space.communicator());
 
     static const char *const motions[] = {"a translation in x", "a translation in y", "a translation in z",
-                                          "a rotation about x",  "a rotation about y",  "a rotation about z"};
+                                          "a rotation about x", "a rotation about y", "a rotation about z"};
     for (unsigned int b = 0; b < n_bodies; ++b)
       {
         const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> eigen(
-          Eigen::Map<Eigen::Matrix<double, 6, 6>>(sums.data() + 36 * b));
-        if (eigen.eigenvalues()[0] > 1e-10 * std::max(eigen.eigenvalues()[5], std::numeric_limits<double>::min()))
+            Eigen::Map<Eigen::Matrix<double, 6, 6>>(sums.data() + 36 * b));
+        if (eigen.eigenvalues()[0] >
+            1e-10 * std::max(eigen.eigenvalues()[5], std::numeric_limits<double>::min()))
           continue;
         Eigen::Index largest;
         eigen.eigenvectors().col(0).cwiseAbs().maxCoeff(&largest);
-        throw InputError("Body " + bodies.body_name(b) + "/Dirichlet: the conditions do not exclude a rigid motion (" +
-                         motions[largest] +
-                         "). Prescribe displacements on more of its boundaries, e.g. a symmetry plane \"name: (0, *, *)\".");
+        throw InputError("Body " + bodies.body_name(b) +
+                         "/Dirichlet: the conditions do not exclude a rigid motion (" + motions[largest] +
+                         "). Prescribe displacements on more of its boundaries, e.g. a symmetry plane "
+                         "\"name: (0, *, *)\".");
       }
   }
 } // namespace Signorini

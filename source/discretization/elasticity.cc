@@ -12,8 +12,7 @@ namespace Signorini
 {
   using namespace dealii;
 
-  VertexExpansion::VertexExpansion(const NodalSpace             &space,
-                                   const InterfaceCoupling      &coupling,
+  VertexExpansion::VertexExpansion(const NodalSpace &space, const InterfaceCoupling &coupling,
                                    const std::vector<FixedMask> &row_masks)
     : space(space)
     , coupling(coupling)
@@ -29,8 +28,8 @@ namespace Signorini
 
 
 
-  void
-  VertexExpansion::add_conforming(const NodeIndex node, const double weight, std::vector<Term> &terms) const
+  void VertexExpansion::add_conforming(const NodeIndex node, const double weight,
+                                       std::vector<Term> &terms) const
   {
     terms.push_back({node, weight, 0});
     const std::ptrdiff_t row = coupling.find(node);
@@ -41,8 +40,7 @@ namespace Signorini
 
 
 
-  void
-  VertexExpansion::expand(const NodeIndex node, std::vector<Term> &terms) const
+  void VertexExpansion::expand(const NodeIndex node, std::vector<Term> &terms) const
   {
     terms.clear();
     if (const auto *parents = space.hanging_nodes().get_constraint_entries(node))
@@ -65,8 +63,7 @@ namespace Signorini
       std::vector<NodeIndex>   nodes;
     };
 
-    CellNodes
-    collect_cell_nodes(const NodalSpace &space, const VertexExpansion &expansion)
+    CellNodes collect_cell_nodes(const NodalSpace &space, const VertexExpansion &expansion)
     {
       CellNodes                          result;
       std::array<NodeIndex, 8>           vertices;
@@ -76,7 +73,8 @@ namespace Signorini
         if (cell->is_locally_owned())
           {
             space.cell_nodes(cell, vertices);
-            if (std::all_of(vertices.begin(), vertices.end(), [&](const NodeIndex n) { return expansion.is_plain(n); }))
+            if (std::all_of(vertices.begin(), vertices.end(),
+                            [&](const NodeIndex n) { return expansion.is_plain(n); }))
               result.nodes.insert(result.nodes.end(), vertices.begin(), vertices.end());
             else
               {
@@ -99,8 +97,7 @@ namespace Signorini
 
 
     /// Couples all nodes of a cell with each other.
-    NodePattern
-    make_pattern(const NodalSpace &space, const CellNodes &cells)
+    NodePattern make_pattern(const NodalSpace &space, const CellNodes &cells)
     {
       const IndexSet &owned = space.owned();
       const NodeIndex begin = owned.n_elements() > 0 ? owned.nth_index_in_set(0) : 0;
@@ -161,8 +158,7 @@ namespace Signorini
       std::array<Vector3, 8>   load;
     };
 
-    Point<3>
-    face_point(const std::array<Point<3>, 4> &x, const double s, const double t)
+    Point<3> face_point(const std::array<Point<3>, 4> &x, const double s, const double t)
     {
       return Point<3>((1 - s) * (1 - t) * x[0] + s * (1 - t) * x[1] + (1 - s) * t * x[2] + s * t * x[3]);
     }
@@ -170,8 +166,7 @@ namespace Signorini
 
 
     /// Forces of a traction on one face, 2x2 Gauss points on the bilinear face.
-    void
-    add_traction(CellData &data, const unsigned int face, const Traction &traction)
+    void add_traction(CellData &data, const unsigned int face, const Traction &traction)
     {
       std::array<Point<3>, 4>     x;
       std::array<unsigned int, 4> corner;
@@ -220,8 +215,7 @@ namespace Signorini
             tractions_of[id].push_back(&traction);
       }
 
-      void
-      compute(CellData &data, const Cell &cell) const
+      void compute(CellData &data, const Cell &cell) const
       {
         space.cell_nodes(cell, data.vertices);
         for (unsigned int v = 0; v < 8; ++v)
@@ -230,8 +224,8 @@ namespace Signorini
         if (!Hexahedron::stiffness(data.stiffness, data.corners, material.young, material.poisson))
           {
             std::ostringstream message;
-            message << "Body " << bodies.body_name(material.body) << ": inverted cell near (" << data.corners[0]
-                    << "). Mend the mesh.";
+            message << "Body " << bodies.body_name(material.body) << ": inverted cell near ("
+                    << data.corners[0] << "). Mend the mesh.";
             throw InputError(message.str());
           }
         data.load.fill(Vector3());
@@ -248,7 +242,8 @@ namespace Signorini
         if (!tractions_of.empty() && cell->at_boundary())
           for (const unsigned int face : cell->face_indices())
             if (cell->face(face)->at_boundary())
-              if (const auto it = tractions_of.find(cell->face(face)->boundary_id()); it != tractions_of.end())
+              if (const auto it = tractions_of.find(cell->face(face)->boundary_id());
+                  it != tractions_of.end())
                 for (const Traction *traction : it->second)
                   add_traction(data, face, *traction);
       }
@@ -263,8 +258,7 @@ namespace Signorini
 
 
     /// Subtracts K times a cell displacement from the load.
-    void
-    subtract_stiffness(CellData &data, const std::array<Vector3, 8> &u)
+    void subtract_stiffness(CellData &data, const std::array<Vector3, 8> &u)
     {
       for (unsigned int a = 0; a < 8; ++a)
         for (unsigned int b = 0; b < 8; ++b)
@@ -276,8 +270,7 @@ namespace Signorini
 
 
     /// The Dirichlet lift at a vertex, hanging ones interpolated.
-    Vector3
-    lift_at(const NodalSpace &space, const DirichletData &dirichlet, const NodeIndex node)
+    Vector3 lift_at(const NodalSpace &space, const DirichletData &dirichlet, const NodeIndex node)
     {
       if (const auto *parents = space.hanging_nodes().get_constraint_entries(node))
         {
@@ -291,8 +284,7 @@ namespace Signorini
 
 
 
-    inline void
-    add_block(double *target, const double *source)
+    inline void add_block(double *target, const double *source)
     {
       for (unsigned int c = 0; c < 9; ++c)
         target[c] += source[c];
@@ -300,8 +292,7 @@ namespace Signorini
 
 
 
-    void
-    scatter_plain(LinearSystem &system, const CellData &data)
+    void scatter_plain(LinearSystem &system, const CellData &data)
     {
       const NodePartition        &partition = system.matrix.partition();
       std::array<unsigned int, 8> local;
@@ -311,7 +302,8 @@ namespace Signorini
         {
           const unsigned int row = system.matrix.row_of(local[a]);
           for (unsigned int b = 0; b < 8; ++b)
-            add_block(system.matrix.block(system.matrix.find(row, local[b])), data.stiffness.data() + 9 * (8 * a + b));
+            add_block(system.matrix.block(system.matrix.find(row, local[b])),
+                      data.stiffness.data() + 9 * (8 * a + b));
           for (unsigned int c = 0; c < dim; ++c)
             system.rhs.local_element(dim * local[a] + c) += data.load[a][c];
         }
@@ -323,8 +315,7 @@ namespace Signorini
     class ExpandedCell
     {
     public:
-      void
-      scatter(LinearSystem &system, const CellData &data, const VertexExpansion &expansion)
+      void scatter(LinearSystem &system, const CellData &data, const VertexExpansion &expansion)
       {
         collect(data, expansion);
         const std::size_t n = nodes.size();
@@ -352,8 +343,7 @@ namespace Signorini
       }
 
     private:
-      void
-      collect(const CellData &data, const VertexExpansion &expansion)
+      void collect(const CellData &data, const VertexExpansion &expansion)
       {
         nodes.clear();
         for (unsigned int v = 0; v < 8; ++v)
@@ -372,13 +362,13 @@ namespace Signorini
                 Vector3 w;
                 for (unsigned int c = 0; c < dim; ++c)
                   w[c] = (term.blocked & (1u << c)) ? 0. : term.weight;
-                terms[v].emplace_back(std::lower_bound(nodes.begin(), nodes.end(), term.node) - nodes.begin(), w);
+                terms[v].emplace_back(std::lower_bound(nodes.begin(), nodes.end(), term.node) - nodes.begin(),
+                                      w);
               }
           }
       }
 
-      void
-      add_to(LinearSystem &system) const
+      void add_to(LinearSystem &system) const
       {
         const NodePartition &partition = system.matrix.partition();
         const std::size_t    n         = nodes.size();
@@ -394,18 +384,17 @@ namespace Signorini
           }
       }
 
-      std::vector<NodeIndex>                                          nodes;
-      std::array<std::vector<VertexExpansion::Term>, 8>               buffer;
-      std::array<std::vector<std::pair<std::size_t, Vector3>>, 8>     terms;
-      std::vector<double>                                             product, result;
-      std::vector<Vector3>                                            load;
+      std::vector<NodeIndex>                                      nodes;
+      std::array<std::vector<VertexExpansion::Term>, 8>           buffer;
+      std::array<std::vector<std::pair<std::size_t, Vector3>>, 8> terms;
+      std::vector<double>                                         product, result;
+      std::vector<Vector3>                                        load;
     };
 
 
 
     /// Raises an input error of any rank on all of them.
-    void
-    throw_everywhere(const std::string &message, const MPI_Comm communicator)
+    void throw_everywhere(const std::string &message, const MPI_Comm communicator)
     {
       std::string first = message;
       if (Utilities::MPI::n_mpi_processes(communicator) > 1)
@@ -418,34 +407,27 @@ namespace Signorini
 
 
 
-    std::vector<FixedMask>
-    owned_masks(const NodalSpace &space, const DirichletData &dirichlet)
+    std::vector<FixedMask> owned_masks(const NodalSpace &space, const DirichletData &dirichlet)
     {
       std::vector<FixedMask> masks;
       for (const NodeIndex node : space.owned())
-        masks.push_back(space.hanging_nodes().is_constrained(node) ?
-                          all_fixed :
-                          dirichlet.mask[space.relevant().index_within_set(node)]);
+        masks.push_back(space.hanging_nodes().is_constrained(node)
+                            ? all_fixed
+                            : dirichlet.mask[space.relevant().index_within_set(node)]);
       return masks;
     }
   } // namespace
 
 
 
-  LinearSystem
-  assemble_elasticity(const Bodies                 &bodies,
-                      const NodalSpace             &space,
-                      const Loads                  &loads,
-                      const DirichletData          &dirichlet,
-                      const InterfaceCoupling      &coupling,
-                      const std::vector<FixedMask> &row_masks)
+  LinearSystem assemble_elasticity(const Bodies &bodies, const NodalSpace &space, const Loads &loads,
+                                   const DirichletData &dirichlet, const InterfaceCoupling &coupling,
+                                   const std::vector<FixedMask> &row_masks)
   {
     const VertexExpansion expansion(space, coupling, row_masks);
     LinearSystem          system;
-    system.matrix.reinit(space.owned(),
-                         make_pattern(space, collect_cell_nodes(space, expansion)),
-                         IndexSet(space.n_nodes()),
-                         space.communicator());
+    system.matrix.reinit(space.owned(), make_pattern(space, collect_cell_nodes(space, expansion)),
+                         IndexSet(space.n_nodes()), space.communicator());
     system.matrix.partition().reinit(system.rhs);
     system.fixed = import_ghost_masks(system.matrix.partition(), owned_masks(space, dirichlet));
 
@@ -491,12 +473,8 @@ namespace Signorini
 
 
 
-  Vector
-  physical_residual(const Bodies        &bodies,
-                    const NodalSpace    &space,
-                    const NodePartition &partition,
-                    const Loads         &loads,
-                    const Vector        &u)
+  Vector physical_residual(const Bodies &bodies, const NodalSpace &space, const NodePartition &partition,
+                           const Loads &loads, const Vector &u)
   {
     Vector residual;
     partition.reinit(residual);

@@ -11,8 +11,7 @@ namespace Signorini
   {
     namespace
     {
-      std::array<Vector3, 8>
-      reference_gradients(const Point<3> &p)
+      std::array<Vector3, 8> reference_gradients(const Point<3> &p)
       {
         std::array<Vector3, 8> gradients;
         for (unsigned int a = 0; a < 8; ++a)
@@ -49,15 +48,13 @@ namespace Signorini
         }
       };
 
-      const ReferenceData &
-      reference_data()
+      const ReferenceData &reference_data()
       {
         static const ReferenceData data;
         return data;
       }
 
-      Block
-      jacobian(const Corners &corners, const std::array<Vector3, 8> &gradients)
+      Block jacobian(const Corners &corners, const std::array<Vector3, 8> &gradients)
       {
         Block j;
         for (unsigned int a = 0; a < 8; ++a)
@@ -68,8 +65,8 @@ namespace Signorini
       }
 
       /// Adds the contribution of one Gauss point to the blocks a <= b.
-      void
-      add_gauss_point(std::array<double, 576> &blocks, const double (&g)[8][3], const double lambda, const double mu)
+      void add_gauss_point(std::array<double, 576> &blocks, const double (&g)[8][3], const double lambda,
+                           const double mu)
       {
         for (unsigned int a = 0; a < 8; ++a)
           {
@@ -92,8 +89,7 @@ namespace Signorini
 
 
 
-    std::array<double, 8>
-    shape_values(const Point<3> &p)
+    std::array<double, 8> shape_values(const Point<3> &p)
     {
       std::array<double, 8> values;
       for (unsigned int a = 0; a < 8; ++a)
@@ -107,16 +103,15 @@ namespace Signorini
 
 
 
-    const std::array<Point<3>, 8> &
-    gauss_points()
+    const std::array<Point<3>, 8> &gauss_points()
     {
       return reference_data().points;
     }
 
 
 
-    bool
-    stiffness(std::array<double, 576> &blocks, const Corners &corners, const double young, const double poisson)
+    bool stiffness(std::array<double, 576> &blocks, const Corners &corners, const double young,
+                   const double poisson)
     {
       const double lambda = young * poisson / ((1. + poisson) * (1. - 2. * poisson));
       const double mu     = .5 * young / (1. + poisson);
@@ -146,8 +141,7 @@ namespace Signorini
 
 
 
-    std::pair<double, Point<3>>
-    volume_element(const Corners &corners, const unsigned int q)
+    std::pair<double, Point<3>> volume_element(const Corners &corners, const unsigned int q)
     {
       const double det = determinant(jacobian(corners, reference_data().gradients[q]));
       Point<3>     p;
@@ -158,8 +152,7 @@ namespace Signorini
 
 
 
-    bool
-    invert_map(Point<3> &reference, const Corners &corners, const Point<3> &point)
+    bool invert_map(Point<3> &reference, const Corners &corners, const Point<3> &point)
     {
       const double size = corners[0].distance(corners[7]);
       reference         = Point<3>(.5, .5, .5);

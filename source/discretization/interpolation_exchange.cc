@@ -16,18 +16,16 @@ namespace Signorini
     using Key  = ParentLookup::Key;
     using Cell = DoFHandler<3>::active_cell_iterator;
 
-    Key
-    name_of(const Cell &cell)
+    Key name_of(const Cell &cell)
     {
-      const CellId id   = cell->id();
-      Key          key  = {id.get_coarse_cell_id(), 1};
+      const CellId id  = cell->id();
+      Key          key = {id.get_coarse_cell_id(), 1};
       for (const std::uint8_t child : id.get_child_indices())
         key.path = key.path << 3 | child;
       return key;
     }
 
-    Key
-    parent_of(const Key &key)
+    Key parent_of(const Key &key)
     {
       return {key.coarse_cell, key.path >> 3};
     }
@@ -44,8 +42,7 @@ namespace Signorini
 
 
 
-  void
-  ParentLookup::collect_own_cells(const NodalSpace &coarse)
+  void ParentLookup::collect_own_cells(const NodalSpace &coarse)
   {
     std::array<NodeIndex, 8> vertices;
     for (const auto &cell : coarse.dof_handler().active_cell_iterators())
@@ -76,12 +73,11 @@ namespace Signorini
 
 
 
-  void
-  ParentLookup::fetch_remote_cells(const NodalSpace &fine)
+  void ParentLookup::fetch_remote_cells(const NodalSpace &fine)
   {
     const MPI_Comm     comm    = fine.communicator();
     const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(comm);
-    const auto         home    = [&](const Key &key) { return static_cast<unsigned int>(Hash()(key) % n_ranks); };
+    const auto home = [&](const Key &key) { return static_cast<unsigned int>(Hash()(key) % n_ranks); };
 
     // What every rank has, told to the directory.
     std::map<unsigned int, std::vector<Key>> owned, wanted;
@@ -129,8 +125,7 @@ namespace Signorini
 
 
 
-  std::pair<const CellInterpolation *, int>
-  ParentLookup::find(const Cell &cell) const
+  std::pair<const CellInterpolation *, int> ParentLookup::find(const Cell &cell) const
   {
     const Key key = name_of(cell);
     if (const auto it = index.find(key); it != index.end())

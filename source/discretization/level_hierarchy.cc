@@ -14,8 +14,7 @@ namespace Signorini
   namespace
   {
     /// Weights of a vertex of a child cell on the vertices of its parent, [child][vertex][parent vertex].
-    const std::array<std::array<std::array<double, 8>, 8>, 8> &
-    child_weights()
+    const std::array<std::array<std::array<double, 8>, 8>, 8> &child_weights()
     {
       static const auto weights = [] {
         std::array<std::array<std::array<double, 8>, 8>, 8> w;
@@ -35,20 +34,17 @@ namespace Signorini
 
 
     /// The row of one fine node: parent vertex weights times the expansions of the parent's vertices.
-    void
-    combine(std::vector<std::pair<NodeIndex, double>> &row,
-            const CellInterpolation                   &parent,
-            const std::array<double, 8>               &weights)
+    void combine(std::vector<std::pair<NodeIndex, double>> &row, const CellInterpolation &parent,
+                 const std::array<double, 8> &weights)
     {
       row.clear();
       for (unsigned int v = 0; v < 8; ++v)
         if (weights[v] != 0.)
           for (std::size_t k = parent.start[v]; k < parent.start[v + 1]; ++k)
             {
-              const auto it = std::find_if(row.begin(), row.end(), [&](const auto &e) {
-                return e.first == parent.nodes[k];
-              });
-              const double w = weights[v] * parent.weights[k];
+              const auto   it = std::find_if(row.begin(), row.end(),
+                                             [&](const auto &e) { return e.first == parent.nodes[k]; });
+              const double w  = weights[v] * parent.weights[k];
               if (it == row.end())
                 row.emplace_back(parent.nodes[k], w);
               else
@@ -60,17 +56,16 @@ namespace Signorini
 
 
 
-  NodeRows
-  interpolation_rows(const NodalSpace &fine, const NodalSpace &coarse)
+  NodeRows interpolation_rows(const NodalSpace &fine, const NodalSpace &coarse)
   {
-    const ParentLookup                                     parents(fine, coarse);
-    const NodeIndex                                        n_owned = fine.owned().n_elements();
-    const NodeIndex                                        begin = n_owned > 0 ? fine.owned().nth_index_in_set(0) : 0;
-    std::vector<bool>                                      done(n_owned, false);
-    std::vector<std::size_t>                               first(n_owned, 0), last(n_owned, 0);
-    std::vector<std::pair<NodeIndex, double>>              entries, row;
-    std::array<NodeIndex, 8>                               nodes;
-    std::array<double, 8>                                  weights;
+    const ParentLookup                        parents(fine, coarse);
+    const NodeIndex                           n_owned = fine.owned().n_elements();
+    const NodeIndex                           begin   = n_owned > 0 ? fine.owned().nth_index_in_set(0) : 0;
+    std::vector<bool>                         done(n_owned, false);
+    std::vector<std::size_t>                  first(n_owned, 0), last(n_owned, 0);
+    std::vector<std::pair<NodeIndex, double>> entries, row;
+    std::array<NodeIndex, 8>                  nodes;
+    std::array<double, 8>                     weights;
     for (const auto &cell : fine.dof_handler().active_cell_iterators())
       if (cell->is_locally_owned())
         {
@@ -117,8 +112,8 @@ namespace Signorini
   LevelSpaces::LevelSpaces(const NodalSpace &finest, const Loads &loads)
     : finest(finest)
   {
-    triangulations =
-      MGTransferGlobalCoarseningTools::create_geometric_coarsening_sequence(finest.dof_handler().get_triangulation());
+    triangulations = MGTransferGlobalCoarseningTools::create_geometric_coarsening_sequence(
+        finest.dof_handler().get_triangulation());
     for (std::size_t l = 0; l + 1 < triangulations.size(); ++l)
       coarse.push_back(std::make_unique<NodalSpace>(*triangulations[l]));
     for (unsigned int l = 0; l < n_levels(); ++l)
@@ -127,9 +122,9 @@ namespace Signorini
         const DirichletData dirichlet = evaluate_dirichlet(s, loads, false);
         masks.emplace_back();
         for (const NodeIndex node : s.owned())
-          masks.back().push_back(s.hanging_nodes().is_constrained(node) ?
-                                   all_fixed :
-                                   dirichlet.mask[s.relevant().index_within_set(node)]);
+          masks.back().push_back(s.hanging_nodes().is_constrained(node)
+                                     ? all_fixed
+                                     : dirichlet.mask[s.relevant().index_within_set(node)]);
         if (l > 0)
           rows.push_back(interpolation_rows(s, space(l - 1)));
       }
@@ -137,8 +132,8 @@ namespace Signorini
 
 
 
-  InterfaceCoupling
-  coarsen_coupling(const InterfaceCoupling &fine, const std::vector<NodeIndex> &nodes, const NodeRows &rows)
+  InterfaceCoupling coarsen_coupling(const InterfaceCoupling &fine, const std::vector<NodeIndex> &nodes,
+                                     const NodeRows &rows)
   {
     const auto row_of = [&](const NodeIndex node) {
       return std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin();
@@ -181,8 +176,7 @@ namespace Signorini
 
   namespace
   {
-    std::vector<NodeIndex>
-    interface_nodes(const InterfaceCoupling &coupling)
+    std::vector<NodeIndex> interface_nodes(const InterfaceCoupling &coupling)
     {
       std::vector<NodeIndex> nodes(coupling.rows);
       for (const auto &entry : coupling.entries)
@@ -198,22 +192,19 @@ namespace Signorini
     class TransformedRows
     {
     public:
-      TransformedRows(const InterfaceCoupling      &fine,
-                      const std::vector<FixedMask> &fine_masks,
-                      const std::vector<NodeIndex> &nodes,
-                      const NodeRows               &node_rows,
-                      const InterfaceCoupling      &coarse,
-                      const std::vector<FixedMask> &coarse_masks)
+      TransformedRows(const InterfaceCoupling &fine, const std::vector<FixedMask> &fine_masks,
+                      const std::vector<NodeIndex> &nodes, const NodeRows &node_rows,
+                      const InterfaceCoupling &coarse, const std::vector<FixedMask> &coarse_masks)
         : fine(fine)
         , fine_masks(fine_masks)
         , nodes(nodes)
         , node_rows(node_rows)
         , coarse(coarse)
         , coarse_masks(coarse_masks)
-      {}
+      {
+      }
 
-      bool
-      differs(const NodeIndex node, const NodeRows &rows, const std::size_t row) const
+      bool differs(const NodeIndex node, const NodeRows &rows, const std::size_t row) const
       {
         if (fine.find(node) >= 0)
           return true;
@@ -223,17 +214,15 @@ namespace Signorini
         return false;
       }
 
-      NodalTransfer::BlockRow
-      make(const unsigned int local, const NodeIndex node, const NodeRows &rows, const std::size_t row)
+      NodalTransfer::BlockRow make(const unsigned int local, const NodeIndex node, const NodeRows &rows,
+                                   const std::size_t row)
       {
         sums.clear();
         add(rows, row, 1., 0);
         if (const std::ptrdiff_t p = fine.find(node); p >= 0)
           for (const auto *entry = fine.begin(p); entry != fine.end(p); ++entry)
-            add(node_rows,
-                std::lower_bound(nodes.begin(), nodes.end(), entry->node) - nodes.begin(),
-                -entry->weight,
-                fine_masks[p]);
+            add(node_rows, std::lower_bound(nodes.begin(), nodes.end(), entry->node) - nodes.begin(),
+                -entry->weight, fine_masks[p]);
         NodalTransfer::BlockRow result{local, {}, {}};
         for (const auto &[column, diagonal] : sums)
           {
@@ -248,8 +237,7 @@ namespace Signorini
 
     private:
       /// Adds factor * (row of P) * T_coarse in the components that are not blocked.
-      void
-      add(const NodeRows &rows, const std::size_t row, const double factor, const FixedMask blocked)
+      void add(const NodeRows &rows, const std::size_t row, const double factor, const FixedMask blocked)
       {
         for (std::size_t k = rows.start[row]; k < rows.start[row + 1]; ++k)
           {
@@ -261,8 +249,7 @@ namespace Signorini
           }
       }
 
-      void
-      add_entry(const NodeIndex column, const double weight, const FixedMask blocked)
+      void add_entry(const NodeIndex column, const double weight, const FixedMask blocked)
       {
         Vector3 &sum = sums[column];
         for (unsigned int c = 0; c < dim; ++c)
@@ -282,8 +269,8 @@ namespace Signorini
 
 
 
-  MultigridHierarchy
-  build_hierarchy(LinearSystem &&system, const LevelSpaces &spaces, const InterfaceCoupling &coupling)
+  MultigridHierarchy build_hierarchy(LinearSystem &&system, const LevelSpaces &spaces,
+                                     const InterfaceCoupling &coupling)
   {
     MultigridHierarchy hierarchy(std::move(system.matrix), std::move(system.fixed));
     InterfaceCoupling  fine = coupling;
@@ -296,14 +283,14 @@ namespace Signorini
         if (l == 0)
           break;
 
-        const NodeRows         rows      = import_ghost_rows(partition, spaces.interpolation(l));
-        const NodeRows         node_rows = replicate_rows(partition, spaces.interpolation(l), nodes);
-        InterfaceCoupling      coarse    = coarsen_coupling(fine, nodes, node_rows);
-        const IndexSet        &owned     = spaces.space(l - 1).owned();
-        const NodePartition    coarse_partition(owned, IndexSet(owned.size()), partition.communicator());
-        const auto             fine_masks   = replicate_masks(partition, spaces.fixed(l), fine.rows);
-        const auto             coarse_masks = replicate_masks(coarse_partition, spaces.fixed(l - 1), coarse.rows);
-        TransformedRows        transformed(fine, fine_masks, nodes, node_rows, coarse, coarse_masks);
+        const NodeRows      rows      = import_ghost_rows(partition, spaces.interpolation(l));
+        const NodeRows      node_rows = replicate_rows(partition, spaces.interpolation(l), nodes);
+        InterfaceCoupling   coarse    = coarsen_coupling(fine, nodes, node_rows);
+        const IndexSet     &owned     = spaces.space(l - 1).owned();
+        const NodePartition coarse_partition(owned, IndexSet(owned.size()), partition.communicator());
+        const auto          fine_masks = replicate_masks(partition, spaces.fixed(l), fine.rows);
+        const auto      coarse_masks   = replicate_masks(coarse_partition, spaces.fixed(l - 1), coarse.rows);
+        TransformedRows transformed(fine, fine_masks, nodes, node_rows, coarse, coarse_masks);
         std::vector<NodalTransfer::BlockRow> block_rows;
         for (unsigned int i = 0; i < partition.n_local(); ++i)
           if (const NodeIndex node = partition.to_global(i); transformed.differs(node, rows, i))

@@ -16,13 +16,11 @@ namespace Signorini
 {
   using namespace dealii;
 
-  void
-  BodyParameters::add_parameters(ParameterHandler &prm)
+  void BodyParameters::add_parameters(ParameterHandler &prm)
   {
-    prm.add_parameter("Mesh",
-                      mesh,
+    prm.add_parameter("Mesh", mesh,
                       "A gmsh file (.msh) of hexahedra, relative to this file, or a generated mesh: " +
-                        Utilities::replace_in_string(generated_mesh_kinds(), "|", ", ") + ".");
+                          Utilities::replace_in_string(generated_mesh_kinds(), "|", ", ") + ".");
     prm.add_parameter("Radius", radius, "Radius of balls and cylinders, outer radius of shells (length).");
     prm.add_parameter("Inner radius", inner_radius, "Inner radius of shells (length).");
     prm.add_parameter("Height", height, "Height of cylinders (length).");
@@ -34,12 +32,11 @@ namespace Signorini
     prm.add_parameter("Rotation angle", rotation_angle, "Angle in degrees.");
     prm.add_parameter("Young modulus", young, "Young's modulus E > 0 (force per area).");
     prm.add_parameter("Poisson ratio", poisson, "Poisson's ratio, -1 < nu < 0.5.");
-    prm.add_parameter("Volumes",
-                      volumes,
-                      "Physical volumes of the mesh file that belong to this body (names or ids, separated by "
-                      "commas); empty for all.");
-    prm.add_parameter("Volume materials",
-                      volume_materials,
+    prm.add_parameter(
+        "Volumes", volumes,
+        "Physical volumes of the mesh file that belong to this body (names or ids, separated by "
+        "commas); empty for all.");
+    prm.add_parameter("Volume materials", volume_materials,
                       "Materials of single physical volumes, \"name: E, nu; name: E, nu\".");
   }
 
@@ -47,8 +44,7 @@ namespace Signorini
 
   namespace
   {
-    std::vector<double>
-    numbers_in(const std::string &text, const std::size_t n, const std::string &where)
+    std::vector<double> numbers_in(const std::string &text, const std::size_t n, const std::string &where)
     {
       std::vector<double> values;
       for (const std::string &word : Utilities::split_string_list(text, ','))
@@ -59,24 +55,26 @@ namespace Signorini
               values.push_back(std::stod(word, &used));
             }
           catch (const std::exception &)
-            {}
+            {
+            }
           if (used != word.size() || word.empty() || !std::isfinite(values.back()))
-            throw InputError(where + ": \"" + text + "\" should be " + std::to_string(n) + " numbers separated by commas.");
+            throw InputError(where + ": \"" + text + "\" should be " + std::to_string(n) +
+                             " numbers separated by commas.");
         }
       if (values.size() != n)
-        throw InputError(where + ": \"" + text + "\" should be " + std::to_string(n) + " numbers separated by commas.");
+        throw InputError(where + ": \"" + text + "\" should be " + std::to_string(n) +
+                         " numbers separated by commas.");
       return values;
     }
 
-    Point<3>
-    point_in(const std::string &text, const std::string &where)
+    Point<3> point_in(const std::string &text, const std::string &where)
     {
       const auto v = numbers_in(text, 3, where);
       return Point<3>(v[0], v[1], v[2]);
     }
 
-    void
-    check_material(const double young, const double poisson, const std::string &section, const std::string &note)
+    void check_material(const double young, const double poisson, const std::string &section,
+                        const std::string &note)
     {
       const auto number = [](const double x) {
         std::ostringstream out;
@@ -84,14 +82,14 @@ namespace Signorini
         return out.str();
       };
       if (!(young > 0.) || !std::isfinite(young))
-        throw InputError(section + "Young modulus" + note + ": " + number(young) + " is not allowed; it must be positive.");
+        throw InputError(section + "Young modulus" + note + ": " + number(young) +
+                         " is not allowed; it must be positive.");
       if (!(poisson > -1. && poisson < .5))
         throw InputError(section + "Poisson ratio" + note + ": " + number(poisson) +
                          " is not allowed; it must lie between -1 and 0.5 (0.5 would be incompressible).");
     }
 
-    std::string
-    listed(const std::vector<std::string> &names)
+    std::string listed(const std::vector<std::string> &names)
     {
       std::string text;
       for (const std::string &name : names)
@@ -100,8 +98,7 @@ namespace Signorini
     }
 
     /// Keeps the cells of some volumes only.
-    void
-    select_volumes(HexahedralMesh &mesh, const std::string &list, const std::string &where)
+    void select_volumes(HexahedralMesh &mesh, const std::string &list, const std::string &where)
     {
       if (Utilities::trim(list).empty())
         return;
@@ -110,7 +107,8 @@ namespace Signorini
         {
           const auto it = std::find(mesh.volume_names.begin(), mesh.volume_names.end(), name);
           if (it == mesh.volume_names.end())
-            throw InputError(where + ": the mesh has no volume \"" + name + "\"; it has " + listed(mesh.volume_names) + ".");
+            throw InputError(where + ": the mesh has no volume \"" + name + "\"; it has " +
+                             listed(mesh.volume_names) + ".");
           keep[it - mesh.volume_names.begin()] = true;
         }
       std::map<std::array<unsigned int, 4>, unsigned int> name_of;
@@ -156,7 +154,8 @@ namespace Signorini
           auto it = renumbered.find(key);
           if (it == renumbered.end())
             {
-              const auto unnamed = std::find(part.boundary_names.begin(), part.boundary_names.end(), "unnamed");
+              const auto unnamed =
+                  std::find(part.boundary_names.begin(), part.boundary_names.end(), "unnamed");
               const unsigned int index = unnamed - part.boundary_names.begin();
               if (unnamed == part.boundary_names.end())
                 part.boundary_names.push_back("unnamed");
@@ -182,11 +181,9 @@ namespace Signorini
 
 
 
-  Bodies::Bodies(const MPI_Comm                      communicator,
-                 const std::vector<BodyParameters> &parameters,
-                 const std::string                 &base_folder)
-    : tria(communicator,
-           Triangulation<3>::MeshSmoothing::none,
+  Bodies::Bodies(const MPI_Comm communicator, const std::vector<BodyParameters> &parameters,
+                 const std::string &base_folder)
+    : tria(communicator, Triangulation<3>::MeshSmoothing::none,
            parallel::distributed::Triangulation<3>::Settings::default_setting)
   {
     std::vector<Placed> placed(parameters.size());
@@ -197,9 +194,9 @@ namespace Signorini
         names.push_back(p.name);
         check_material(p.young, p.poisson, section, "");
 
-        Placed            &body  = placed[b];
-        const std::string  kinds = "|" + generated_mesh_kinds() + "|";
-        const std::string  kind  = Utilities::trim(p.mesh);
+        Placed           &body  = placed[b];
+        const std::string kinds = "|" + generated_mesh_kinds() + "|";
+        const std::string kind  = Utilities::trim(p.mesh);
         if (kinds.find("|" + kind + "|") != std::string::npos)
           {
             GeneratedMeshParameters g;
@@ -213,7 +210,8 @@ namespace Signorini
             for (unsigned int c = 0; c < 3; ++c)
               {
                 if (!(n[c] >= 1.) || n[c] != std::floor(n[c]) || n[c] > 1e6)
-                  throw InputError(section + "Divisions: \"" + p.divisions + "\" should be three positive integers.");
+                  throw InputError(section + "Divisions: \"" + p.divisions +
+                                   "\" should be three positive integers.");
                 g.divisions[c] = static_cast<unsigned int>(n[c]);
               }
             try
@@ -233,7 +231,8 @@ namespace Signorini
         else
           {
             const std::filesystem::path file(kind);
-            const std::string           path = file.is_absolute() ? kind : (std::filesystem::path(base_folder) / file).string();
+            const std::string           path =
+                file.is_absolute() ? kind : (std::filesystem::path(base_folder) / file).string();
             try
               {
                 body.mesh = read_hexahedral_mesh(path, communicator);
@@ -248,7 +247,8 @@ namespace Signorini
 
         // Materials: one per body, and one for each volume with its own.
         materials.push_back({b, p.young, p.poisson});
-        body.material_of_volume.assign(body.mesh.volume_names.size(), static_cast<unsigned int>(materials.size() - 1));
+        body.material_of_volume.assign(body.mesh.volume_names.size(),
+                                       static_cast<unsigned int>(materials.size() - 1));
         for (const std::string &entry : Utilities::split_string_list(p.volume_materials, ';'))
           {
             if (entry.empty())
@@ -259,11 +259,13 @@ namespace Signorini
               throw InputError(where + ": \"" + entry + "\" should read \"name: E, nu\".");
             const auto it = std::find(body.mesh.volume_names.begin(), body.mesh.volume_names.end(), parts[0]);
             if (it == body.mesh.volume_names.end())
-              throw InputError(where + ": the mesh has no volume \"" + parts[0] + "\"; it has " + listed(body.mesh.volume_names) + ".");
+              throw InputError(where + ": the mesh has no volume \"" + parts[0] + "\"; it has " +
+                               listed(body.mesh.volume_names) + ".");
             const auto values = numbers_in(parts[1], 2, where);
             check_material(values[0], values[1], section, " of volume \"" + parts[0] + "\"");
             materials.push_back({b, values[0], values[1]});
-            body.material_of_volume[it - body.mesh.volume_names.begin()] = static_cast<unsigned int>(materials.size() - 1);
+            body.material_of_volume[it - body.mesh.volume_names.begin()] =
+                static_cast<unsigned int>(materials.size() - 1);
           }
 
         body.axis = Tensor<1, 3>({0., 0., 1.});
@@ -273,7 +275,7 @@ namespace Signorini
             if (!(axis.norm() > 0.))
               throw InputError(section + "Rotation axis: it must not be zero.");
             const Tensor<2, 3> rotation = Physics::Transformations::Rotations::rotation_matrix_3d(
-              Point<3>(axis / axis.norm()), p.rotation_angle * numbers::PI / 180.);
+                Point<3>(axis / axis.norm()), p.rotation_angle * numbers::PI / 180.);
             for (Point<3> &v : body.mesh.vertices)
               v = Point<3>(rotation * v);
             body.axis = rotation * body.axis;
@@ -288,8 +290,7 @@ namespace Signorini
 
 
 
-  void
-  Bodies::create(const std::vector<Placed> &placed)
+  void Bodies::create(const std::vector<Placed> &placed)
   {
     std::vector<Point<3>>    vertices;
     std::vector<CellData<3>> cells;
@@ -324,8 +325,9 @@ namespace Signorini
       }
     catch (const std::exception &)
       {
-        throw InputError("The meshes of the bodies cannot be joined to a triangulation: are there cells that share "
-                         "a face with more than one other cell, or distorted cells?");
+        throw InputError(
+            "The meshes of the bodies cannot be joined to a triangulation: are there cells that share "
+            "a face with more than one other cell, or distorted cells?");
       }
 
     types::manifold_id next_manifold = 1;
@@ -347,8 +349,7 @@ namespace Signorini
 
 
 
-  unsigned int
-  Bodies::body_index(const std::string &name, const std::string &where) const
+  unsigned int Bodies::body_index(const std::string &name, const std::string &where) const
   {
     const auto it = std::find(names.begin(), names.end(), name);
     if (it == names.end())
@@ -358,12 +359,12 @@ namespace Signorini
 
 
 
-  std::set<types::boundary_id>
-  Bodies::boundary_ids(const unsigned int body, const std::string &name) const
+  std::set<types::boundary_id> Bodies::boundary_ids(const unsigned int body, const std::string &name) const
   {
     const auto it = std::find(boundaries[body].begin(), boundaries[body].end(), name);
     if (it == boundaries[body].end())
-      throw InputError("Body " + names[body] + " has no boundary \"" + name + "\"; it has " + listed(boundaries[body]) + ".");
+      throw InputError("Body " + names[body] + " has no boundary \"" + name + "\"; it has " +
+                       listed(boundaries[body]) + ".");
     return {static_cast<types::boundary_id>(first_boundary[body] + (it - boundaries[body].begin()))};
   }
 } // namespace Signorini

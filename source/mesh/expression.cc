@@ -11,8 +11,7 @@ namespace Signorini
 {
   using namespace dealii;
 
-  std::vector<std::string>
-  split_list(const std::string &text, const char separator, const std::string &where)
+  std::vector<std::string> split_list(const std::string &text, const char separator, const std::string &where)
   {
     std::vector<std::string> pieces(1);
     int                      depth = 0;
@@ -68,8 +67,7 @@ namespace Signorini
 
 
 
-  std::vector<std::string>
-  split_vector(const std::string &text, const std::string &where)
+  std::vector<std::string> split_vector(const std::string &text, const std::string &where)
   {
     const std::string trimmed = Utilities::trim(text);
     if (trimmed.size() < 2 || trimmed.front() != '(' || trimmed.back() != ')')
@@ -82,8 +80,8 @@ namespace Signorini
 
 
 
-  std::vector<std::pair<std::string, std::string>>
-  split_named_entries(const std::string &text, const std::string &where)
+  std::vector<std::pair<std::string, std::string>> split_named_entries(const std::string &text,
+                                                                       const std::string &where)
   {
     std::vector<std::pair<std::string, std::string>> entries;
     for (const std::string &piece : split_list(text, ';', where))
@@ -93,7 +91,8 @@ namespace Signorini
         const std::size_t colon = piece.find(':');
         if (colon == std::string::npos || colon == 0)
           throw InputError(where + ": \"" + piece + "\" should read \"name: value\".");
-        entries.emplace_back(Utilities::trim(piece.substr(0, colon)), Utilities::trim(piece.substr(colon + 1)));
+        entries.emplace_back(Utilities::trim(piece.substr(0, colon)),
+                             Utilities::trim(piece.substr(colon + 1)));
       }
     return entries;
   }

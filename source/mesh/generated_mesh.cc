@@ -13,8 +13,7 @@ namespace Signorini
     using Cells = std::vector<std::array<Point<3>, 8>>;
 
     /// Corner (i, j, k) of the inner cube of an octant of the unit ball.
-    Point<3>
-    cube_corner(const unsigned int v)
+    Point<3> cube_corner(const unsigned int v)
     {
       // Half the radius along the axes, less along the diagonals: keeps all angles well above zero.
       static const double scale[] = {0., .5, .43, .38};
@@ -22,16 +21,14 @@ namespace Signorini
       return Point<3>(scale[(v & 1) + (v >> 1 & 1) + (v >> 2)] * p);
     }
 
-    Point<3>
-    on_sphere(const unsigned int v, const double radius)
+    Point<3> on_sphere(const unsigned int v, const double radius)
     {
       const Point<3> p(v & 1, v >> 1 & 1, v >> 2);
       return Point<3>(radius / p.norm() * p);
     }
 
     /// Cells of the octant x, y, z >= 0 of the ball.
-    Cells
-    ball_octant(const double radius)
+    Cells ball_octant(const double radius)
     {
       Cells cells(4);
       for (unsigned int v = 0; v < 8; ++v)
@@ -41,26 +38,26 @@ namespace Signorini
             {
               const unsigned int corner = v | (1u << axis);
               cells[1 + axis][v] =
-                (v >> axis & 1) ? on_sphere(corner, radius) : Point<3>(radius * cube_corner(corner));
+                  (v >> axis & 1) ? on_sphere(corner, radius) : Point<3>(radius * cube_corner(corner));
             }
         }
       return cells;
     }
 
     /// Cells of the octant of a shell: three patches, layers of near-cubic cells.
-    Cells
-    shell_octant(const double inner, const double outer)
+    Cells shell_octant(const double inner, const double outer)
     {
-      const double       width  = .7 * (inner + outer) / 2.;
-      const unsigned int layers = std::max(1u, static_cast<unsigned int>(std::round((outer - inner) / width)));
-      Cells              cells;
+      const double       width = .7 * (inner + outer) / 2.;
+      const unsigned int layers =
+          std::max(1u, static_cast<unsigned int>(std::round((outer - inner) / width)));
+      Cells cells;
       for (unsigned int axis = 0; axis < 3; ++axis)
         for (unsigned int layer = 0; layer < layers; ++layer)
           {
             cells.emplace_back();
             for (unsigned int v = 0; v < 8; ++v)
               {
-                const double r = inner + (outer - inner) * (layer + (v >> axis & 1)) / layers;
+                const double r  = inner + (outer - inner) * (layer + (v >> axis & 1)) / layers;
                 cells.back()[v] = on_sphere(v | (1u << axis), r);
               }
           }
@@ -68,8 +65,7 @@ namespace Signorini
     }
 
     /// Cells of the quarter x, y >= 0 of a cylinder below z = 0.
-    Cells
-    cylinder_quarter(const double radius, const double height)
+    Cells cylinder_quarter(const double radius, const double height)
     {
       const auto disk = [&](const unsigned int v, const bool outside) {
         static const double scale[] = {0., .5, .42};
@@ -84,8 +80,8 @@ namespace Signorini
             cells.emplace_back();
             for (unsigned int v = 0; v < 8; ++v)
               {
-                Point<3> p = patch < 0 ? disk(v, false) : disk(v | (1u << patch), v >> patch & 1);
-                p[2]       = -height + height * (layer + (v >> 2)) / layers;
+                Point<3> p      = patch < 0 ? disk(v, false) : disk(v | (1u << patch), v >> patch & 1);
+                p[2]            = -height + height * (layer + (v >> 2)) / layers;
                 cells.back()[v] = p;
               }
           }
@@ -93,8 +89,7 @@ namespace Signorini
     }
 
     /// Adds the mirror image of all cells in the plane through the origin normal to an axis.
-    void
-    mirror(Cells &cells, const unsigned int axis)
+    void mirror(Cells &cells, const unsigned int axis)
     {
       const std::size_t n = cells.size();
       for (std::size_t cell = 0; cell < n; ++cell)
@@ -109,16 +104,14 @@ namespace Signorini
     }
 
     /// Turns the octant z >= 0 into z <= 0 (a half turn that swaps x and y: cells stay right-handed).
-    void
-    turn_down(Cells &cells)
+    void turn_down(Cells &cells)
     {
       for (auto &cell : cells)
         for (Point<3> &p : cell)
           p = Point<3>(p[1], p[0], -p[2]);
     }
 
-    Cells
-    block(const GeneratedMeshParameters &p)
+    Cells block(const GeneratedMeshParameters &p)
     {
       Cells cells;
       for (unsigned int k = 0; k < p.divisions[2]; ++k)
@@ -130,17 +123,17 @@ namespace Signorini
                 {
                   const unsigned int at[] = {i + (v & 1), j + (v >> 1 & 1), k + (v >> 2)};
                   for (unsigned int c = 0; c < 3; ++c)
-                    cells.back()[v][c] = p.lower_corner[c] + (p.upper_corner[c] - p.lower_corner[c]) * at[c] / p.divisions[c];
+                    cells.back()[v][c] =
+                        p.lower_corner[c] + (p.upper_corner[c] - p.lower_corner[c]) * at[c] / p.divisions[c];
                 }
             }
       return cells;
     }
 
     /// Joins cells at coinciding corners.
-    HexahedralMesh
-    join(const Cells &cells, const double size)
+    HexahedralMesh join(const Cells &cells, const double size)
     {
-      HexahedralMesh mesh;
+      HexahedralMesh                              mesh;
       std::map<std::array<long, 3>, unsigned int> numbers;
       for (const auto &cell : cells)
         {
@@ -150,7 +143,8 @@ namespace Signorini
               std::array<long, 3> key;
               for (unsigned int c = 0; c < 3; ++c)
                 key[c] = std::lround(cell[v][c] / size * 1e7);
-              const auto [it, is_new] = numbers.insert({key, static_cast<unsigned int>(mesh.vertices.size())});
+              const auto [it, is_new] =
+                  numbers.insert({key, static_cast<unsigned int>(mesh.vertices.size())});
               if (is_new)
                 mesh.vertices.push_back(cell[v]);
               mesh.cells.back()[v] = it->second;
@@ -163,14 +157,14 @@ namespace Signorini
 
     using Classifier = std::function<std::string(const std::array<Point<3>, 4> &)>;
 
-    bool
-    all_of(const std::array<Point<3>, 4> &face, const std::function<double(const Point<3> &)> &distance, const double size)
+    bool all_of(const std::array<Point<3>, 4> &face, const std::function<double(const Point<3> &)> &distance,
+                const double size)
     {
-      return std::all_of(face.begin(), face.end(), [&](const Point<3> &p) { return std::abs(distance(p)) < 1e-6 * size; });
+      return std::all_of(face.begin(), face.end(),
+                         [&](const Point<3> &p) { return std::abs(distance(p)) < 1e-6 * size; });
     }
 
-    void
-    name_boundaries(HexahedralMesh &mesh, const Classifier &classify)
+    void name_boundaries(HexahedralMesh &mesh, const Classifier &classify)
     {
       for (const auto &[vertices, cell] : find_boundary_faces(mesh))
         {
@@ -187,8 +181,8 @@ namespace Signorini
     }
 
     /// First of the tests that all corners of a face pass.
-    Classifier
-    first_match(std::vector<std::pair<std::string, std::function<double(const Point<3> &)>>> tests, const double size)
+    Classifier first_match(std::vector<std::pair<std::string, std::function<double(const Point<3> &)>>> tests,
+                           const double                                                                 size)
     {
       return [tests, size](const std::array<Point<3>, 4> &face) {
         for (const auto &[name, distance] : tests)
@@ -198,14 +192,12 @@ namespace Signorini
       };
     }
 
-    std::function<double(const Point<3> &)>
-    plane(const unsigned int axis, const double value)
+    std::function<double(const Point<3> &)> plane(const unsigned int axis, const double value)
     {
       return [axis, value](const Point<3> &p) { return p[axis] - value; };
     }
 
-    void
-    require_positive(const double value, const std::string &name)
+    void require_positive(const double value, const std::string &name)
     {
       if (!(value > 0.) || !std::isfinite(value))
         throw InputError(name + " must be positive.");
@@ -214,17 +206,16 @@ namespace Signorini
 
 
 
-  std::string
-  generated_mesh_kinds()
+  std::string generated_mesh_kinds()
   {
-    return "block|ball|half ball|quarter of ball|quarter of half ball|eighth of ball|cylinder|quarter of cylinder|"
+    return "block|ball|half ball|quarter of ball|quarter of half ball|eighth of ball|cylinder|quarter of "
+           "cylinder|"
            "spherical shell|quarter of spherical shell|eighth of spherical shell";
   }
 
 
 
-  GeneratedMesh
-  generate_mesh(const GeneratedMeshParameters &p)
+  GeneratedMesh generate_mesh(const GeneratedMeshParameters &p)
   {
     GeneratedMesh result;
     const auto    has = [&](const char *text) { return p.kind.find(text) != std::string::npos; };
@@ -243,14 +234,13 @@ namespace Signorini
             v = Point<3>(v - p.lower_corner);
         result.mesh       = join(cells, size);
         const Point<3> up = Point<3>(p.upper_corner - p.lower_corner);
-        name_boundaries(result.mesh,
-                        first_match({{"left", plane(0, 0.)},
-                                     {"right", plane(0, up[0])},
-                                     {"front", plane(1, 0.)},
-                                     {"back", plane(1, up[1])},
-                                     {"bottom", plane(2, 0.)},
-                                     {"top", plane(2, up[2])}},
-                                    size));
+        name_boundaries(result.mesh, first_match({{"left", plane(0, 0.)},
+                                                  {"right", plane(0, up[0])},
+                                                  {"front", plane(1, 0.)},
+                                                  {"back", plane(1, up[1])},
+                                                  {"bottom", plane(2, 0.)},
+                                                  {"top", plane(2, up[2])}},
+                                                 size));
         for (Point<3> &v : result.mesh.vertices)
           v += p.lower_corner;
         return result;
@@ -268,13 +258,14 @@ namespace Signorini
             mirror(cells, 1);
           }
         result.mesh = join(cells, p.radius);
-        name_boundaries(result.mesh,
-                        first_match({{"top", plane(2, 0.)},
-                                     {"bottom", plane(2, -p.height)},
-                                     {"side", [&](const Point<3> &v) { return std::hypot(v[0], v[1]) - p.radius; }},
-                                     {"symmetry x", plane(0, 0.)},
-                                     {"symmetry y", plane(1, 0.)}},
-                                    p.radius));
+        name_boundaries(
+            result.mesh,
+            first_match({{"top", plane(2, 0.)},
+                         {"bottom", plane(2, -p.height)},
+                         {"side", [&](const Point<3> &v) { return std::hypot(v[0], v[1]) - p.radius; }},
+                         {"symmetry x", plane(0, 0.)},
+                         {"symmetry y", plane(1, 0.)}},
+                        p.radius));
         result.curved.push_back({"side", CurvedBoundary::cylinder});
         return result;
       }
@@ -294,15 +285,16 @@ namespace Signorini
       }
     if (!half && !eighth)
       mirror(cells, 2);
-    result.mesh = join(cells, p.radius);
+    result.mesh            = join(cells, p.radius);
     const std::string flat = half ? "top" : "symmetry z";
-    name_boundaries(result.mesh,
-                    first_match({{shell ? "outer" : "sphere", [&](const Point<3> &v) { return v.norm() - p.radius; }},
-                                 {"inner", [&](const Point<3> &v) { return v.norm() - p.inner_radius; }},
-                                 {flat, plane(2, 0.)},
-                                 {"symmetry x", plane(0, 0.)},
-                                 {"symmetry y", plane(1, 0.)}},
-                                p.radius));
+    name_boundaries(
+        result.mesh,
+        first_match({{shell ? "outer" : "sphere", [&](const Point<3> &v) { return v.norm() - p.radius; }},
+                     {"inner", [&](const Point<3> &v) { return v.norm() - p.inner_radius; }},
+                     {flat, plane(2, 0.)},
+                     {"symmetry x", plane(0, 0.)},
+                     {"symmetry y", plane(1, 0.)}},
+                    p.radius));
     result.curved.push_back({shell ? "outer" : "sphere", CurvedBoundary::sphere});
     if (shell)
       result.curved.push_back({"inner", CurvedBoundary::sphere});

@@ -35,8 +35,7 @@ namespace Signorini
 
 
 
-  double
-  scaled_jacobian(const std::array<Point<3>, 8> &corners)
+  double scaled_jacobian(const std::array<Point<3>, 8> &corners)
   {
     double smallest = std::numeric_limits<double>::max();
     for (unsigned int v = 0; v < 8; ++v)

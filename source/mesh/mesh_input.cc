@@ -35,12 +35,12 @@ namespace Signorini
             gmsh::finalize();
           }
         catch (...)
-          {}
+          {
+          }
       }
     };
 
-    std::string
-    element_name(const int type)
+    std::string element_name(const int type)
     {
       std::string         name;
       int                 dimension, order, n_nodes, n_primary;
@@ -50,8 +50,7 @@ namespace Signorini
     }
 
     /// The name of the physical group of an entity, its id as text, or `fallback`.
-    std::string
-    group_name(const int dimension, const int entity, const std::string &fallback)
+    std::string group_name(const int dimension, const int entity, const std::string &fallback)
     {
       std::vector<int> groups;
       gmsh::model::getPhysicalGroupsForEntity(dimension, entity, groups);
@@ -62,8 +61,7 @@ namespace Signorini
       return name.empty() ? std::to_string(std::abs(groups[0])) : name;
     }
 
-    unsigned int
-    index_of(std::vector<std::string> &names, const std::string &name)
+    unsigned int index_of(std::vector<std::string> &names, const std::string &name)
     {
       const auto it = std::find(names.begin(), names.end(), name);
       if (it != names.end())
@@ -73,8 +71,8 @@ namespace Signorini
     }
 
     /// Elements of one type of all entities of a dimension: entity and node tags. Other types are refused.
-    std::vector<std::pair<int, std::vector<std::size_t>>>
-    elements(const int dimension, const int wanted, const std::string &file)
+    std::vector<std::pair<int, std::vector<std::size_t>>> elements(const int dimension, const int wanted,
+                                                                   const std::string &file)
     {
       std::vector<std::pair<int, std::vector<std::size_t>>> result;
       gmsh::vectorpair                                      entities;
@@ -94,8 +92,7 @@ namespace Signorini
       return result;
     }
 
-    HexahedralMesh
-    read_with_gmsh(const std::string &file)
+    HexahedralMesh read_with_gmsh(const std::string &file)
     {
       const GmshSession session(file);
       HexahedralMesh    mesh;
@@ -110,10 +107,12 @@ namespace Signorini
       const auto                                    vertex = [&](const std::size_t tag) {
         const auto at = position.find(tag);
         if (at == position.end())
-          throw InputError("Mesh file \"" + file + "\": an element refers to a node that is missing. Is the file cut off?");
+          throw InputError("Mesh file \"" + file +
+                                                              "\": an element refers to a node that is missing. Is the file cut off?");
         const auto [it, is_new] = number.insert({tag, static_cast<unsigned int>(mesh.vertices.size())});
         if (is_new)
-          mesh.vertices.emplace_back(coordinates[3 * at->second], coordinates[3 * at->second + 1], coordinates[3 * at->second + 2]);
+          mesh.vertices.emplace_back(coordinates[3 * at->second], coordinates[3 * at->second + 1],
+                                                                        coordinates[3 * at->second + 2]);
         return it->second;
       };
 
@@ -152,14 +151,14 @@ namespace Signorini
           std::array<unsigned int, 4> key = face.first;
           std::sort(key.begin(), key.end());
           const auto it = named.find(key);
-          mesh.faces.push_back({face.first, index_of(mesh.boundary_names, it == named.end() ? "unnamed" : it->second)});
+          mesh.faces.push_back(
+              {face.first, index_of(mesh.boundary_names, it == named.end() ? "unnamed" : it->second)});
         }
       return mesh;
     }
 
     /// Turns mirrored cells over; refuses twisted ones.
-    void
-    mend_orientation(HexahedralMesh &mesh, const std::string &file)
+    void mend_orientation(HexahedralMesh &mesh, const std::string &file)
     {
       std::size_t n_mended = 0;
       for (auto &cell : mesh.cells)
@@ -177,20 +176,21 @@ namespace Signorini
           if (!(quality() > 0.))
             {
               std::ostringstream message;
-              message << "Mesh file \"" << file << "\": inverted or degenerate cell near (" << corners[0] << "). Mend the mesh.";
+              message << "Mesh file \"" << file << "\": inverted or degenerate cell near (" << corners[0]
+                      << "). Mend the mesh.";
               throw InputError(message.str());
             }
           ++n_mended;
         }
       if (n_mended > 0)
-        mesh.notes.push_back("Mesh file \"" + file + "\": " + std::to_string(n_mended) + " cells of mirrored orientation mended.");
+        mesh.notes.push_back("Mesh file \"" + file + "\": " + std::to_string(n_mended) +
+                             " cells of mirrored orientation mended.");
     }
   } // namespace
 
 
 
-  HexahedralMesh
-  read_hexahedral_mesh(const std::string &file, const MPI_Comm communicator)
+  HexahedralMesh read_hexahedral_mesh(const std::string &file, const MPI_Comm communicator)
   {
     HexahedralMesh mesh;
     std::string    error;
@@ -214,7 +214,8 @@ namespace Signorini
         catch (...)
           {
             // gmsh throws plain strings and numbers as well.
-            error = "Mesh file \"" + file + "\" cannot be read. Is it complete, and of a format that gmsh knows?";
+            error =
+                "Mesh file \"" + file + "\" cannot be read. Is it complete, and of a format that gmsh knows?";
           }
       }
     error = Utilities::MPI::broadcast(communicator, error, 0);

@@ -41,8 +41,7 @@ namespace Signorini
 
 
 
-  void
-  NodalSpace::set_positions()
+  void NodalSpace::set_positions()
   {
     positions.resize(relevant_nodes.n_elements());
     std::array<NodeIndex, 8> nodes;
@@ -64,7 +63,8 @@ namespace Signorini
         field.update_ghost_values();
         for (unsigned int i = partition.n_owned(); i < partition.n_local(); ++i)
           for (unsigned int c = 0; c < dim; ++c)
-            positions[relevant_nodes.index_within_set(partition.to_global(i))][c] = field.local_element(dim * i + c);
+            positions[relevant_nodes.index_within_set(partition.to_global(i))][c] =
+                field.local_element(dim * i + c);
       }
     // The constraints are closed: parents are conforming nodes.
     for (const auto &line : constraints.get_lines())
@@ -78,8 +78,8 @@ namespace Signorini
 
 
 
-  void
-  NodalSpace::cell_nodes(const DoFHandler<3>::active_cell_iterator &cell, std::array<NodeIndex, 8> &nodes) const
+  void NodalSpace::cell_nodes(const DoFHandler<3>::active_cell_iterator &cell,
+                              std::array<NodeIndex, 8>                  &nodes) const
   {
     for (unsigned int v = 0; v < 8; ++v)
       nodes[v] = cell->vertex_dof_index(v, 0);

@@ -12,23 +12,22 @@ namespace Signorini
 {
   using namespace dealii;
 
-  void
-  RefinementParameters::add_parameters(ParameterHandler &prm)
+  void RefinementParameters::add_parameters(ParameterHandler &prm)
   {
     prm.add_parameter("Initial global levels", initial_global, "Global refinements before the first cycle.");
-    prm.add_parameter("Global cycles", global_cycles, "Cycles, each with one global refinement, after the first one.");
-    prm.add_parameter("Regions",
-                      regions,
-                      "Balls and boxes with the number of levels their cells are refined beyond the global levels, one "
-                      "level per cycle: \"ball: (x, y, z), radius, levels; box: (x, y, z), (x, y, z), levels; ...\".");
+    prm.add_parameter("Global cycles", global_cycles,
+                      "Cycles, each with one global refinement, after the first one.");
+    prm.add_parameter(
+        "Regions", regions,
+        "Balls and boxes with the number of levels their cells are refined beyond the global levels, one "
+        "level per cycle: \"ball: (x, y, z), radius, levels; box: (x, y, z), (x, y, z), levels; ...\".");
   }
 
 
 
   namespace
   {
-    Point<3>
-    parse_point(const std::string &text, const std::string &where)
+    Point<3> parse_point(const std::string &text, const std::string &where)
     {
       const auto entries = split_vector(text, where);
       Point<3>   p;
@@ -37,13 +36,14 @@ namespace Signorini
       return p;
     }
 
-    RefinementRegion
-    parse_region(const std::string &kind, const std::string &text)
+    RefinementRegion parse_region(const std::string &kind, const std::string &text)
     {
       const std::string where = "Refinement/Regions, \"" + kind + ": " + text + "\"";
       const auto        parts = split_list(text, ',', where);
       if ((kind != "ball" && kind != "box") || parts.size() != 3)
-        throw InputError(where + ": expected \"ball: (x, y, z), radius, levels\" or \"box: (x, y, z), (x, y, z), levels\".");
+        throw InputError(
+            where +
+            ": expected \"ball: (x, y, z), radius, levels\" or \"box: (x, y, z), (x, y, z), levels\".");
       RefinementRegion region;
       region.is_ball         = kind == "ball";
       region.centre_or_lower = parse_point(parts[0], where);
@@ -53,7 +53,8 @@ namespace Signorini
       else
         region.upper = parse_point(parts[1], where);
       const double levels = Expression(parts[2], where)(Point<3>());
-      if (!(levels >= 0. && levels <= 20. && levels == std::floor(levels)) || (region.is_ball && !(region.radius > 0.)))
+      if (!(levels >= 0. && levels <= 20. && levels == std::floor(levels)) ||
+          (region.is_ball && !(region.radius > 0.)))
         throw InputError(where + ": the number of levels must be between 0 and 20, and a radius positive.");
       region.levels = static_cast<unsigned int>(levels);
       return region;
@@ -62,8 +63,7 @@ namespace Signorini
 
 
 
-  bool
-  RefinementRegion::touches(const Point<3> &low, const Point<3> &high) const
+  bool RefinementRegion::touches(const Point<3> &low, const Point<3> &high) const
   {
     double distance_square = 0.;
     for (unsigned int c = 0; c < 3; ++c)
@@ -92,8 +92,8 @@ namespace Signorini
 
 
 
-  bool
-  Refinement::mark(parallel::distributed::Triangulation<3> &triangulation, const unsigned int cycle) const
+  bool Refinement::mark(parallel::distributed::Triangulation<3> &triangulation,
+                        const unsigned int                       cycle) const
   {
     if (cycle > cycles)
       return false;
@@ -117,7 +117,8 @@ namespace Signorini
                   }
               const int wanted = base + (cycle - parameters.global_cycles);
               for (const RefinementRegion &region : regions)
-                refine = refine || (cell->level() < std::min<int>(wanted, base + region.levels) && region.touches(low, high));
+                refine = refine || (cell->level() < std::min<int>(wanted, base + region.levels) &&
+                                    region.touches(low, high));
             }
           if (refine)
             {

@@ -15,24 +15,24 @@ namespace Signorini
     struct PackedFace
     {
       std::uint64_t coarse_cell, path, face_number;
-      /// Corners counterclockwise from outside; behind each its successor edge's hanging vertex or invalid_node.
-      std::array<NodeIndex, 8>               nodes;
-      std::array<std::array<double, 3>, 8>   points;
-      std::array<FixedMask, 8>               fixed;
-      unsigned int                           owner;
+      /// Corners counterclockwise from outside; behind each its successor edge's hanging vertex or
+      /// invalid_node.
+      std::array<NodeIndex, 8>             nodes;
+      std::array<std::array<double, 3>, 8> points;
+      std::array<FixedMask, 8>             fixed;
+      unsigned int                         owner;
 
-      bool
-      operator<(const PackedFace &other) const
+      bool operator<(const PackedFace &other) const
       {
-        return std::tie(coarse_cell, path, face_number) < std::tie(other.coarse_cell, other.path, other.face_number);
+        return std::tie(coarse_cell, path, face_number) <
+               std::tie(other.coarse_cell, other.path, other.face_number);
       }
     };
 
     using Cell = DoFHandler<3>::active_cell_iterator;
 
     /// The hanging vertex in the middle of an edge of an owned cell, or invalid_node.
-    NodeIndex
-    hanging_vertex(const Cell &cell, const unsigned int line)
+    NodeIndex hanging_vertex(const Cell &cell, const unsigned int line)
     {
       if (!cell->line(line)->has_children())
         return invalid_node;
@@ -40,8 +40,7 @@ namespace Signorini
     }
 
     /// The line of a cell between two of its vertices.
-    unsigned int
-    line_between(const unsigned int a, const unsigned int b)
+    unsigned int line_between(const unsigned int a, const unsigned int b)
     {
       for (unsigned int l = 0; l < GeometryInfo<3>::lines_per_cell; ++l)
         {
@@ -54,11 +53,8 @@ namespace Signorini
       return 0;
     }
 
-    PackedFace
-    pack(const Cell                                      &cell,
-         const unsigned int                               face,
-         const NodalSpace                                &space,
-         const std::function<FixedMask(const NodeIndex)> &fixed)
+    PackedFace pack(const Cell &cell, const unsigned int face, const NodalSpace &space,
+                    const std::function<FixedMask(const NodeIndex)> &fixed)
     {
       PackedFace   packed;
       const CellId id    = cell->id();
@@ -82,8 +78,9 @@ namespace Signorini
         cell_centre += .125 * space.position(node);
       for (const unsigned int v : loop)
         face_centre += .25 * space.position(nodes[v]);
-      const Tensor<1, 3> normal = cross_product_3d(space.position(nodes[loop[2]]) - space.position(nodes[loop[0]]),
-                                                   space.position(nodes[loop[3]]) - space.position(nodes[loop[1]]));
+      const Tensor<1, 3> normal =
+          cross_product_3d(space.position(nodes[loop[2]]) - space.position(nodes[loop[0]]),
+                           space.position(nodes[loop[3]]) - space.position(nodes[loop[1]]));
       if (normal * (face_centre - cell_centre) < 0.)
         std::swap(loop[1], loop[3]);
 
@@ -107,8 +104,7 @@ namespace Signorini
       return packed;
     }
 
-    std::vector<PackedFace>
-    gather_faces(const std::vector<PackedFace> &mine, const MPI_Comm communicator)
+    std::vector<PackedFace> gather_faces(const std::vector<PackedFace> &mine, const MPI_Comm communicator)
     {
       std::vector<PackedFace> all;
       if (Utilities::MPI::n_mpi_processes(communicator) == 1)
@@ -116,8 +112,8 @@ namespace Signorini
       else
         {
           const char *const begin = reinterpret_cast<const char *>(mine.data());
-          for (const auto &bytes : Utilities::MPI::all_gather(communicator,
-                                                              std::vector<char>(begin, begin + mine.size() * sizeof(PackedFace))))
+          for (const auto &bytes : Utilities::MPI::all_gather(
+                   communicator, std::vector<char>(begin, begin + mine.size() * sizeof(PackedFace))))
             {
               const std::size_t n = all.size();
               all.resize(n + bytes.size() / sizeof(PackedFace));
@@ -130,22 +126,21 @@ namespace Signorini
 
     /// Triangles of a face with hanging vertices on some of its edges: ears with a corner between two
     /// neighbouring polygon vertices are cut where the remaining polygon stays well shaped.
-    void
-    triangulate(std::vector<std::array<unsigned int, 3>> &triangles,
-                std::vector<unsigned int>                 polygon,
-                const std::vector<Point<3>>              &vertices)
+    void triangulate(std::vector<std::array<unsigned int, 3>> &triangles, std::vector<unsigned int> polygon,
+                     const std::vector<Point<3>> &vertices)
     {
       while (polygon.size() > 3)
         {
           // The ear with the shortest diagonal; a flat ear (three points of one edge) is none.
-          const std::size_t n    = polygon.size();
-          std::size_t       best = n;
+          const std::size_t n        = polygon.size();
+          std::size_t       best     = n;
           double            shortest = std::numeric_limits<double>::max();
           for (std::size_t i = 0; i < n; ++i)
             {
-              const Point<3> &a = vertices[polygon[(i + n - 1) % n]], &b = vertices[polygon[i]], &c = vertices[polygon[(i + 1) % n]];
-              const double    diagonal = a.distance(c);
-              const double    height   = cross_product_3d(b - a, c - b).norm() / diagonal;
+              const Point<3> &a = vertices[polygon[(i + n - 1) % n]], &b = vertices[polygon[i]],
+                             &c     = vertices[polygon[(i + 1) % n]];
+              const double diagonal = a.distance(c);
+              const double height   = cross_product_3d(b - a, c - b).norm() / diagonal;
               if (height > 1e-3 * diagonal && diagonal < shortest * (1. - 1e-9))
                 {
                   shortest = diagonal;
@@ -161,8 +156,7 @@ namespace Signorini
 
     /// Vertex normals: area weighted; hanging vertices get the mean of their parents; then projected onto the
     /// free directions.
-    void
-    set_normals(ContactSurface &surface)
+    void set_normals(ContactSurface &surface)
     {
       surface.mesh.compute_vertex_normals();
       auto &normals = surface.mesh.vertex_normals;
@@ -188,11 +182,9 @@ namespace Signorini
 
 
 
-  ContactSurface
-  extract_contact_surface(const NodalSpace                                  &space,
-                          const std::set<types::boundary_id>                &ids,
-                          const std::function<FixedMask(const NodeIndex)>   &fixed,
-                          const std::function<bool(const Point<3> &point)> &region)
+  ContactSurface extract_contact_surface(const NodalSpace &space, const std::set<types::boundary_id> &ids,
+                                         const std::function<FixedMask(const NodeIndex)>  &fixed,
+                                         const std::function<bool(const Point<3> &point)> &region)
   {
     std::vector<PackedFace> mine;
     for (const auto &cell : space.dof_handler().active_cell_iterators())
@@ -225,7 +217,8 @@ namespace Signorini
         for (unsigned int v = 0; v < 8; ++v)
           if (face.nodes[v] != invalid_node)
             {
-              const auto [it, is_new] = number.insert({face.nodes[v], static_cast<unsigned int>(surface.vertex_node.size())});
+              const auto [it, is_new] =
+                  number.insert({face.nodes[v], static_cast<unsigned int>(surface.vertex_node.size())});
               if (is_new)
                 {
                   surface.vertex_node.push_back(face.nodes[v]);
@@ -237,7 +230,8 @@ namespace Signorini
                 surface.faces.back().corners[v / 2] = it->second;
             }
         triangulate(surface.mesh.triangles, polygon, surface.mesh.vertices);
-        surface.triangle_face.resize(surface.mesh.triangles.size(), static_cast<unsigned int>(surface.faces.size() - 1));
+        surface.triangle_face.resize(surface.mesh.triangles.size(),
+                                     static_cast<unsigned int>(surface.faces.size() - 1));
       }
 
     // A vertex in the middle of an edge of any face depends on the ends of the edge; chains are resolved.
@@ -245,7 +239,8 @@ namespace Signorini
     for (const PackedFace &face : faces)
       for (unsigned int v = 1; v < 8; v += 2)
         if (face.nodes[v] != invalid_node)
-          surface.hanging[number[face.nodes[v]]] = {{number[face.nodes[v - 1]], .5}, {number[face.nodes[(v + 1) % 8]], .5}};
+          surface.hanging[number[face.nodes[v]]] = {{number[face.nodes[v - 1]], .5},
+                                                    {number[face.nodes[(v + 1) % 8]], .5}};
     for (auto &entries : surface.hanging)
       for (std::size_t i = 0; i < entries.size();)
         if (const auto &parents = surface.hanging[entries[i].first]; !parents.empty())

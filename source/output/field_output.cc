@@ -32,24 +32,24 @@ namespace Signorini
               ranges.emplace_back(names.size(), names.size() + 2, field.name,
                                   DataComponentInterpretation::component_is_part_of_vector);
             for (unsigned int c = 0; c < field.n_components; ++c)
-              names.push_back(field.n_components == 1 ? field.name :
-                              field.n_components == 3 ? field.name :
-                                                        field.name + "_" + component_names[c]);
+              names.push_back(field.n_components == 1   ? field.name
+                              : field.n_components == 3 ? field.name
+                                                        : field.name + "_" + component_names[c]);
           }
       }
 
       std::vector<Patch>       patches;
       std::vector<std::string> names;
 
-      void
-      write(const std::string &folder, const std::string &name, const MPI_Comm comm)
+      void write(const std::string &folder, const std::string &name, const MPI_Comm comm)
       {
         DataOutBase::VtkFlags flags;
         flags.compression_level = DataOutBase::VtkFlags::best_speed;
         this->set_flags(flags);
-        const unsigned int rank = Utilities::MPI::this_mpi_process(comm), n = Utilities::MPI::n_mpi_processes(comm);
-        const auto         piece = [&](const unsigned int r) { return name + "." + std::to_string(r) + ".vtu"; };
-        bool               good  = true;
+        const unsigned int rank = Utilities::MPI::this_mpi_process(comm),
+                           n    = Utilities::MPI::n_mpi_processes(comm);
+        const auto piece = [&](const unsigned int r) { return name + "." + std::to_string(r) + ".vtu"; };
+        bool       good  = true;
         {
           std::ofstream out(folder + piece(rank));
           this->write_vtu(out);
@@ -74,33 +74,33 @@ namespace Signorini
       }
 
     protected:
-      const std::vector<Patch> &
-      get_patches() const override
+      const std::vector<Patch> &get_patches() const override
       {
         return patches;
       }
 
-      std::vector<std::string>
-      get_dataset_names() const override
+      std::vector<std::string> get_dataset_names() const override
       {
         return names;
       }
 
-      std::vector<std::tuple<unsigned int, unsigned int, std::string, DataComponentInterpretation::DataComponentInterpretation>>
+      std::vector<std::tuple<unsigned int, unsigned int, std::string,
+                             DataComponentInterpretation::DataComponentInterpretation>>
       get_nonscalar_data_ranges() const override
       {
         return ranges;
       }
 
     private:
-      std::vector<std::tuple<unsigned int, unsigned int, std::string, DataComponentInterpretation::DataComponentInterpretation>>
-        ranges;
+      std::vector<std::tuple<unsigned int, unsigned int, std::string,
+                             DataComponentInterpretation::DataComponentInterpretation>>
+          ranges;
     };
 
     /// Writes the values of one vertex into a column of a patch.
     template <typename P>
-    void
-    fill(P &patch, const unsigned int column, const std::vector<OutputField> &fields, const std::size_t index)
+    void fill(P &patch, const unsigned int column, const std::vector<OutputField> &fields,
+              const std::size_t index)
     {
       unsigned int row = 0;
       for (const OutputField &field : fields)
@@ -111,12 +111,9 @@ namespace Signorini
 
 
 
-  void
-  write_bodies(const std::string                                               &folder,
-               const std::string                                               &name,
-               const NodalSpace                                                &space,
-               const std::vector<OutputField>                                  &fields,
-               const std::function<double(const types::material_id material)> &body)
+  void write_bodies(const std::string &folder, const std::string &name, const NodalSpace &space,
+                    const std::vector<OutputField>                                 &fields,
+                    const std::function<double(const types::material_id material)> &body)
   {
     PatchOutput<3> output(fields);
     output.names.push_back("body");
@@ -142,12 +139,8 @@ namespace Signorini
 
 
 
-  void
-  write_surface(const std::string              &folder,
-                const std::string              &name,
-                const ContactSurface           &surface,
-                const std::vector<OutputField> &fields,
-                const MPI_Comm                  communicator)
+  void write_surface(const std::string &folder, const std::string &name, const ContactSurface &surface,
+                     const std::vector<OutputField> &fields, const MPI_Comm communicator)
   {
     const unsigned int        rank = Utilities::MPI::this_mpi_process(communicator);
     PatchOutput<2>            output(fields);
@@ -175,8 +168,9 @@ namespace Signorini
   namespace
   {
     /// Stress at the centre of a trilinear cell (the most accurate point), and the volume.
-    std::pair<std::array<double, 6>, double>
-    centre_stress(const std::array<Point<3>, 8> &x, const std::array<Vector3, 8> &u, const double young, const double poisson)
+    std::pair<std::array<double, 6>, double> centre_stress(const std::array<Point<3>, 8> &x,
+                                                           const std::array<Vector3, 8>  &u,
+                                                           const double young, const double poisson)
     {
       Tensor<2, 3> jacobian, slope;
       for (unsigned int v = 0; v < 8; ++v)
@@ -191,9 +185,12 @@ namespace Signorini
           }
       const Tensor<2, 3> gradient = slope * invert(jacobian);
       const double       mu       = .5 * young / (1. + poisson);
-      const double       pressure = young * poisson / ((1. + poisson) * (1. - 2. * poisson)) * trace(gradient);
-      const auto         shear    = [&](const unsigned int a, const unsigned int b) { return mu * (gradient[a][b] + gradient[b][a]); };
-      return {{{shear(0, 0) + pressure, shear(1, 1) + pressure, shear(2, 2) + pressure, shear(0, 1), shear(1, 2), shear(2, 0)}},
+      const double pressure = young * poisson / ((1. + poisson) * (1. - 2. * poisson)) * trace(gradient);
+      const auto   shear    = [&](const unsigned int a, const unsigned int b) {
+        return mu * (gradient[a][b] + gradient[b][a]);
+      };
+      return {{{shear(0, 0) + pressure, shear(1, 1) + pressure, shear(2, 2) + pressure, shear(0, 1),
+                shear(1, 2), shear(2, 0)}},
               determinant(jacobian)};
     }
   } // namespace
@@ -201,8 +198,7 @@ namespace Signorini
 
 
   std::vector<OutputField>
-  nodal_stress(const NodalSpace                                                                  &space,
-               const std::vector<double>                                                         &displacement,
+  nodal_stress(const NodalSpace &space, const std::vector<double> &displacement,
                const std::function<std::pair<double, double>(const types::material_id material)> &material)
   {
     const NodePartition      partition(space.owned(), space.relevant(), space.communicator());
@@ -241,7 +237,7 @@ namespace Signorini
         v->update_ghost_values();
       }
 
-    const std::size_t        n = space.relevant().n_elements();
+    const std::size_t        n      = space.relevant().n_elements();
     std::vector<OutputField> fields = {{"stress", 6, std::vector<double>(6 * n, 0.)},
                                        {"von_Mises", 1, std::vector<double>(n, 0.)},
                                        {"principal_stress", 3, std::vector<double>(3 * n, 0.)}};
@@ -258,7 +254,8 @@ namespace Signorini
             s[3 + c] = shear.local_element(3 * i + c) / w;
           }
         std::copy(s, s + 6, fields[0].values.begin() + 6 * r);
-        fields[1].values[r] = std::sqrt(.5 * ((s[0] - s[1]) * (s[0] - s[1]) + (s[1] - s[2]) * (s[1] - s[2]) + (s[2] - s[0]) * (s[2] - s[0])) +
+        fields[1].values[r] = std::sqrt(.5 * ((s[0] - s[1]) * (s[0] - s[1]) + (s[1] - s[2]) * (s[1] - s[2]) +
+                                              (s[2] - s[0]) * (s[2] - s[0])) +
                                         3. * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
         SymmetricTensor<2, 3> tensor;
         for (unsigned int c = 0; c < 3; ++c)

@@ -21,8 +21,7 @@ namespace Signorini
 
     /// Runs on rank 0; an error there is raised everywhere.
     template <typename F>
-    void
-    on_root(const MPI_Comm comm, const F &action)
+    void on_root(const MPI_Comm comm, const F &action)
     {
       std::string error;
       if (Utilities::MPI::this_mpi_process(comm) == 0)
@@ -48,12 +47,14 @@ namespace Signorini
   {
     while (target.size() > 1 && target.back() == '/')
       target.pop_back();
-    temporary = target + ".part-" + std::to_string(Utilities::MPI::broadcast(comm, static_cast<long>(getpid()), 0)) + "/";
+    temporary = target + ".part-" +
+                std::to_string(Utilities::MPI::broadcast(comm, static_cast<long>(getpid()), 0)) + "/";
     on_root(comm, [&] {
       if (fs::exists(target) && !fs::is_directory(target))
         throw InputError("\"" + target + "\" is a file. Choose another name.");
       if (fs::exists(target) && !fs::is_empty(target) && !fs::exists(target + "/" + marker))
-        throw InputError("\"" + target + "\" exists and was not written by signorini. Choose another name or remove it.");
+        throw InputError("\"" + target +
+                         "\" exists and was not written by signorini. Choose another name or remove it.");
       fs::create_directories(temporary);
       std::ofstream(temporary + marker) << "results of signorini\n";
     });
@@ -70,8 +71,7 @@ namespace Signorini
 
 
 
-  void
-  OutputFolder::commit()
+  void OutputFolder::commit()
   {
     // All ranks must have closed their files.
     MPI_Barrier(comm);

@@ -15,10 +15,10 @@ namespace Signorini
     public:
       explicit JsonWriter(std::ostream &out)
         : out(out)
-      {}
+      {
+      }
 
-      void
-      begin(const char bracket, const std::string &key = "")
+      void begin(const char bracket, const std::string &key = "")
       {
         item(key);
         out << bracket;
@@ -26,16 +26,14 @@ namespace Signorini
         ++depth;
       }
 
-      void
-      end(const char bracket)
+      void end(const char bracket)
       {
         --depth;
         out << '\n' << std::string(2 * depth, ' ') << bracket;
         first = false;
       }
 
-      void
-      number(const std::string &key, const double value)
+      void number(const std::string &key, const double value)
       {
         item(key);
         if (std::isfinite(value))
@@ -44,23 +42,20 @@ namespace Signorini
           out << "null";
       }
 
-      void
-      text(const std::string &key, const std::string &value)
+      void text(const std::string &key, const std::string &value)
       {
         item(key);
         out << quoted(value);
       }
 
-      void
-      boolean(const std::string &key, const bool value)
+      void boolean(const std::string &key, const bool value)
       {
         item(key);
         out << (value ? "true" : "false");
       }
 
       template <typename V>
-      void
-      vector(const std::string &key, const V &v)
+      void vector(const std::string &key, const V &v)
       {
         begin('[', key);
         for (unsigned int c = 0; c < 3; ++c)
@@ -69,8 +64,7 @@ namespace Signorini
       }
 
     private:
-      void
-      item(const std::string &key)
+      void item(const std::string &key)
       {
         if (!first)
           out << ',';
@@ -81,8 +75,7 @@ namespace Signorini
           out << quoted(key) << ": ";
       }
 
-      static std::string
-      quoted(const std::string &text)
+      static std::string quoted(const std::string &text)
       {
         std::ostringstream result;
         result << '"';
@@ -90,7 +83,8 @@ namespace Signorini
           if (c == '"' || c == '\\')
             result << '\\' << c;
           else if (static_cast<unsigned char>(c) < 32)
-            result << "\\u" << std::hex << std::setw(4) << std::setfill('0') << static_cast<int>(c) << std::dec;
+            result << "\\u" << std::hex << std::setw(4) << std::setfill('0') << static_cast<int>(c)
+                   << std::dec;
           else
             result << c;
         result << '"';
@@ -102,8 +96,7 @@ namespace Signorini
       int           depth = 0;
     };
 
-    void
-    write_solver(JsonWriter &json, const ConvergenceReport &report)
+    void write_solver(JsonWriter &json, const ConvergenceReport &report)
     {
       json.number("iterations", report.iterations);
       json.number("rate", report.rate);
@@ -113,8 +106,7 @@ namespace Signorini
       json.end(']');
     }
 
-    void
-    write_cycle(JsonWriter &json, const CycleResult &cycle)
+    void write_cycle(JsonWriter &json, const CycleResult &cycle)
     {
       json.begin('{');
       json.number("cycle", cycle.cycle);
@@ -139,7 +131,8 @@ namespace Signorini
       json.number("sweep_bytes_per_s", cycle.sweep_bytes_per_second);
       json.number("read_bytes_per_s", cycle.read_bytes_per_second);
       json.begin('{', "times_s");
-      for (const char *name : {"mesh", "mapping", "mortar", "assembly", "hierarchy", "solve", "linear_solve", "estimate", "output"})
+      for (const char *name : {"mesh", "mapping", "mortar", "assembly", "hierarchy", "solve", "linear_solve",
+                               "estimate", "output"})
         {
           const auto it = cycle.times.find(name);
           json.number(name, it == cycle.times.end() ? 0. : it->second);
@@ -148,8 +141,7 @@ namespace Signorini
       json.end('}');
     }
 
-    void
-    write_pair(JsonWriter &json, const PairResult &pair)
+    void write_pair(JsonWriter &json, const PairResult &pair)
     {
       json.begin('{');
       json.text("name", pair.name);
@@ -170,8 +162,7 @@ namespace Signorini
       json.end('}');
     }
 
-    void
-    write_certificate(JsonWriter &json, const Certificate &c)
+    void write_certificate(JsonWriter &json, const Certificate &c)
     {
       json.begin('{', "certificate");
       json.number("penetration", c.penetration);
@@ -187,8 +178,7 @@ namespace Signorini
 
 
 
-  void
-  write_summary(std::ostream &out, const Results &results)
+  void write_summary(std::ostream &out, const Results &results)
   {
     JsonWriter json(out);
     json.begin('{');
@@ -239,10 +229,10 @@ namespace Signorini
 
 
 
-  void
-  write_table(std::ostream &out, const Results &results)
+  void write_table(std::ostream &out, const Results &results)
   {
-    out << "level  elements      dofs  nonlinear  linear  contact  active    rate  linear rate  solve [s]  total [s]\n";
+    out << "level  elements      dofs  nonlinear  linear  contact  active    rate  linear rate  solve [s]  "
+           "total [s]\n";
     for (const CycleResult &c : results.cycles)
       {
         double total = 0.;
@@ -250,8 +240,9 @@ namespace Signorini
           total += time.second;
         const auto time = c.times.find("solve");
         out << std::setw(5) << c.cycle << std::setw(10) << c.cells << std::setw(10) << c.dofs << std::setw(11)
-            << c.nonlinear.iterations << std::setw(8) << (c.has_linear ? std::to_string(c.linear.iterations) : "-") << std::setw(9)
-            << c.contact_nodes << std::setw(8) << c.active_nodes << std::setw(8) << std::setprecision(3) << c.nonlinear.rate
+            << c.nonlinear.iterations << std::setw(8)
+            << (c.has_linear ? std::to_string(c.linear.iterations) : "-") << std::setw(9) << c.contact_nodes
+            << std::setw(8) << c.active_nodes << std::setw(8) << std::setprecision(3) << c.nonlinear.rate
             << std::setw(13);
         if (c.has_linear)
           out << c.linear.rate;
@@ -263,43 +254,45 @@ namespace Signorini
 
 
 
-  void
-  write_convergence(std::ostream &out, const Results &results)
+  void write_convergence(std::ostream &out, const Results &results)
   {
     out << "cycle,iteration,correction,relative,active_nodes\n" << std::setprecision(17);
     for (const CycleResult &c : results.cycles)
       for (std::size_t i = 0; i < c.nonlinear.history.size(); ++i)
         out << c.cycle << ',' << i + 1 << ',' << c.nonlinear.history[i] << ','
-            << (c.nonlinear.scale > 0. ? c.nonlinear.history[i] / c.nonlinear.scale : 0.) << ',' << c.nonlinear.active_nodes[i] << '\n';
+            << (c.nonlinear.scale > 0. ? c.nonlinear.history[i] / c.nonlinear.scale : 0.) << ','
+            << c.nonlinear.active_nodes[i] << '\n';
   }
 
 
 
-  void
-  write_pressure(std::ostream &out, const Results &results)
+  void write_pressure(std::ostream &out, const Results &results)
   {
     out << "x,y,z,area,pressure,gap,active\n" << std::setprecision(17);
     for (const PressureRow &row : results.pressure)
-      out << row.position[0] << ',' << row.position[1] << ',' << row.position[2] << ',' << row.area << ',' << row.pressure << ','
-          << row.gap << ',' << row.active << '\n';
+      out << row.position[0] << ',' << row.position[1] << ',' << row.position[2] << ',' << row.area << ','
+          << row.pressure << ',' << row.gap << ',' << row.active << '\n';
   }
 
 
 
-  void
-  print_certificate(std::ostream &out, const Results &results)
+  void print_certificate(std::ostream &out, const Results &results)
   {
     const Certificate &c = results.certificate;
     out << std::setprecision(3) << "certificate\n"
         << "  penetration      " << c.penetration << "   (algebraic, largest / largest displacement)\n"
-        << "  geometric        " << c.geometric_penetration << "   (sampled on all overlay cells, / largest displacement)\n"
+        << "  geometric        " << c.geometric_penetration
+        << "   (sampled on all overlay cells, / largest displacement)\n"
         << "  tension          " << c.tension << "   (largest / largest pressure)\n"
-        << "  complementarity  " << c.complementarity << "   (largest |pressure * gap| / (largest pressure * displacement))\n"
-        << "  equilibrium      " << c.equilibrium << "   (residual with contact forces / norm of the nodal forces)\n"
+        << "  complementarity  " << c.complementarity
+        << "   (largest |pressure * gap| / (largest pressure * displacement))\n"
+        << "  equilibrium      " << c.equilibrium
+        << "   (residual with contact forces / norm of the nodal forces)\n"
         << "  force balance    " << c.force_balance << "   (sum of the forces on both bodies / force)\n"
         << "  energy           " << std::setprecision(10) << c.energy << '\n';
     for (const PairResult &p : results.pairs)
-      out << std::setprecision(6) << "pair " << p.name << ": force on " << p.nonmortar << " (" << p.force[0] << ", " << p.force[1] << ", "
-          << p.force[2] << "), largest pressure " << p.max_pressure << ", contact area " << p.contact_area << '\n';
+      out << std::setprecision(6) << "pair " << p.name << ": force on " << p.nonmortar << " (" << p.force[0]
+          << ", " << p.force[1] << ", " << p.force[2] << "), largest pressure " << p.max_pressure
+          << ", contact area " << p.contact_area << '\n';
   }
 } // namespace Signorini

@@ -27,15 +27,13 @@ namespace Signorini
       std::vector<double>    values;
 
       template <class Archive>
-      void
-      serialize(Archive &archive, const unsigned int)
+      void serialize(Archive &archive, const unsigned int)
       {
         archive &rows &columns &values;
       }
     };
 
-    PackedMatrix
-    pack(const NodeBlockMatrix &matrix)
+    PackedMatrix pack(const NodeBlockMatrix &matrix)
     {
       PackedMatrix packed;
       for (unsigned int i = 0; i < matrix.n_rows(); ++i)
@@ -53,7 +51,8 @@ namespace Signorini
 
   CoarseCholesky::CoarseCholesky()
     : factorization(std::make_unique<Factorization>())
-  {}
+  {
+  }
 
 
 
@@ -65,8 +64,7 @@ namespace Signorini
 
 
 
-  void
-  CoarseCholesky::factorize(const NodeBlockMatrix &matrix)
+  void CoarseCholesky::factorize(const NodeBlockMatrix &matrix)
   {
     const MPI_Comm comm         = matrix.partition().communicator();
     factorization->communicator = comm;
@@ -83,11 +81,10 @@ namespace Signorini
               for (unsigned int c = 0; c < dim; ++c)
                 for (unsigned int d = 0; d < dim; ++d)
                   if (piece.rows[k] >= piece.columns[k])
-                    triplets.emplace_back(dim * piece.rows[k] + c,
-                                          dim * piece.columns[k] + d,
+                    triplets.emplace_back(dim * piece.rows[k] + c, dim * piece.columns[k] + d,
                                           piece.values[9 * k + dim * c + d]);
           }
-        const auto n = static_cast<Eigen::Index>(dim * matrix.partition().n_global());
+        const auto                  n = static_cast<Eigen::Index>(dim * matrix.partition().n_global());
         Eigen::SparseMatrix<double> lower(n, n);
         lower.setFromTriplets(triplets.begin(), triplets.end());
         if (!factorization->analyzed || factorization->n_blocks != n_blocks)
@@ -103,10 +100,9 @@ namespace Signorini
 
 
 
-  void
-  CoarseCholesky::solve(Vector &solution, const Vector &rhs) const
+  void CoarseCholesky::solve(Vector &solution, const Vector &rhs) const
   {
-    const MPI_Comm comm = factorization->communicator;
+    const MPI_Comm      comm = factorization->communicator;
     std::vector<double> mine(rhs.begin(), rhs.begin() + rhs.locally_owned_size());
     if (Utilities::MPI::n_mpi_processes(comm) == 1)
       {
@@ -120,10 +116,11 @@ namespace Signorini
       {
         for (const auto &piece : pieces)
           all.insert(all.end(), piece.begin(), piece.end());
-        const Eigen::VectorXd x = factorization->solver.solve(Eigen::Map<Eigen::VectorXd>(all.data(), all.size()));
+        const Eigen::VectorXd x =
+            factorization->solver.solve(Eigen::Map<Eigen::VectorXd>(all.data(), all.size()));
         std::copy(x.data(), x.data() + x.size(), all.begin());
       }
-    all                    = Utilities::MPI::broadcast(comm, all, 0);
+    all                     = Utilities::MPI::broadcast(comm, all, 0);
     const std::size_t begin = solution.get_partitioner()->local_range().first;
     std::copy_n(all.begin() + begin, mine.size(), solution.begin());
   }

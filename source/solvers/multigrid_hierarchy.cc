@@ -13,8 +13,7 @@ namespace Signorini
   namespace
   {
     /// Directions in which a diagonal block has no stiffness get the stiffness `scale`.
-    void
-    fill_empty_directions(double *const block, const double scale)
+    void fill_empty_directions(double *const block, const double scale)
     {
       SymmetricTensor<2, dim> s;
       for (unsigned int c = 0; c < dim; ++c)
@@ -30,11 +29,11 @@ namespace Signorini
         if (value <= 1e-11 * std::max(reference, 1e-3 * scale))
           for (unsigned int c = 0; c < dim; ++c)
             for (unsigned int d = 0; d < dim; ++d)
-              block[dim * c + d] += (reference > 1e-10 * scale ? reference : scale) * direction[c] * direction[d];
+              block[dim * c + d] +=
+                  (reference > 1e-10 * scale ? reference : scale) * direction[c] * direction[d];
     }
 
-    std::vector<unsigned int>
-    all_rows(const NodeBlockMatrix &matrix)
+    std::vector<unsigned int> all_rows(const NodeBlockMatrix &matrix)
     {
       std::vector<unsigned int> rows(matrix.n_rows());
       std::iota(rows.begin(), rows.end(), 0u);
@@ -44,8 +43,7 @@ namespace Signorini
 
 
 
-  double
-  diagonal_scale(const NodeBlockMatrix &matrix)
+  double diagonal_scale(const NodeBlockMatrix &matrix)
   {
     double scale = 0.;
     for (unsigned int i = 0; i < matrix.n_rows(); ++i)
@@ -56,11 +54,8 @@ namespace Signorini
 
 
 
-  void
-  eliminate_fixed_components(NodeBlockMatrix                 &matrix,
-                             const std::vector<FixedMask>    &fixed,
-                             const std::vector<unsigned int> &rows,
-                             const double                     scale)
+  void eliminate_fixed_components(NodeBlockMatrix &matrix, const std::vector<FixedMask> &fixed,
+                                  const std::vector<unsigned int> &rows, const double scale)
   {
     for (const unsigned int i : rows)
       {
@@ -90,8 +85,8 @@ namespace Signorini
   MultigridHierarchy::MultigridHierarchy(NodeBlockMatrix &&matrix, std::vector<FixedMask> fixed)
   {
     levels.push_back(std::make_unique<MultigridLevel>());
-    levels[0]->matrix   = std::move(matrix);
-    levels[0]->fixed    = std::move(fixed);
+    levels[0]->matrix = std::move(matrix);
+    levels[0]->fixed  = std::move(fixed);
     scales.push_back(diagonal_scale(levels[0]->matrix));
     eliminate_fixed_components(levels[0]->matrix, levels[0]->fixed, all_rows(levels[0]->matrix), scales[0]);
     levels[0]->smoother = std::make_unique<ProjectedGaussSeidel>(levels[0]->matrix);
@@ -99,10 +94,8 @@ namespace Signorini
 
 
 
-  void
-  MultigridHierarchy::add_coarser_level(NodalTransfer               &&transfer,
-                                        const IndexSet               &owned_coarse,
-                                        const std::vector<FixedMask> &fixed)
+  void MultigridHierarchy::add_coarser_level(NodalTransfer &&transfer, const IndexSet &owned_coarse,
+                                             const std::vector<FixedMask> &fixed)
   {
     const NodeBlockMatrix &fine = levels.back()->matrix;
     levels.push_back(std::make_unique<MultigridLevel>());
@@ -118,13 +111,13 @@ namespace Signorini
 
 
 
-  void
-  MultigridHierarchy::set_interface(const std::vector<NodeIndex> &contact_nodes)
+  void MultigridHierarchy::set_interface(const std::vector<NodeIndex> &contact_nodes)
   {
     const NodeBlockMatrix &matrix = coarsest().matrix;
     std::vector<bool>      is_contact(matrix.partition().n_local(), false);
     for (const NodeIndex node : contact_nodes)
-      if (const unsigned int local = matrix.partition().to_local(node); local != numbers::invalid_unsigned_int)
+      if (const unsigned int local = matrix.partition().to_local(node);
+          local != numbers::invalid_unsigned_int)
         is_contact[local] = true;
     std::vector<unsigned int> rows;
     for (unsigned int i = 0; i < matrix.n_rows(); ++i)
@@ -139,8 +132,7 @@ namespace Signorini
 
 
 
-  void
-  MultigridHierarchy::finish()
+  void MultigridHierarchy::finish()
   {
     if (levels.size() == 1)
       {
@@ -171,8 +163,7 @@ namespace Signorini
 
 
 
-  void
-  MultigridHierarchy::truncate_transfer(const Vector &planes, const Vector &changed)
+  void MultigridHierarchy::truncate_transfer(const Vector &planes, const Vector &changed)
   {
     NodalTransfer     &transfer = levels[1]->to_finer;
     std::vector<Block> blocks;
@@ -198,8 +189,7 @@ namespace Signorini
 
 
 
-  bool
-  MultigridHierarchy::truncate(const HalfSpaces &half_spaces, const std::vector<unsigned char> &active)
+  bool MultigridHierarchy::truncate(const HalfSpaces &half_spaces, const std::vector<unsigned char> &active)
   {
     truncated.resize(half_spaces.size(), 0);
     const NodeBlockMatrix &fine = levels[0]->matrix;
@@ -212,8 +202,8 @@ namespace Signorini
     bool any_change = false;
     for (std::size_t p = 0; p < half_spaces.size(); ++p)
       {
-        const bool change = truncated[p] != active[p];
-        any_change        = any_change || change;
+        const bool change                                 = truncated[p] != active[p];
+        any_change                                        = any_change || change;
         changed.local_element(dim * half_spaces.nodes[p]) = change;
         if (active[p])
           for (unsigned int c = 0; c < dim; ++c)

@@ -21,8 +21,7 @@ namespace Signorini
 
 
 
-  void
-  ProjectedGaussSeidel::update_diagonal()
+  void ProjectedGaussSeidel::update_diagonal()
   {
     std::vector<unsigned int> rows(matrix.n_rows());
     std::iota(rows.begin(), rows.end(), 0u);
@@ -31,8 +30,7 @@ namespace Signorini
 
 
 
-  void
-  ProjectedGaussSeidel::update_diagonal(const std::vector<unsigned int> &rows)
+  void ProjectedGaussSeidel::update_diagonal(const std::vector<unsigned int> &rows)
   {
     Block block;
     for (const unsigned int row : rows)
@@ -45,8 +43,7 @@ namespace Signorini
 
 
 
-  void
-  ProjectedGaussSeidel::set_half_spaces(const HalfSpaces &half_spaces)
+  void ProjectedGaussSeidel::set_half_spaces(const HalfSpaces &half_spaces)
   {
     constraints = half_spaces;
     is_active.assign(constraints.size(), 0);
@@ -65,16 +62,14 @@ namespace Signorini
 
 
 
-  void
-  ProjectedGaussSeidel::set_interface(const std::vector<unsigned int> &rows)
+  void ProjectedGaussSeidel::set_interface(const std::vector<unsigned int> &rows)
   {
     interface_rows = all_rows.subset(rows);
   }
 
 
 
-  inline void
-  ProjectedGaussSeidel::project_row(double *const v, const int p)
+  inline void ProjectedGaussSeidel::project_row(double *const v, const int p)
   {
     const Vector3 &n      = constraints.normals[p];
     const double   excess = n[0] * v[0] + n[1] * v[1] + n[2] * v[2] - constraints.bounds[p];
@@ -86,8 +81,7 @@ namespace Signorini
 
 
 
-  inline void
-  ProjectedGaussSeidel::relax(double *const v, const double *const rhs, const unsigned int row)
+  inline void ProjectedGaussSeidel::relax(double *const v, const double *const rhs, const unsigned int row)
   {
     double                    s0 = rhs[dim * row], s1 = rhs[dim * row + 1], s2 = rhs[dim * row + 2];
     const std::size_t         begin = matrix.row_begin(row) + 1, end = matrix.row_end(row);
@@ -111,11 +105,8 @@ namespace Signorini
 
 
 
-  void
-  ProjectedGaussSeidel::run(Vector               &v,
-                            const Vector         &rhs,
-                            const SweepSchedule  &schedule,
-                            const Direction       direction)
+  void ProjectedGaussSeidel::run(Vector &v, const Vector &rhs, const SweepSchedule &schedule,
+                                 const Direction direction)
   {
     const std::size_t n_phases = schedule.phases().size();
     for (std::size_t i = 0; i < n_phases; ++i)
@@ -133,24 +124,21 @@ namespace Signorini
 
 
 
-  void
-  ProjectedGaussSeidel::sweep(Vector &v, const Vector &rhs, const Direction direction)
+  void ProjectedGaussSeidel::sweep(Vector &v, const Vector &rhs, const Direction direction)
   {
     run(v, rhs, all_rows, direction);
   }
 
 
 
-  void
-  ProjectedGaussSeidel::interface_sweep(Vector &v, const Vector &rhs, const Direction direction)
+  void ProjectedGaussSeidel::interface_sweep(Vector &v, const Vector &rhs, const Direction direction)
   {
     run(v, rhs, interface_rows, direction);
   }
 
 
 
-  void
-  ProjectedGaussSeidel::project(Vector &v)
+  void ProjectedGaussSeidel::project(Vector &v)
   {
     for (std::size_t p = 0; p < constraints.size(); ++p)
       project_row(v.begin() + dim * static_cast<std::size_t>(constraints.nodes[p]), static_cast<int>(p));
@@ -158,8 +146,7 @@ namespace Signorini
 
 
 
-  void
-  ProjectedGaussSeidel::restrict_to_tangents(Vector &residual) const
+  void ProjectedGaussSeidel::restrict_to_tangents(Vector &residual) const
   {
     for (std::size_t p = 0; p < constraints.size(); ++p)
       if (is_active[p])
@@ -174,8 +161,7 @@ namespace Signorini
 
 
 
-  void
-  ProjectedGaussSeidel::project_correction(Vector &correction, const Vector &v) const
+  void ProjectedGaussSeidel::project_correction(Vector &correction, const Vector &v) const
   {
     restrict_to_tangents(correction);
     for (std::size_t p = 0; p < constraints.size(); ++p)
@@ -193,8 +179,7 @@ namespace Signorini
 
 
 
-  double
-  ProjectedGaussSeidel::sweep_bytes() const
+  double ProjectedGaussSeidel::sweep_bytes() const
   {
     // Blocks and columns, row pointers and half-space index, inverse diagonal, right hand side,
     // solution read and written once; the diagonal blocks are skipped.

@@ -12,15 +12,13 @@ namespace Signorini
   namespace
   {
     /// Greedy colouring of the ranks; neighbours share ghost nodes.
-    std::vector<unsigned int>
-    colour_ranks(const NodePartition &partition)
+    std::vector<unsigned int> colour_ranks(const NodePartition &partition)
     {
       std::set<unsigned int> owners;
       for (const NodeIndex ghost : partition.ghosts())
         owners.insert(partition.owner(ghost));
-      const auto neighbours =
-        Utilities::MPI::all_gather(partition.communicator(),
-                                   std::vector<unsigned int>(owners.begin(), owners.end()));
+      const auto neighbours = Utilities::MPI::all_gather(
+          partition.communicator(), std::vector<unsigned int>(owners.begin(), owners.end()));
       std::vector<std::set<unsigned int>> graph(neighbours.size());
       for (unsigned int rank = 0; rank < neighbours.size(); ++rank)
         for (const unsigned int other : neighbours[rank])
@@ -67,17 +65,13 @@ namespace Signorini
 
 
 
-  SweepSchedule
-  SweepSchedule::subset(const std::vector<unsigned int> &nodes) const
+  SweepSchedule SweepSchedule::subset(const std::vector<unsigned int> &nodes) const
   {
     const std::set<unsigned int> wanted(nodes.begin(), nodes.end());
     SweepSchedule                result;
     result.rows.resize(rows.size());
     for (std::size_t phase = 0; phase < rows.size(); ++phase)
-      std::set_intersection(rows[phase].begin(),
-                            rows[phase].end(),
-                            wanted.begin(),
-                            wanted.end(),
+      std::set_intersection(rows[phase].begin(), rows[phase].end(), wanted.begin(), wanted.end(),
                             std::back_inserter(result.rows[phase]));
     return result;
   }

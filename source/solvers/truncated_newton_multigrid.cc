@@ -9,31 +9,30 @@ namespace Signorini
 {
   using namespace dealii;
 
-  void
-  SolverParameters::add_parameters(ParameterHandler &prm)
+  void SolverParameters::add_parameters(ParameterHandler &prm)
   {
-    prm.add_parameter("Pre-smoothing steps", smoothing.n_pre, "Gauss-Seidel sweeps before the coarse correction.");
-    prm.add_parameter("Post-smoothing steps", smoothing.n_post, "Gauss-Seidel sweeps after the coarse correction.");
-    prm.add_parameter("Interface sweeps",
-                      smoothing.n_interface_sweeps,
+    prm.add_parameter("Pre-smoothing steps", smoothing.n_pre,
+                      "Gauss-Seidel sweeps before the coarse correction.");
+    prm.add_parameter("Post-smoothing steps", smoothing.n_post,
+                      "Gauss-Seidel sweeps after the coarse correction.");
+    prm.add_parameter("Interface sweeps", smoothing.n_interface_sweeps,
                       "Extra sweeps over the contact nodes of both sides and one layer of neighbours, on "
                       "every level, after the pre- and before the post-smoothing.");
-    prm.add_parameter("Tolerance",
-                      tolerance,
+    prm.add_parameter("Tolerance", tolerance,
                       "Stop when the energy norm of the correction of an iteration is below this multiple "
                       "of the energy norm of the iterate (no unit).",
                       Patterns::Double(1e-15, 1.));
-    prm.add_parameter("Maximal iterations", max_iterations, "Applications of the V-cycle.", Patterns::Integer(1));
+    prm.add_parameter("Maximal iterations", max_iterations, "Applications of the V-cycle.",
+                      Patterns::Integer(1));
   }
 
 
 
-  double
-  convergence_rate(const std::vector<double> &history)
+  double convergence_rate(const std::vector<double> &history)
   {
     if (history.size() < 2)
       return std::numeric_limits<double>::quiet_NaN();
-    const std::size_t n = std::min<std::size_t>(5, history.size() - 1);
+    const std::size_t n         = std::min<std::size_t>(5, history.size() - 1);
     const double      reduction = history.back() / history[history.size() - 1 - n];
     return std::pow(reduction, 1. / static_cast<double>(n));
   }
@@ -45,14 +44,13 @@ namespace Signorini
     : hierarchy(hierarchy)
     , parameters(parameters)
     , cycle(hierarchy, parameters.smoothing, hierarchy.n_levels() - 2)
-  {}
+  {
+  }
 
 
 
-  void
-  TruncatedNewtonMultigrid::smooth(Vector                                &v,
-                                   const Vector                          &rhs,
-                                   const ProjectedGaussSeidel::Direction  direction)
+  void TruncatedNewtonMultigrid::smooth(Vector &v, const Vector &rhs,
+                                        const ProjectedGaussSeidel::Direction direction)
   {
     ProjectedGaussSeidel &smoother = *hierarchy.finest().smoother;
     const bool            is_pre   = direction == ProjectedGaussSeidel::forward;
@@ -68,8 +66,8 @@ namespace Signorini
 
 
 
-  double
-  TruncatedNewtonMultigrid::admissible_step(const Vector &v, const Vector &c, const HalfSpaces &half_spaces) const
+  double TruncatedNewtonMultigrid::admissible_step(const Vector &v, const Vector &c,
+                                                   const HalfSpaces &half_spaces) const
   {
     double step = std::numeric_limits<double>::max();
     for (std::size_t p = 0; p < half_spaces.size(); ++p)
@@ -89,8 +87,7 @@ namespace Signorini
 
 
 
-  double
-  TruncatedNewtonMultigrid::correct(Vector &v, const ObstacleProblem &problem)
+  double TruncatedNewtonMultigrid::correct(Vector &v, const ObstacleProblem &problem)
   {
     const NodeBlockMatrix &matrix   = hierarchy.finest().matrix;
     ProjectedGaussSeidel  &smoother = *hierarchy.finest().smoother;
@@ -122,7 +119,8 @@ namespace Signorini
     const double slope = residual * c, curvature = product * c;
     if (curvature > 0. && slope > 0.)
       {
-        const double step = std::min(slope / curvature, std::max(1., admissible_step(v, c, problem.half_spaces)));
+        const double step =
+            std::min(slope / curvature, std::max(1., admissible_step(v, c, problem.half_spaces)));
         v.zero_out_ghost_values();
         v.add(step, c);
       }
@@ -131,8 +129,8 @@ namespace Signorini
 
 
 
-  ConvergenceReport
-  TruncatedNewtonMultigrid::solve(Vector &v, const ObstacleProblem &problem, const Monitor &monitor)
+  ConvergenceReport TruncatedNewtonMultigrid::solve(Vector &v, const ObstacleProblem &problem,
+                                                    const Monitor &monitor)
   {
     const NodeBlockMatrix &matrix   = hierarchy.finest().matrix;
     const MPI_Comm         comm     = matrix.partition().communicator();

@@ -14,16 +14,15 @@ namespace Signorini
     public:
       explicit LevelMatrix(MultigridHierarchy &hierarchy)
         : hierarchy(hierarchy)
-      {}
+      {
+      }
 
-      void
-      vmult(const unsigned int level, Vector &dst, const Vector &src) const override
+      void vmult(const unsigned int level, Vector &dst, const Vector &src) const override
       {
         hierarchy.level(level).matrix.vmult(dst, src);
       }
 
-      void
-      vmult_add(const unsigned int level, Vector &dst, const Vector &src) const override
+      void vmult_add(const unsigned int level, Vector &dst, const Vector &src) const override
       {
         Vector product;
         product.reinit(dst);
@@ -32,26 +31,22 @@ namespace Signorini
       }
 
       // The matrices are symmetric.
-      void
-      Tvmult(const unsigned int level, Vector &dst, const Vector &src) const override
+      void Tvmult(const unsigned int level, Vector &dst, const Vector &src) const override
       {
         vmult(level, dst, src);
       }
 
-      void
-      Tvmult_add(const unsigned int level, Vector &dst, const Vector &src) const override
+      void Tvmult_add(const unsigned int level, Vector &dst, const Vector &src) const override
       {
         vmult_add(level, dst, src);
       }
 
-      unsigned int
-      get_minlevel() const override
+      unsigned int get_minlevel() const override
       {
         return 0;
       }
 
-      unsigned int
-      get_maxlevel() const override
+      unsigned int get_maxlevel() const override
       {
         return hierarchy.n_levels() - 1;
       }
@@ -67,16 +62,15 @@ namespace Signorini
     public:
       explicit LevelTransfer(MultigridHierarchy &hierarchy)
         : hierarchy(hierarchy)
-      {}
+      {
+      }
 
-      void
-      prolongate(const unsigned int to_level, Vector &dst, const Vector &src) const override
+      void prolongate(const unsigned int to_level, Vector &dst, const Vector &src) const override
       {
         hierarchy.level(to_level - 1).to_finer.prolongate(dst, src);
       }
 
-      void
-      restrict_and_add(const unsigned int from_level, Vector &dst, const Vector &src) const override
+      void restrict_and_add(const unsigned int from_level, Vector &dst, const Vector &src) const override
       {
         MultigridLevel &coarse = hierarchy.level(from_level - 1);
         coarse.to_finer.restrict_and_add(dst, src);
@@ -100,14 +94,14 @@ namespace Signorini
         : hierarchy(hierarchy)
         , parameters(parameters)
         , is_pre(is_pre)
-      {}
+      {
+      }
 
-      void
-      clear() override
-      {}
+      void clear() override
+      {
+      }
 
-      void
-      smooth(const unsigned int level, Vector &u, const Vector &rhs) const override
+      void smooth(const unsigned int level, Vector &u, const Vector &rhs) const override
       {
         ProjectedGaussSeidel &smoother = *hierarchy.level(level).smoother;
         // Post-smoothing is the adjoint of pre-smoothing, so that the cycle is symmetric.
@@ -127,8 +121,7 @@ namespace Signorini
           }
       }
 
-      void
-      apply(const unsigned int level, Vector &u, const Vector &rhs) const override
+      void apply(const unsigned int level, Vector &u, const Vector &rhs) const override
       {
         u = 0.;
         smooth(level, u, rhs);
@@ -147,10 +140,10 @@ namespace Signorini
     public:
       explicit LevelZero(const MultigridHierarchy &hierarchy)
         : hierarchy(hierarchy)
-      {}
+      {
+      }
 
-      void
-      operator()(const unsigned int, Vector &dst, const Vector &src) const override
+      void operator()(const unsigned int, Vector &dst, const Vector &src) const override
       {
         hierarchy.coarse_solver().solve(dst, src);
       }
@@ -164,7 +157,8 @@ namespace Signorini
 
   struct VCycle::Components
   {
-    Components(MultigridHierarchy &hierarchy, const SmoothingParameters &smoothing, const unsigned int max_level)
+    Components(MultigridHierarchy &hierarchy, const SmoothingParameters &smoothing,
+               const unsigned int max_level)
       : hierarchy(hierarchy)
       , smoothing(smoothing)
       , matrix(hierarchy)
@@ -173,7 +167,8 @@ namespace Signorini
       , post(hierarchy, this->smoothing, false)
       , coarse(hierarchy)
       , multigrid(matrix, coarse, transfer, pre, post, 0, max_level)
-    {}
+    {
+    }
 
     MultigridHierarchy       &hierarchy;
     const SmoothingParameters smoothing;
@@ -186,9 +181,8 @@ namespace Signorini
 
 
 
-  VCycle::VCycle(MultigridHierarchy        &hierarchy,
-                 const SmoothingParameters &smoothing,
-                 const unsigned int         max_level)
+  VCycle::VCycle(MultigridHierarchy &hierarchy, const SmoothingParameters &smoothing,
+                 const unsigned int max_level)
     : components(std::make_unique<Components>(hierarchy, smoothing, max_level))
   {
     for (unsigned int l = 0; l <= max_level; ++l)
@@ -201,8 +195,7 @@ namespace Signorini
 
 
 
-  void
-  VCycle::apply(Vector &correction, const Vector &defect)
+  void VCycle::apply(Vector &correction, const Vector &defect)
   {
     auto              &multigrid = components->multigrid;
     const unsigned int max_level = multigrid.get_maxlevel();

@@ -19,8 +19,8 @@ namespace Signorini
 {
   using namespace dealii;
 
-  Point<3>
-  evaluate(const SurfaceMesh &mesh, const unsigned int triangle, const std::array<double, 3> &barycentric)
+  Point<3> evaluate(const SurfaceMesh &mesh, const unsigned int triangle,
+                    const std::array<double, 3> &barycentric)
   {
     Point<3> p;
     for (unsigned int i = 0; i < 3; ++i)
@@ -30,11 +30,12 @@ namespace Signorini
 
 
 
-  double
-  triangle_area(const SurfaceMesh &mesh, const unsigned int triangle)
+  double triangle_area(const SurfaceMesh &mesh, const unsigned int triangle)
   {
     const auto &t = mesh.triangles[triangle];
-    return .5 * cross_product_3d(mesh.vertices[t[1]] - mesh.vertices[t[0]], mesh.vertices[t[2]] - mesh.vertices[t[0]]).norm();
+    return .5 * cross_product_3d(mesh.vertices[t[1]] - mesh.vertices[t[0]],
+                                 mesh.vertices[t[2]] - mesh.vertices[t[0]])
+                    .norm();
   }
 
 
@@ -50,14 +51,12 @@ namespace Signorini
 
     /// Coordinate c of any of boost's points.
     template <typename P>
-    double
-    component(const P &p, const unsigned int c)
+    double component(const P &p, const unsigned int c)
     {
       return c == 0 ? bg::get<0>(p) : (c == 1 ? bg::get<1>(p) : bg::get<2>(p));
     }
 
-    TreeBox
-    bounding_box(const SurfaceMesh &mesh, const unsigned int triangle)
+    TreeBox bounding_box(const SurfaceMesh &mesh, const unsigned int triangle)
     {
       Point<3> low = mesh.vertices[mesh.triangles[triangle][0]], high = low;
       for (const unsigned int v : mesh.triangles[triangle])
@@ -76,8 +75,7 @@ namespace Signorini
       return {low, high};
     }
 
-    Tree
-    make_tree(const SurfaceMesh &mesh)
+    Tree make_tree(const SurfaceMesh &mesh)
     {
       std::vector<TreeValue> boxes;
       boxes.reserve(mesh.triangles.size());
@@ -110,8 +108,7 @@ namespace Signorini
       std::vector<unsigned int> unmapped;
 
     private:
-      void
-      push(const unsigned int t, const unsigned int m)
+      void push(const unsigned int t, const unsigned int m)
       {
         auto &list = met[t];
         if (std::find(list.begin(), list.end(), m) == list.end())
@@ -122,13 +119,12 @@ namespace Signorini
       }
 
       /// Step 1 of the paper: lines from the mortar vertices along their normals, nearest admissible hit.
-      void
-      seed_from_mortar_vertices()
+      void seed_from_mortar_vertices()
       {
         polygons.resize(nonmortar.triangles.size());
         if (nonmortar.triangles.empty() || mortar.triangles.empty())
           return;
-        const Tree    tree   = make_tree(nonmortar);
+        const Tree tree   = make_tree(nonmortar);
         const auto bounds = tree.bounds();
         for (unsigned int v = 0; v < mortar.vertices.size(); ++v)
           {
@@ -137,10 +133,11 @@ namespace Signorini
             for (unsigned int c = 0; c < 3; ++c)
               reach += std::max(std::abs(component(bounds.min_corner(), c) - mortar.vertices[v][c]),
                                 std::abs(component(bounds.max_corner(), c) - mortar.vertices[v][c]));
-            const Tensor<1, 3> &n = mortar.vertex_normals[v];
-            const bg::model::segment<Point<3>> line(mortar.vertices[v] - reach * n, mortar.vertices[v] + reach * n);
-            double nearest = std::numeric_limits<double>::max();
-            int    hit     = -1;
+            const Tensor<1, 3>                &n = mortar.vertex_normals[v];
+            const bg::model::segment<Point<3>> line(mortar.vertices[v] - reach * n,
+                                                    mortar.vertices[v] + reach * n);
+            double                             nearest = std::numeric_limits<double>::max();
+            int                                hit     = -1;
             for (auto it = tree.qbegin(bgi::intersects(line)); it != tree.qend(); ++it)
               {
                 std::array<double, 3> w;
@@ -161,8 +158,7 @@ namespace Signorini
 
       /// Where the nonmortar surface lies inside of one mortar triangle no mortar vertex leads to it: try
       /// the mortar triangles nearest to the vertices of triangles that nothing has met yet.
-      void
-      seed_from_nonmortar_vertices()
+      void seed_from_nonmortar_vertices()
       {
         if (nonmortar.triangles.empty() || mortar.triangles.empty())
           return;
@@ -181,8 +177,7 @@ namespace Signorini
                 }
       }
 
-      void
-      advance()
+      void advance()
       {
         while (!front.empty())
           {
@@ -203,18 +198,17 @@ namespace Signorini
           }
       }
 
-      const SurfaceMesh                                 &nonmortar, &mortar;
-      const SurfaceTopology                              nonmortar_topology, mortar_topology;
-      PairIntersection                                   intersection;
-      std::vector<std::vector<unsigned int>>             met;
-      std::queue<std::pair<unsigned int, unsigned int>>  front;
+      const SurfaceMesh                                &nonmortar, &mortar;
+      const SurfaceTopology                             nonmortar_topology, mortar_topology;
+      PairIntersection                                  intersection;
+      std::vector<std::vector<unsigned int>>            met;
+      std::queue<std::pair<unsigned int, unsigned int>> front;
     };
   } // namespace
 
 
 
-  ContactMapping::ContactMapping(const SurfaceMesh                             &nonmortar,
-                                 const SurfaceMesh                             &mortar,
+  ContactMapping::ContactMapping(const SurfaceMesh &nonmortar, const SurfaceMesh &mortar,
                                  const std::function<bool(const unsigned int)> &is_selected)
   {
     PairFront front(nonmortar, mortar);
@@ -233,13 +227,14 @@ namespace Signorini
             ++summary.n_pairs;
             for (std::size_t i = 1; i + 1 < polygon.size(); ++i)
               {
-                const auto  &a = polygon[0], &b = polygon[i], &c = polygon[i + 1];
+                const auto &a = polygon[0], &b = polygon[i], &c = polygon[i + 1];
                 // Twice the share of the triangle's area: the determinant of the barycentric coordinates.
                 const double share = (b.nonmortar[1] - a.nonmortar[1]) * (c.nonmortar[2] - a.nonmortar[2]) -
                                      (b.nonmortar[2] - a.nonmortar[2]) * (c.nonmortar[1] - a.nonmortar[1]);
                 if (std::abs(share) < 1e-15)
                   continue;
-                cells.push_back({t, m, {{a.nonmortar, b.nonmortar, c.nonmortar}}, {{a.mortar, b.mortar, c.mortar}}});
+                cells.push_back(
+                    {t, m, {{a.nonmortar, b.nonmortar, c.nonmortar}}, {{a.mortar, b.mortar, c.mortar}}});
                 sum += std::abs(share) * area;
               }
           }

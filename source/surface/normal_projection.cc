@@ -14,12 +14,8 @@ namespace Signorini
     namespace
     {
       /// Solves a 3x3 system given by columns; false if it is singular.
-      bool
-      solve(Tensor<1, 3>       &x,
-            const Tensor<1, 3> &c0,
-            const Tensor<1, 3> &c1,
-            const Tensor<1, 3> &c2,
-            const Tensor<1, 3> &rhs)
+      bool solve(Tensor<1, 3> &x, const Tensor<1, 3> &c0, const Tensor<1, 3> &c1, const Tensor<1, 3> &c2,
+                 const Tensor<1, 3> &rhs)
       {
         const Tensor<1, 3> c12 = cross_product_3d(c1, c2);
         const double       det = c0 * c12;
@@ -34,8 +30,8 @@ namespace Signorini
 
 
 
-    double
-    distance_from_edge(const Point<3> &p, const Tensor<1, 3> &n, const OrientedEdge &edge, double &position)
+    double distance_from_edge(const Point<3> &p, const Tensor<1, 3> &n, const OrientedEdge &edge,
+                              double &position)
     {
       const Tensor<1, 3> d      = edge.b - edge.a;
       const Tensor<1, 3> across = cross_product_3d(d, n);
@@ -54,8 +50,7 @@ namespace Signorini
 
 
 
-    double
-    distance_from_curtain(const Point<3> &v, const OrientedEdge &edge, double &s)
+    double distance_from_curtain(const Point<3> &v, const OrientedEdge &edge, double &s)
     {
       const Tensor<1, 3> d     = edge.b - edge.a;
       const Tensor<1, 3> slope = edge.normal_b - edge.normal_a;
@@ -68,22 +63,22 @@ namespace Signorini
           const Tensor<1, 3> tangent = d - ((d * n) / n.norm_square()) * n;
           const Tensor<1, 3> r       = (v - edge.a) - s * d;
           // The tangential motion of the foot when s grows: along d, and by the turning of the normal.
-          const double       eta  = (r * n) / n.norm_square();
-          const double       step = (r * tangent) / ((d + eta * slope) * tangent);
-          const double       old  = s;
-          s                       = std::min(2., std::max(-1., s + step));
+          const double eta  = (r * n) / n.norm_square();
+          const double step = (r * tangent) / ((d + eta * slope) * tangent);
+          const double old  = s;
+          s                 = std::min(2., std::max(-1., s + step));
           if (!(std::abs(s - old) > 1e-15))
             break;
         }
-      n                         = edge.normal_a + s * slope;
-      const Tensor<1, 3> across = cross_product_3d(d + ((((v - edge.a) - s * d) * n) / n.norm_square()) * slope, n);
+      n = edge.normal_a + s * slope;
+      const Tensor<1, 3> across =
+          cross_product_3d(d + ((((v - edge.a) - s * d) * n) / n.norm_square()) * slope, n);
       return (((v - edge.a) - s * d) * across) / across.norm();
     }
 
 
 
-    bool
-    intersect_edges(const OrientedEdge &mortar, const OrientedEdge &nonmortar, double &s, double &t)
+    bool intersect_edges(const OrientedEdge &mortar, const OrientedEdge &nonmortar, double &s, double &t)
     {
       const Tensor<1, 3> d     = mortar.b - mortar.a;
       const Tensor<1, 3> slope = mortar.normal_b - mortar.normal_a;
@@ -108,12 +103,8 @@ namespace Signorini
 
 
 
-    bool
-    inverse_project(std::array<double, 3>             &weights,
-                    double                            &eta,
-                    const Point<3>                    &v,
-                    const std::array<Point<3>, 3>     &x,
-                    const std::array<Tensor<1, 3>, 3> &n)
+    bool inverse_project(std::array<double, 3> &weights, double &eta, const Point<3> &v,
+                         const std::array<Point<3>, 3> &x, const std::array<Tensor<1, 3>, 3> &n)
     {
       weights = {{1. / 3., 1. / 3., 1. / 3.}};
       eta     = (v - (x[0] + x[1] + x[2]) / 3.) * ((n[0] + n[1] + n[2]) / 3.);
@@ -127,7 +118,8 @@ namespace Signorini
             }
           const Tensor<1, 3> residual = point + eta * normal - v;
           Tensor<1, 3>       step;
-          if (!solve(step, (x[1] - x[0]) + eta * (n[1] - n[0]), (x[2] - x[0]) + eta * (n[2] - n[0]), normal, -residual))
+          if (!solve(step, (x[1] - x[0]) + eta * (n[1] - n[0]), (x[2] - x[0]) + eta * (n[2] - n[0]), normal,
+                     -residual))
             return false;
           weights[1] += step[0];
           weights[2] += step[1];
@@ -141,12 +133,8 @@ namespace Signorini
 
 
 
-    bool
-    intersect_line(std::array<double, 3>         &weights,
-                   double                        &eta,
-                   const Point<3>                &p,
-                   const Tensor<1, 3>            &n,
-                   const std::array<Point<3>, 3> &x)
+    bool intersect_line(std::array<double, 3> &weights, double &eta, const Point<3> &p, const Tensor<1, 3> &n,
+                        const std::array<Point<3>, 3> &x)
     {
       Tensor<1, 3> solution;
       if (!solve(solution, x[1] - x[0], x[2] - x[0], -n, p - x[0]))

@@ -15,22 +15,20 @@ namespace Signorini
     /// Surfaces that can touch face each other: the cosine of their normals is below this.
     constexpr double facing_cosine = -.1;
 
-    Tensor<1, 3>
-    normal_of(const SurfaceMesh &mesh, const unsigned int triangle)
+    Tensor<1, 3> normal_of(const SurfaceMesh &mesh, const unsigned int triangle)
     {
       const auto &t = mesh.triangles[triangle];
-      return cross_product_3d(mesh.vertices[t[1]] - mesh.vertices[t[0]], mesh.vertices[t[2]] - mesh.vertices[t[0]]);
+      return cross_product_3d(mesh.vertices[t[1]] - mesh.vertices[t[0]],
+                              mesh.vertices[t[2]] - mesh.vertices[t[0]]);
     }
 
-    bool
-    facing(const Tensor<1, 3> &a, const Tensor<1, 3> &b)
+    bool facing(const Tensor<1, 3> &a, const Tensor<1, 3> &b)
     {
       return a * b < facing_cosine * a.norm() * b.norm();
     }
 
     /// Barycentric coordinates of the point at parameter t of edge e (corner e to corner e + 1).
-    std::array<double, 3>
-    on_edge(const unsigned int e, const double t)
+    std::array<double, 3> on_edge(const unsigned int e, const double t)
     {
       const double          s = std::min(1., std::max(0., t));
       std::array<double, 3> w = {{0., 0., 0.}};
@@ -40,8 +38,7 @@ namespace Signorini
     }
 
     /// Nonnegative coordinates with sum 1.
-    std::array<double, 3>
-    clamped(std::array<double, 3> w)
+    std::array<double, 3> clamped(std::array<double, 3> w)
     {
       double sum = 0.;
       for (double &x : w)
@@ -54,8 +51,7 @@ namespace Signorini
       return w;
     }
 
-    std::array<double, 3>
-    at_corner(const unsigned int corner)
+    std::array<double, 3> at_corner(const unsigned int corner)
     {
       std::array<double, 3> w = {{0., 0., 0.}};
       w[corner]               = 1.;
@@ -63,8 +59,7 @@ namespace Signorini
     }
 
     /// Sorts the corners of a convex polygon counterclockwise in barycentric coordinates.
-    void
-    sort_counterclockwise(PairIntersection::Polygon &polygon)
+    void sort_counterclockwise(PairIntersection::Polygon &polygon)
     {
       double x = 0., y = 0.;
       for (const auto &corner : polygon)
@@ -73,14 +68,16 @@ namespace Signorini
           y += corner.nonmortar[2] / static_cast<double>(polygon.size());
         }
       std::sort(polygon.begin(), polygon.end(), [&](const auto &a, const auto &b) {
-        return std::atan2(a.nonmortar[2] - y, a.nonmortar[1] - x) < std::atan2(b.nonmortar[2] - y, b.nonmortar[1] - x);
+        return std::atan2(a.nonmortar[2] - y, a.nonmortar[1] - x) <
+               std::atan2(b.nonmortar[2] - y, b.nonmortar[1] - x);
       });
     }
   } // namespace
 
 
 
-  /// Sides of all vertices with respect to all edges of a pair. A corner lies inside where all signs are >= 0.
+  /// Sides of all vertices with respect to all edges of a pair. A corner lies inside where all signs are >=
+  /// 0.
   struct PairIntersection::PairData
   {
     unsigned int t, m;
@@ -95,40 +92,43 @@ namespace Signorini
   PairIntersection::PairIntersection(const SurfaceMesh &nonmortar, const SurfaceMesh &mortar)
     : nonmortar(nonmortar)
     , mortar(mortar)
-  {}
+  {
+  }
 
 
 
-  OrientedEdge
-  PairIntersection::edge(const SurfaceMesh &mesh, const unsigned int a, const unsigned int b) const
+  OrientedEdge PairIntersection::edge(const SurfaceMesh &mesh, const unsigned int a,
+                                      const unsigned int b) const
   {
     return {mesh.vertices[a], mesh.vertices[b], mesh.vertex_normals[a], mesh.vertex_normals[b]};
   }
 
 
 
-  PairIntersection::Side
-  PairIntersection::mortar_vertex_side(const unsigned int vertex, const unsigned int a, const unsigned int b) const
+  PairIntersection::Side PairIntersection::mortar_vertex_side(const unsigned int vertex, const unsigned int a,
+                                                              const unsigned int b) const
   {
     if (a > b)
       {
         const Side side = mortar_vertex_side(vertex, b, a);
         return {-side.sign, -side.distance, 1. - side.position};
       }
-    Side         side;
-    const auto   e = edge(nonmortar, a, b);
+    Side       side;
+    const auto e = edge(nonmortar, a, b);
     // The mortar normal points against the viewer of the nonmortar surface, hence the sign.
-    side.distance = NormalProjection::distance_from_edge(mortar.vertices[vertex], mortar.vertex_normals[vertex], e, side.position);
-    side.sign     = std::abs(side.distance) <= NormalProjection::incidence_tolerance * e.a.distance(e.b) ?
-                      0 :
-                      (side.distance > 0. ? 1 : -1);
+    side.distance = NormalProjection::distance_from_edge(mortar.vertices[vertex],
+                                                         mortar.vertex_normals[vertex], e, side.position);
+    side.sign     = std::abs(side.distance) <= NormalProjection::incidence_tolerance * e.a.distance(e.b)
+                        ? 0
+                        : (side.distance > 0. ? 1 : -1);
     return side;
   }
 
 
 
-  PairIntersection::Side
-  PairIntersection::nonmortar_vertex_side(const unsigned int vertex, const unsigned int a, const unsigned int b) const
+  PairIntersection::Side PairIntersection::nonmortar_vertex_side(const unsigned int vertex,
+                                                                 const unsigned int a,
+                                                                 const unsigned int b) const
   {
     if (a > b)
       {
@@ -138,33 +138,30 @@ namespace Signorini
     Side       side;
     const auto e  = edge(mortar, a, b);
     side.distance = -NormalProjection::distance_from_curtain(nonmortar.vertices[vertex], e, side.position);
-    side.sign     = std::abs(side.distance) <= NormalProjection::incidence_tolerance * e.a.distance(e.b) ?
-                      0 :
-                      (side.distance > 0. ? 1 : -1);
+    side.sign     = std::abs(side.distance) <= NormalProjection::incidence_tolerance * e.a.distance(e.b)
+                        ? 0
+                        : (side.distance > 0. ? 1 : -1);
     return side;
   }
 
 
 
-  bool
-  PairIntersection::line_hits(std::array<double, 3> &weights,
-                              double                &eta,
-                              const unsigned int     vertex,
-                              const unsigned int     triangle) const
+  bool PairIntersection::line_hits(std::array<double, 3> &weights, double &eta, const unsigned int vertex,
+                                   const unsigned int triangle) const
   {
     if (!facing(normal_of(nonmortar, triangle), mortar.vertex_normals[vertex]))
       return false;
     const auto &t = nonmortar.triangles[triangle];
-    if (!NormalProjection::intersect_line(weights, eta, mortar.vertices[vertex], mortar.vertex_normals[vertex],
-                                          {{nonmortar.vertices[t[0]], nonmortar.vertices[t[1]], nonmortar.vertices[t[2]]}}))
+    if (!NormalProjection::intersect_line(
+            weights, eta, mortar.vertices[vertex], mortar.vertex_normals[vertex],
+            {{nonmortar.vertices[t[0]], nonmortar.vertices[t[1]], nonmortar.vertices[t[2]]}}))
       return false;
     return *std::min_element(weights.begin(), weights.end()) >= -1e-9;
   }
 
 
 
-  void
-  PairIntersection::add_mortar_vertices(Result &result, const PairData &pair) const
+  void PairIntersection::add_mortar_vertices(Result &result, const PairData &pair) const
   {
     for (unsigned int c = 0; c < 3; ++c)
       {
@@ -207,8 +204,7 @@ namespace Signorini
 
 
 
-  void
-  PairIntersection::add_nonmortar_vertices(Result &result, const PairData &pair) const
+  void PairIntersection::add_nonmortar_vertices(Result &result, const PairData &pair) const
   {
     const auto &m = mortar.triangles[pair.m];
     for (unsigned int c = 0; c < 3; ++c)
@@ -232,9 +228,11 @@ namespace Signorini
         else
           {
             double eta;
-            if (!NormalProjection::inverse_project(w, eta, nonmortar.vertices[nonmortar.triangles[pair.t][c]],
-                                                   {{mortar.vertices[m[0]], mortar.vertices[m[1]], mortar.vertices[m[2]]}},
-                                                   {{mortar.vertex_normals[m[0]], mortar.vertex_normals[m[1]], mortar.vertex_normals[m[2]]}}))
+            if (!NormalProjection::inverse_project(
+                    w, eta, nonmortar.vertices[nonmortar.triangles[pair.t][c]],
+                    {{mortar.vertices[m[0]], mortar.vertices[m[1]], mortar.vertices[m[2]]}},
+                    {{mortar.vertex_normals[m[0]], mortar.vertex_normals[m[1]],
+                      mortar.vertex_normals[m[2]]}}))
               continue;
             w = clamped(w);
           }
@@ -248,8 +246,7 @@ namespace Signorini
 
 
 
-  void
-  PairIntersection::add_crossings(Result &result, const PairData &pair) const
+  void PairIntersection::add_crossings(Result &result, const PairData &pair) const
   {
     for (unsigned int e = 0; e < 3; ++e)
       for (unsigned int f = 0; f < 3; ++f)
@@ -288,8 +285,7 @@ namespace Signorini
 
 
 
-  PairIntersection::Result
-  PairIntersection::compute(const unsigned int t, const unsigned int m) const
+  PairIntersection::Result PairIntersection::compute(const unsigned int t, const unsigned int m) const
   {
     Result result;
     if (!facing(normal_of(nonmortar, t), normal_of(mortar, m)))
@@ -300,10 +296,10 @@ namespace Signorini
     for (unsigned int c = 0; c < 3; ++c)
       for (unsigned int e = 0; e < 3; ++e)
         {
-          pair.mortar_side[c][e] =
-            mortar_vertex_side(mortar.triangles[m][c], nonmortar.triangles[t][e], nonmortar.triangles[t][(e + 1) % 3]);
-          pair.nonmortar_side[c][e] =
-            nonmortar_vertex_side(nonmortar.triangles[t][c], mortar.triangles[m][e], mortar.triangles[m][(e + 1) % 3]);
+          pair.mortar_side[c][e]    = mortar_vertex_side(mortar.triangles[m][c], nonmortar.triangles[t][e],
+                                                         nonmortar.triangles[t][(e + 1) % 3]);
+          pair.nonmortar_side[c][e] = nonmortar_vertex_side(nonmortar.triangles[t][c], mortar.triangles[m][e],
+                                                            mortar.triangles[m][(e + 1) % 3]);
         }
     add_mortar_vertices(result, pair);
     add_nonmortar_vertices(result, pair);

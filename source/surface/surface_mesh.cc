@@ -9,14 +9,14 @@ namespace Signorini
 {
   using namespace dealii;
 
-  void
-  SurfaceMesh::compute_vertex_normals()
+  void SurfaceMesh::compute_vertex_normals()
   {
     vertex_normals.assign(vertices.size(), Tensor<1, 3>());
     for (const auto &t : triangles)
       {
         // Twice the area times the unit normal: the weighting by area comes for free.
-        const Tensor<1, 3> normal = cross_product_3d(vertices[t[1]] - vertices[t[0]], vertices[t[2]] - vertices[t[0]]);
+        const Tensor<1, 3> normal =
+            cross_product_3d(vertices[t[1]] - vertices[t[0]], vertices[t[2]] - vertices[t[0]]);
         for (const unsigned int v : t)
           vertex_normals[v] += normal;
       }

@@ -16,7 +16,8 @@ namespace Signorini
   public:
     explicit InputError(const std::string &message)
       : std::runtime_error(message)
-    {}
+    {
+    }
   };
 } // namespace Signorini
 

@@ -34,28 +34,24 @@ namespace Signorini
     /// D_kk: integral of the dual basis function (area).
     std::vector<double> weight;
 
-    std::size_t
-    n_rows() const
+    std::size_t n_rows() const
     {
       return rows.size();
     }
 
     /// Position of a node among the rows, or -1.
-    std::ptrdiff_t
-    find(const NodeIndex node) const
+    std::ptrdiff_t find(const NodeIndex node) const
     {
       const auto it = std::lower_bound(rows.begin(), rows.end(), node);
       return it != rows.end() && *it == node ? it - rows.begin() : -1;
     }
 
-    const Entry *
-    begin(const std::size_t row) const
+    const Entry *begin(const std::size_t row) const
     {
       return entries.data() + row_start[row];
     }
 
-    const Entry *
-    end(const std::size_t row) const
+    const Entry *end(const std::size_t row) const
     {
       return entries.data() + row_start[row + 1];
     }

@@ -30,74 +30,60 @@ namespace Signorini
     };
 
     /// Scalar rows of all local fine nodes; block_rows (sorted by row) replace some of them.
-    void
-    reinit(NodeRows rows, const std::vector<BlockRow> &block_rows, const unsigned int n_owned_fine);
+    void reinit(NodeRows rows, const std::vector<BlockRow> &block_rows, const unsigned int n_owned_fine);
 
     /// Replaces the blocks of a block row (same columns), e.g. by truncated ones.
-    void
-    set_block_row(const unsigned int row, const std::vector<Block> &blocks);
+    void set_block_row(const unsigned int row, const std::vector<Block> &blocks);
 
     /// Global coarse nodes in the columns.
-    dealii::IndexSet
-    coarse_nodes(const NodeIndex n_coarse_nodes) const;
+    dealii::IndexSet coarse_nodes(const NodeIndex n_coarse_nodes) const;
 
     /// Gives the columns local numbers of a partition that knows all of coarse_nodes().
-    void
-    localize(std::shared_ptr<const NodePartition> coarse);
+    void localize(std::shared_ptr<const NodePartition> coarse);
 
-    const NodePartition &
-    coarse_partition() const
+    const NodePartition &coarse_partition() const
     {
       return *coarse;
     }
 
     /// fine = P coarse. Updates the ghosts of coarse.
-    void
-    prolongate(Vector &fine, const Vector &coarse) const;
+    void prolongate(Vector &fine, const Vector &coarse) const;
 
     /// coarse += P^T fine, owned rows of all ranks.
-    void
-    restrict_and_add(Vector &coarse, const Vector &fine) const;
+    void restrict_and_add(Vector &coarse, const Vector &fine) const;
 
-    unsigned int
-    n_owned_rows() const
+    unsigned int n_owned_rows() const
     {
       return n_owned;
     }
 
-    unsigned int
-    n_rows() const
+    unsigned int n_rows() const
     {
       return static_cast<unsigned int>(row_start.size()) - 1;
     }
 
-    std::size_t
-    row_begin(const unsigned int row) const
+    std::size_t row_begin(const unsigned int row) const
     {
       return row_start[row];
     }
 
-    std::size_t
-    row_end(const unsigned int row) const
+    std::size_t row_end(const unsigned int row) const
     {
       return row_start[row + 1];
     }
 
-    unsigned int
-    column(const std::size_t k) const
+    unsigned int column(const std::size_t k) const
     {
       return columns[k];
     }
 
-    double
-    weight(const std::size_t k) const
+    double weight(const std::size_t k) const
     {
       return weights[k];
     }
 
     /// The blocks of a row, or nullptr for a scalar row.
-    const Block *
-    row_blocks(const unsigned int row) const
+    const Block *row_blocks(const unsigned int row) const
     {
       return block_start[row] == no_blocks ? nullptr : blocks.data() + block_start[row];
     }
@@ -121,23 +107,18 @@ namespace Signorini
   ///
   /// Collective. Builds the structure of the coarse matrix (independent of the values in A and P)
   /// and localizes P on its partition.
-  void
-  reinit_galerkin(NodeBlockMatrix         &coarse_matrix,
-                  const NodeBlockMatrix   &matrix,
-                  NodalTransfer           &transfer,
-                  const dealii::IndexSet  &owned_coarse_nodes);
+  void reinit_galerkin(NodeBlockMatrix &coarse_matrix, const NodeBlockMatrix &matrix, NodalTransfer &transfer,
+                       const dealii::IndexSet &owned_coarse_nodes);
 
   /// Collective. Computes the values of those coarse rows (local coarse nodes) that are marked; an
   /// empty list means all.
-  void
-  compute_galerkin(NodeBlockMatrix                 &coarse_matrix,
-                   const NodeBlockMatrix           &matrix,
-                   const NodalTransfer             &transfer,
-                   const std::vector<unsigned char> &marked_coarse_nodes = {});
+  void compute_galerkin(NodeBlockMatrix &coarse_matrix, const NodeBlockMatrix &matrix,
+                        const NodalTransfer              &transfer,
+                        const std::vector<unsigned char> &marked_coarse_nodes = {});
 
   /// Collective. Marks the local coarse nodes whose rows of P^T A P depend on the given owned fine rows.
-  std::vector<unsigned char>
-  mark_coarse_nodes(const NodalTransfer &transfer, const std::vector<unsigned int> &fine_rows);
+  std::vector<unsigned char> mark_coarse_nodes(const NodalTransfer             &transfer,
+                                               const std::vector<unsigned int> &fine_rows);
 } // namespace Signorini
 
 #endif

@@ -31,107 +31,87 @@ namespace Signorini
   public:
     /// Collective. Builds the structure: the union, on the owner, of what all ranks put into a row.
     /// The diagonal is added. extra_ghosts become ghosts of the partition besides the columns.
-    void
-    reinit(const dealii::IndexSet &owned,
-           const NodePattern      &pattern,
-           const dealii::IndexSet &extra_ghosts,
-           const MPI_Comm          communicator);
+    void reinit(const dealii::IndexSet &owned, const NodePattern &pattern,
+                const dealii::IndexSet &extra_ghosts, const MPI_Comm communicator);
 
-    const NodePartition &
-    partition() const
+    const NodePartition &partition() const
     {
       return *nodes;
     }
 
-    std::shared_ptr<const NodePartition>
-    shared_partition() const
+    std::shared_ptr<const NodePartition> shared_partition() const
     {
       return nodes;
     }
 
     /// Owned rows.
-    unsigned int
-    n_rows() const
+    unsigned int n_rows() const
     {
       return nodes->n_owned();
     }
 
-    std::size_t
-    n_blocks() const
+    std::size_t n_blocks() const
     {
       return columns.size();
     }
 
-    std::size_t
-    row_begin(const unsigned int row) const
+    std::size_t row_begin(const unsigned int row) const
     {
       return row_start[row];
     }
 
-    std::size_t
-    row_end(const unsigned int row) const
+    std::size_t row_end(const unsigned int row) const
     {
       return row_start[row + 1];
     }
 
-    unsigned int
-    column(const std::size_t k) const
+    unsigned int column(const std::size_t k) const
     {
       return columns[k];
     }
 
-    const unsigned int *
-    column_data() const
+    const unsigned int *column_data() const
     {
       return columns.data();
     }
 
     /// Nine numbers, row by row.
-    double *
-    block(const std::size_t k)
+    double *block(const std::size_t k)
     {
       return values.data() + 9 * k;
     }
 
-    const double *
-    block(const std::size_t k) const
+    const double *block(const std::size_t k) const
     {
       return values.data() + 9 * k;
     }
 
     /// The row index (owned or foreign) in which this rank collects contributions to a local node,
     /// or dealii::numbers::invalid_unsigned_int.
-    unsigned int
-    row_of(const unsigned int local_node) const
+    unsigned int row_of(const unsigned int local_node) const
     {
       return local_node < nodes->n_owned() ? local_node : foreign_row_of_ghost[local_node - nodes->n_owned()];
     }
 
     /// Position of the block (row, local column) in a row given by row_of(). It must exist.
-    std::size_t
-    find(const unsigned int row, const unsigned int local_column) const;
+    std::size_t find(const unsigned int row, const unsigned int local_column) const;
 
     /// Sets all blocks of a row given by row_of() to zero.
-    void
-    clear_row(const unsigned int row);
+    void clear_row(const unsigned int row);
 
     /// Rows given by row_of() that exist on this rank.
-    unsigned int
-    n_stored_rows() const
+    unsigned int n_stored_rows() const
     {
       return static_cast<unsigned int>(row_start.size()) - 1;
     }
 
     /// Collective. Adds the foreign rows to the rows of their owners and clears them.
-    void
-    compress();
+    void compress();
 
     /// dst = A src. Updates the ghost values of src.
-    void
-    vmult(Vector &dst, const Vector &src) const;
+    void vmult(Vector &dst, const Vector &src) const;
 
-    std::size_t
-    memory_consumption() const;
+    std::size_t memory_consumption() const;
 
   private:
     std::shared_ptr<const NodePartition> nodes;

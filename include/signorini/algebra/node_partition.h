@@ -24,80 +24,67 @@ namespace Signorini
     /// Collective. ghosts may contain owned nodes; they are ignored.
     NodePartition(const dealii::IndexSet &owned, const dealii::IndexSet &ghosts, const MPI_Comm communicator);
 
-    unsigned int
-    n_owned() const
+    unsigned int n_owned() const
     {
       return owned_size;
     }
 
     /// Owned and ghost nodes.
-    unsigned int
-    n_local() const
+    unsigned int n_local() const
     {
       return owned_size + static_cast<unsigned int>(ghost_list.size());
     }
 
-    NodeIndex
-    n_global() const
+    NodeIndex n_global() const
     {
       return rank_begin.back();
     }
 
-    NodeIndex
-    first_owned() const
+    NodeIndex first_owned() const
     {
       return begin;
     }
 
-    bool
-    owns(const NodeIndex node) const
+    bool owns(const NodeIndex node) const
     {
       return node >= begin && node < begin + owned_size;
     }
 
     /// Local number of a global node, or dealii::numbers::invalid_unsigned_int if it is not here.
-    unsigned int
-    to_local(const NodeIndex node) const;
+    unsigned int to_local(const NodeIndex node) const;
 
-    NodeIndex
-    to_global(const unsigned int local) const
+    NodeIndex to_global(const unsigned int local) const
     {
       return local < owned_size ? begin + local : ghost_list[local - owned_size];
     }
 
     /// Sorted global numbers of the ghost nodes.
-    const std::vector<NodeIndex> &
-    ghosts() const
+    const std::vector<NodeIndex> &ghosts() const
     {
       return ghost_list;
     }
 
     /// The rank that owns a node.
-    unsigned int
-    owner(const NodeIndex node) const;
+    unsigned int owner(const NodeIndex node) const;
 
-    MPI_Comm
-    communicator() const
+    MPI_Comm communicator() const
     {
       return comm;
     }
 
-    unsigned int
-    n_ranks() const
+    unsigned int n_ranks() const
     {
       return static_cast<unsigned int>(rank_begin.size()) - 1;
     }
 
     /// Gives a vector the layout of this partition and sets it to zero.
-    void
-    reinit(Vector &vector) const
+    void reinit(Vector &vector) const
     {
       vector.reinit(dofs);
     }
 
     /// Local numbers of the owned nodes that are ghosts elsewhere, sorted.
-    std::vector<unsigned int>
-    shared_nodes() const;
+    std::vector<unsigned int> shared_nodes() const;
 
   private:
     MPI_Comm                                                   comm;

@@ -17,57 +17,52 @@ namespace Signorini
     std::vector<NodeIndex>   columns;
     std::vector<double>      weights;
 
-    std::size_t
-    n_rows() const
+    std::size_t n_rows() const
     {
       return start.size() - 1;
     }
 
-    void
-    add(const NodeIndex column, const double weight)
+    void add(const NodeIndex column, const double weight)
     {
       columns.push_back(column);
       weights.push_back(weight);
     }
 
-    void
-    finish_row()
+    void finish_row()
     {
       start.push_back(columns.size());
     }
 
     /// Appends a copy of row `row` of another object.
-    void
-    append(const NodeRows &other, const std::size_t row)
+    void append(const NodeRows &other, const std::size_t row)
     {
-      columns.insert(columns.end(), other.columns.begin() + other.start[row], other.columns.begin() + other.start[row + 1]);
-      weights.insert(weights.end(), other.weights.begin() + other.start[row], other.weights.begin() + other.start[row + 1]);
+      columns.insert(columns.end(), other.columns.begin() + other.start[row],
+                     other.columns.begin() + other.start[row + 1]);
+      weights.insert(weights.end(), other.weights.begin() + other.start[row],
+                     other.weights.begin() + other.start[row + 1]);
       finish_row();
     }
   };
 
   /// Collective. Rows of all local nodes of a partition (owned, then ghosts), given those of the owned ones.
-  NodeRows
-  import_ghost_rows(const NodePartition &partition, NodeRows owned_rows);
+  NodeRows import_ghost_rows(const NodePartition &partition, NodeRows owned_rows);
 
   /// Collective. The rows of a list of nodes (sorted, the same on all ranks), on all ranks.
-  NodeRows
-  replicate_rows(const NodePartition &partition, const NodeRows &owned_rows, const std::vector<NodeIndex> &nodes);
+  NodeRows replicate_rows(const NodePartition &partition, const NodeRows &owned_rows,
+                          const std::vector<NodeIndex> &nodes);
 
   /// Collective. Values of a field at a list of nodes (sorted, the same on all ranks), on all ranks.
-  std::vector<Vector3>
-  replicate_values(const NodePartition &partition, const Vector &field, const std::vector<NodeIndex> &nodes);
+  std::vector<Vector3> replicate_values(const NodePartition &partition, const Vector &field,
+                                        const std::vector<NodeIndex> &nodes);
 
   /// Collective. Fixed masks of a list of nodes (sorted, the same on all ranks), on all ranks.
   /// `owned` holds the masks of the owned nodes.
-  std::vector<FixedMask>
-  replicate_masks(const NodePartition          &partition,
-                  const std::vector<FixedMask> &owned,
-                  const std::vector<NodeIndex> &nodes);
+  std::vector<FixedMask> replicate_masks(const NodePartition &partition, const std::vector<FixedMask> &owned,
+                                         const std::vector<NodeIndex> &nodes);
 
   /// Collective. Fixed masks of all local nodes, given those of the owned ones.
-  std::vector<FixedMask>
-  import_ghost_masks(const NodePartition &partition, const std::vector<FixedMask> &owned);
+  std::vector<FixedMask> import_ghost_masks(const NodePartition          &partition,
+                                            const std::vector<FixedMask> &owned);
 } // namespace Signorini
 
 #endif

@@ -31,8 +31,7 @@ namespace Signorini
   constexpr FixedMask all_fixed = 7;
 
   /// E_p of method.md: the projector onto the free directions of a node.
-  inline Vector3
-  project_free(const FixedMask fixed, const Vector3 &v)
+  inline Vector3 project_free(const FixedMask fixed, const Vector3 &v)
   {
     Vector3 w = v;
     for (unsigned int c = 0; c < dim; ++c)

@@ -22,13 +22,13 @@ namespace Signorini
   /// One contact pair on the current mesh.
   struct ContactPair
   {
-    std::string                        name;
-    unsigned int                       nonmortar_body, mortar_body;
-    std::string                        nonmortar_name, mortar_name;
-    ContactSurface                     nonmortar, mortar;
-    std::unique_ptr<ContactMapping>    mapping;
-    std::vector<FaceMoments>           moments;
-    GapFunction                        prescribed_gap;
+    std::string                     name;
+    unsigned int                    nonmortar_body, mortar_body;
+    std::string                     nonmortar_name, mortar_name;
+    ContactSurface                  nonmortar, mortar;
+    std::unique_ptr<ContactMapping> mapping;
+    std::vector<FaceMoments>        moments;
+    GapFunction                     prescribed_gap;
   };
 
   /// All that belongs to one mesh of the nested iteration.
@@ -59,26 +59,23 @@ namespace Signorini
   {
   public:
     /// Collective. `out` prints on rank 0 only.
-    ContactProblem(ProblemParameters &parameters, const MPI_Comm communicator, dealii::ConditionalOStream &out);
+    ContactProblem(ProblemParameters &parameters, const MPI_Comm communicator,
+                   dealii::ConditionalOStream &out);
 
     /// Solves all cycles.
-    void
-    run();
+    void run();
 
     /// Builds the meshes of all cycles and the contact mapping of the last, solves nothing.
-    void
-    build_meshes();
+    void build_meshes();
 
     /// Prints bodies, boundaries, and the range of the gap of each pair.
-    void
-    describe();
+    void describe();
 
     Results results;
 
     Discretization discretization;
 
-    const Bodies &
-    body_data() const
+    const Bodies &body_data() const
     {
       return bodies;
     }
@@ -95,48 +92,33 @@ namespace Signorini
       bool           has_gap;
     };
 
-    void
-    define_pairs();
-    void
-    setup_space();
-    void
-    setup_contact(CycleResult &cycle);
-    ContactPair
-    make_pair(const PairDefinition &definition, CycleResult &cycle);
-    unsigned int
-    choose_nonmortar(const PairDefinition &definition, const ContactSurface (&surfaces)[2]);
-    void
-    solve_cycle(CycleResult &cycle);
-    void
-    evaluate_contact(const Vector &v, const ObstacleProblem &problem, const NodeBlockMatrix &matrix, const std::vector<double> &gaps);
-    void
-    solve_linear(CycleResult &cycle, const LevelSpaces &levels, const Vector &start);
-    void
-    measure_sweeps(CycleResult &cycle, MultigridHierarchy &hierarchy, const Vector &rhs);
-    void
-    refine();
-    void
-    finish();
-    void
-    certify();
-    void
-    collect_pairs();
-    void
-    collect_reactions();
-    void
-    collect_probes();
-    void
-    note(const std::string &text);
+    void         define_pairs();
+    void         setup_space();
+    void         setup_contact(CycleResult &cycle);
+    ContactPair  make_pair(const PairDefinition &definition, CycleResult &cycle);
+    unsigned int choose_nonmortar(const PairDefinition &definition, const ContactSurface (&surfaces)[2]);
+    void         solve_cycle(CycleResult &cycle);
+    void evaluate_contact(const Vector &v, const ObstacleProblem &problem, const NodeBlockMatrix &matrix,
+                          const std::vector<double> &gaps);
+    void solve_linear(CycleResult &cycle, const LevelSpaces &levels, const Vector &start);
+    void measure_sweeps(CycleResult &cycle, MultigridHierarchy &hierarchy, const Vector &rhs);
+    void refine();
+    void finish();
+    void certify();
+    void collect_pairs();
+    void collect_reactions();
+    void collect_probes();
+    void note(const std::string &text);
 
-    ProblemParameters                &parameters;
-    const MPI_Comm                    comm;
-    dealii::ConditionalOStream       &out;
-    Bodies                            bodies;
-    Loads                             loads;
-    Refinement                        refinement;
-    std::vector<PairDefinition>       pair_definitions;
-    double                            equilibrium_residual = 0.;
-    dealii::Timer                     total_time;
+    ProblemParameters          &parameters;
+    const MPI_Comm              comm;
+    dealii::ConditionalOStream &out;
+    Bodies                      bodies;
+    Loads                       loads;
+    Refinement                  refinement;
+    std::vector<PairDefinition> pair_definitions;
+    double                      equilibrium_residual = 0.;
+    dealii::Timer               total_time;
   };
 } // namespace Signorini
 

@@ -29,8 +29,7 @@ namespace Signorini
     /// Expressions that are positive where a surface may touch; empty for everywhere.
     std::string first_region, second_region;
 
-    void
-    add_parameters(dealii::ParameterHandler &prm);
+    void add_parameters(dealii::ParameterHandler &prm);
   };
 
   /// Everything in a parameter file.
@@ -55,16 +54,13 @@ namespace Signorini
     std::string file, base_folder;
 
     /// Reads a file. overrides: "Section/Name=value". Errors: InputError with one clear message.
-    void
-    read(const std::string &file, const std::vector<std::string> &overrides);
+    void read(const std::string &file, const std::vector<std::string> &overrides);
 
     /// Prints all parameters, commented if `with_documentation`.
-    void
-    print(std::ostream &out, const bool with_documentation);
+    void print(std::ostream &out, const bool with_documentation);
 
   private:
-    void
-    declare(dealii::ParameterHandler &prm);
+    void declare(dealii::ParameterHandler &prm);
   };
 } // namespace Signorini
 

@@ -10,17 +10,12 @@
 namespace Signorini
 {
   /// "signorini 0.1.0 (deal.II 9.4.1, ...)".
-  std::string
-  version_text();
+  std::string version_text();
 
   /// Collective. Writes everything of a solved problem (or its meshes and mapping only) into a folder, and
   /// prints the certificate.
-  void
-  write_results(ContactProblem             &problem,
-                ProblemParameters          &parameters,
-                const OutputFolder         &folder,
-                const bool                  mesh_only,
-                dealii::ConditionalOStream &out);
+  void write_results(ContactProblem &problem, ProblemParameters &parameters, const OutputFolder &folder,
+                     const bool mesh_only, dealii::ConditionalOStream &out);
 } // namespace Signorini
 
 #endif

@@ -20,30 +20,25 @@ namespace Signorini
   {
   public:
     /// All arguments must outlive the object. row_masks: fixed components of the rows of the coupling.
-    BasisTransformation(const NodalSpace             &space,
-                        const NodePartition          &space_partition,
-                        const DirichletData          &dirichlet,
-                        const InterfaceCoupling      &coupling,
+    BasisTransformation(const NodalSpace &space, const NodePartition &space_partition,
+                        const DirichletData &dirichlet, const InterfaceCoupling &coupling,
                         const std::vector<FixedMask> &row_masks);
 
     /// Collective. The physical displacement of all relevant nodes, hanging ones included, on the
     /// partition of the space. `unknowns` is the partition of v; it knows the columns of owned rows.
-    Vector
-    to_displacement(const Vector &v, const NodePartition &unknowns) const;
+    Vector to_displacement(const Vector &v, const NodePartition &unknowns) const;
 
     /// Collective. v from a physical displacement: T⁻¹ (u - u_D), zero in fixed components and hanging
     /// nodes. Sets the owned entries of v.
-    void
-    from_displacement(Vector &v, const Vector &u) const;
+    void from_displacement(Vector &v, const Vector &u) const;
 
     /// Collective. The bounds of the half-spaces for v: ĝ_p = g_p - n_p·(u_D,p - (S u_D)_p).
     /// All lists are ordered like the rows of the coupling.
-    std::vector<double>
-    reduce_gaps(const std::vector<double> &gaps, const std::vector<Vector3> &normals) const;
+    std::vector<double> reduce_gaps(const std::vector<double>  &gaps,
+                                    const std::vector<Vector3> &normals) const;
 
     /// Sets hanging nodes to their interpolated values and updates the ghosts.
-    void
-    interpolate_hanging_nodes(Vector &u) const;
+    void interpolate_hanging_nodes(Vector &u) const;
 
   private:
     const NodalSpace             &space;

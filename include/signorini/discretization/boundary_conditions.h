@@ -4,8 +4,8 @@
 #ifndef signorini_discretization_boundary_conditions_h
 #define signorini_discretization_boundary_conditions_h
 
-#include <signorini/mesh/expression.h>
 #include <signorini/mesh/bodies.h>
+#include <signorini/mesh/expression.h>
 #include <signorini/mesh/nodal_space.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -24,8 +24,7 @@ namespace Signorini
     std::string dirichlet, tractions, pressures, volume_force;
 
     /// Declares the parameters in the current subsection.
-    void
-    add_parameters(dealii::ParameterHandler &prm);
+    void add_parameters(dealii::ParameterHandler &prm);
   };
 
   /// Prescribed displacement on a boundary; components without a value are free.
@@ -55,8 +54,7 @@ namespace Signorini
     std::vector<std::array<Expression, 3>> volume_forces;
 
     /// Reads the parameters of one body. Errors: InputError for unknown boundaries and bad expressions.
-    void
-    add(const Bodies &bodies, const unsigned int body, const LoadParameters &parameters);
+    void add(const Bodies &bodies, const unsigned int body, const LoadParameters &parameters);
   };
 
   /// Prescribed components of the relevant nodes of a space.
@@ -71,13 +69,11 @@ namespace Signorini
 
   /// Collective. Evaluates the conditions at the nodes. Where two conditions prescribe the same component
   /// of a node, the later one counts. Hanging nodes get no entry: their parents do.
-  DirichletData
-  evaluate_dirichlet(const NodalSpace &space, const Loads &loads, const bool with_values);
+  DirichletData evaluate_dirichlet(const NodalSpace &space, const Loads &loads, const bool with_values);
 
   /// Collective. Checks for every body that its conditions exclude all rigid motions.
   /// Errors: InputError naming the body and the motion.
-  void
-  check_rigid_motions(const Bodies &bodies, const NodalSpace &space, const DirichletData &dirichlet);
+  void check_rigid_motions(const Bodies &bodies, const NodalSpace &space, const DirichletData &dirichlet);
 } // namespace Signorini
 
 #endif

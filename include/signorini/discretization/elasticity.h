@@ -28,21 +28,19 @@ namespace Signorini
       FixedMask blocked;
     };
 
-    VertexExpansion(const NodalSpace &space, const InterfaceCoupling &coupling, const std::vector<FixedMask> &row_masks);
+    VertexExpansion(const NodalSpace &space, const InterfaceCoupling &coupling,
+                    const std::vector<FixedMask> &row_masks);
 
     /// Whether a relevant node is neither hanging nor coupled: its expansion is itself.
-    bool
-    is_plain(const NodeIndex node) const
+    bool is_plain(const NodeIndex node) const
     {
       return !special[space.relevant().index_within_set(node)];
     }
 
-    void
-    expand(const NodeIndex node, std::vector<Term> &terms) const;
+    void expand(const NodeIndex node, std::vector<Term> &terms) const;
 
   private:
-    void
-    add_conforming(const NodeIndex node, const double weight, std::vector<Term> &terms) const;
+    void add_conforming(const NodeIndex node, const double weight, std::vector<Term> &terms) const;
 
     const NodalSpace             &space;
     const InterfaceCoupling      &coupling;
@@ -64,23 +62,15 @@ namespace Signorini
 
   /// Collective. row_masks: the fixed masks of the rows of the coupling. An empty coupling gives the
   /// decoupled linear problem. Errors: InputError for cells with nonpositive Jacobian.
-  LinearSystem
-  assemble_elasticity(const Bodies                 &bodies,
-                      const NodalSpace             &space,
-                      const Loads                  &loads,
-                      const DirichletData          &dirichlet,
-                      const InterfaceCoupling      &coupling,
-                      const std::vector<FixedMask> &row_masks);
+  LinearSystem assemble_elasticity(const Bodies &bodies, const NodalSpace &space, const Loads &loads,
+                                   const DirichletData &dirichlet, const InterfaceCoupling &coupling,
+                                   const std::vector<FixedMask> &row_masks);
 
   /// Collective. A u - f by node in the physical basis, hanging nodes resolved: at free components what is
   /// left is the contact force, at fixed ones the reaction too. u has the layout of `partition` (owned and
   /// relevant nodes), hanging values included, ghosts up to date.
-  Vector
-  physical_residual(const Bodies        &bodies,
-                    const NodalSpace    &space,
-                    const NodePartition &partition,
-                    const Loads         &loads,
-                    const Vector        &u);
+  Vector physical_residual(const Bodies &bodies, const NodalSpace &space, const NodePartition &partition,
+                           const Loads &loads, const Vector &u);
 } // namespace Signorini
 
 #endif

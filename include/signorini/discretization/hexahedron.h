@@ -20,24 +20,21 @@ namespace Signorini
     /// Stiffness of isotropic linear elasticity: blocks[8 * a + b] is the 3x3 block of corners a and b,
     /// nine numbers row by row. Units: E times length.
     /// @return false if the Jacobian is not positive at a Gauss point.
-    bool
-    stiffness(std::array<double, 576> &blocks, const Corners &corners, const double young, const double poisson);
+    bool stiffness(std::array<double, 576> &blocks, const Corners &corners, const double young,
+                   const double poisson);
 
     /// Values of the 8 shape functions at a point of the reference cell.
-    std::array<double, 8>
-    shape_values(const dealii::Point<3> &reference);
+    std::array<double, 8> shape_values(const dealii::Point<3> &reference);
 
     /// The 8 Gauss points in the reference cell.
-    const std::array<dealii::Point<3>, 8> &
-    gauss_points();
+    const std::array<dealii::Point<3>, 8> &gauss_points();
 
     /// Jacobian determinant times weight at a Gauss point, and the point in space.
-    std::pair<double, dealii::Point<3>>
-    volume_element(const Corners &corners, const unsigned int gauss_point);
+    std::pair<double, dealii::Point<3>> volume_element(const Corners     &corners,
+                                                       const unsigned int gauss_point);
 
     /// Reference coordinates of a point in space (Newton); returns false if it does not converge.
-    bool
-    invert_map(dealii::Point<3> &reference, const Corners &corners, const dealii::Point<3> &point);
+    bool invert_map(dealii::Point<3> &reference, const Corners &corners, const dealii::Point<3> &point);
   } // namespace Hexahedron
 } // namespace Signorini
 

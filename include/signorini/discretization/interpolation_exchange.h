@@ -22,8 +22,7 @@ namespace Signorini
     std::vector<double>         weights;
 
     template <class Archive>
-    void
-    serialize(Archive &archive, const unsigned int)
+    void serialize(Archive &archive, const unsigned int)
     {
       for (unsigned int &s : start)
         archive &s;
@@ -49,15 +48,13 @@ namespace Signorini
     {
       std::uint64_t coarse_cell, path;
 
-      bool
-      operator==(const Key &other) const
+      bool operator==(const Key &other) const
       {
         return coarse_cell == other.coarse_cell && path == other.path;
       }
 
       template <class Archive>
-      void
-      serialize(Archive &archive, const unsigned int)
+      void serialize(Archive &archive, const unsigned int)
       {
         archive &coarse_cell &path;
       }
@@ -65,8 +62,7 @@ namespace Signorini
 
     struct Hash
     {
-      std::size_t
-      operator()(const Key &key) const
+      std::size_t operator()(const Key &key) const
       {
         // Multiplicative mixing (constants of splitmix64).
         std::uint64_t h = key.path * 0x9e3779b97f4a7c15ull ^ key.coarse_cell * 0xbf58476d1ce4e5b9ull;
@@ -76,11 +72,9 @@ namespace Signorini
     };
 
   private:
-    void
-    collect_own_cells(const NodalSpace &coarse);
+    void collect_own_cells(const NodalSpace &coarse);
 
-    void
-    fetch_remote_cells(const NodalSpace &fine);
+    void fetch_remote_cells(const NodalSpace &fine);
 
     std::unordered_map<Key, unsigned int, Hash> index;
     std::vector<CellInterpolation>              cells;

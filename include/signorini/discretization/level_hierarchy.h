@@ -17,8 +17,7 @@ namespace Signorini
   /// Collective. Nodal interpolation between two nested spaces: for every owned fine node its weights on
   /// conforming coarse nodes (empty for hanging fine nodes). The fine mesh must come from the coarse one
   /// by refining cells at most once; the two may be partitioned differently.
-  NodeRows
-  interpolation_rows(const NodalSpace &fine, const NodalSpace &coarse);
+  NodeRows interpolation_rows(const NodalSpace &fine, const NodalSpace &coarse);
 
   /// The coarser meshes of deal.II's global coarsening sequence with their nodal spaces, and the
   /// interpolation between consecutive levels.
@@ -29,50 +28,46 @@ namespace Signorini
     LevelSpaces(const NodalSpace &finest, const Loads &loads);
 
     /// Level 0 is the coarsest.
-    unsigned int
-    n_levels() const
+    unsigned int n_levels() const
     {
       return static_cast<unsigned int>(coarse.size()) + 1;
     }
 
-    const NodalSpace &
-    space(const unsigned int level) const
+    const NodalSpace &space(const unsigned int level) const
     {
       return level + 1 == n_levels() ? finest : *coarse[level];
     }
 
     /// Rows of the owned nodes of level `level` on level - 1.
-    const NodeRows &
-    interpolation(const unsigned int level) const
+    const NodeRows &interpolation(const unsigned int level) const
     {
       return rows[level - 1];
     }
 
     /// Fixed masks of the owned nodes of a level; hanging nodes are fixed altogether.
-    const std::vector<FixedMask> &
-    fixed(const unsigned int level) const
+    const std::vector<FixedMask> &fixed(const unsigned int level) const
     {
       return masks[level];
     }
 
   private:
-    const NodalSpace                                                 &finest;
-    std::vector<std::shared_ptr<const dealii::Triangulation<3>>>      triangulations;
-    std::vector<std::unique_ptr<NodalSpace>>                          coarse;
-    std::vector<NodeRows>                                             rows;
-    std::vector<std::vector<FixedMask>>                               masks;
+    const NodalSpace                                            &finest;
+    std::vector<std::shared_ptr<const dealii::Triangulation<3>>> triangulations;
+    std::vector<std::unique_ptr<NodalSpace>>                     coarse;
+    std::vector<NodeRows>                                        rows;
+    std::vector<std::vector<FixedMask>>                          masks;
   };
 
   /// The transfer operator on the next coarser level (method.md, section 5):
   ///   S_{k-1} = diag(P_nonᵀ D_k 1)⁻¹ P_nonᵀ D_k S_k P_mor ,   D_{k-1} = diag(P_nonᵀ D_k 1).
   /// `nodes` are the sorted nodes of rows and columns of S_k, `rows` their interpolation rows.
-  InterfaceCoupling
-  coarsen_coupling(const InterfaceCoupling &fine, const std::vector<NodeIndex> &nodes, const NodeRows &rows);
+  InterfaceCoupling coarsen_coupling(const InterfaceCoupling &fine, const std::vector<NodeIndex> &nodes,
+                                     const NodeRows &rows);
 
   /// Collective. Galerkin hierarchy with P̂_k = T_k⁻¹ P_k T_{k-1} on all levels. An empty coupling gives the
   /// hierarchy of the decoupled linear problem.
-  MultigridHierarchy
-  build_hierarchy(LinearSystem &&system, const LevelSpaces &spaces, const InterfaceCoupling &coupling);
+  MultigridHierarchy build_hierarchy(LinearSystem &&system, const LevelSpaces &spaces,
+                                     const InterfaceCoupling &coupling);
 } // namespace Signorini
 
 #endif

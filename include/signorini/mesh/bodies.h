@@ -19,18 +19,17 @@ namespace Signorini
   /// Shape, place and material of a body, as a user writes them.
   struct BodyParameters
   {
-    std::string  name;
-    std::string  mesh = "block";
-    double       radius = 1., inner_radius = .5, height = 1.;
-    std::string  lower_corner = "0, 0, 0", upper_corner = "1, 1, 1", divisions = "1, 1, 1";
-    std::string  translation = "0, 0, 0", rotation_axis = "0, 0, 1";
-    double       rotation_angle = 0.;
-    double       young = 1., poisson = .3;
-    std::string  volumes, volume_materials;
+    std::string name;
+    std::string mesh   = "block";
+    double      radius = 1., inner_radius = .5, height = 1.;
+    std::string lower_corner = "0, 0, 0", upper_corner = "1, 1, 1", divisions = "1, 1, 1";
+    std::string translation = "0, 0, 0", rotation_axis = "0, 0, 1";
+    double      rotation_angle = 0.;
+    double      young = 1., poisson = .3;
+    std::string volumes, volume_materials;
 
     /// Declares the parameters in the current subsection.
-    void
-    add_parameters(dealii::ParameterHandler &prm);
+    void add_parameters(dealii::ParameterHandler &prm);
   };
 
   /// Isotropic linear elastic material of a part of a body.
@@ -48,70 +47,58 @@ namespace Signorini
   public:
     /// Collective. Mesh file names are relative to base_folder.
     /// Errors: InputError naming the parameter for unknown or senseless values and bad mesh files.
-    Bodies(const MPI_Comm                      communicator,
-           const std::vector<BodyParameters> &parameters,
-           const std::string                 &base_folder);
+    Bodies(const MPI_Comm communicator, const std::vector<BodyParameters> &parameters,
+           const std::string &base_folder);
 
-    dealii::parallel::distributed::Triangulation<3> &
-    triangulation()
+    dealii::parallel::distributed::Triangulation<3> &triangulation()
     {
       return tria;
     }
 
-    const dealii::parallel::distributed::Triangulation<3> &
-    triangulation() const
+    const dealii::parallel::distributed::Triangulation<3> &triangulation() const
     {
       return tria;
     }
 
-    unsigned int
-    n_bodies() const
+    unsigned int n_bodies() const
     {
       return static_cast<unsigned int>(names.size());
     }
 
-    const std::string &
-    body_name(const unsigned int body) const
+    const std::string &body_name(const unsigned int body) const
     {
       return names[body];
     }
 
     /// Errors: InputError listing the bodies; `where` names the parameter.
-    unsigned int
-    body_index(const std::string &name, const std::string &where) const;
+    unsigned int body_index(const std::string &name, const std::string &where) const;
 
-    const Material &
-    material(const dealii::types::material_id id) const
+    const Material &material(const dealii::types::material_id id) const
     {
       return materials[id];
     }
 
-    unsigned int
-    body_of_material(const dealii::types::material_id id) const
+    unsigned int body_of_material(const dealii::types::material_id id) const
     {
       return materials[id].body;
     }
 
-    const std::vector<std::string> &
-    boundary_names(const unsigned int body) const
+    const std::vector<std::string> &boundary_names(const unsigned int body) const
     {
       return boundaries[body];
     }
 
     /// The id of the i-th boundary of a body.
-    dealii::types::boundary_id
-    boundary_id(const unsigned int body, const unsigned int i) const
+    dealii::types::boundary_id boundary_id(const unsigned int body, const unsigned int i) const
     {
       return first_boundary[body] + i;
     }
 
     /// Boundary ids of a named boundary. Errors: InputError listing the names the body has.
-    std::set<dealii::types::boundary_id>
-    boundary_ids(const unsigned int body, const std::string &name) const;
+    std::set<dealii::types::boundary_id> boundary_ids(const unsigned int body, const std::string &name) const;
 
     /// Remarks from reading the meshes.
-    const std::vector<std::string> &
-    notes() const
+    const std::vector<std::string> &notes() const
     {
       return remarks;
     }
@@ -119,8 +106,7 @@ namespace Signorini
   private:
     struct Placed;
 
-    void
-    create(const std::vector<Placed> &placed);
+    void create(const std::vector<Placed> &placed);
 
     dealii::parallel::distributed::Triangulation<3> tria;
     std::vector<std::string>                        names;

@@ -25,43 +25,39 @@ namespace Signorini
     /// `where` names the parameter; it appears in the InputError for text that cannot be understood.
     Expression(const std::string &text, const std::string &where);
 
-    double
-    operator()(const dealii::Point<3> &p) const
+    double operator()(const dealii::Point<3> &p) const
     {
       return parser ? parser->value(p) : constant;
     }
 
-    bool
-    is_zero() const
+    bool is_zero() const
     {
       return !parser && constant == 0.;
     }
 
-    const std::string &
-    text() const
+    const std::string &text() const
     {
       return source;
     }
 
   private:
-    std::string                                    source = "0";
-    double                                         constant = 0.;
+    std::string                                      source   = "0";
+    double                                           constant = 0.;
     std::shared_ptr<const dealii::FunctionParser<3>> parser;
   };
 
 
 
   /// Pieces of a list; separators inside parentheses do not count. Pieces are trimmed.
-  std::vector<std::string>
-  split_list(const std::string &text, const char separator, const std::string &where);
+  std::vector<std::string> split_list(const std::string &text, const char separator,
+                                      const std::string &where);
 
   /// A vector of text entries "(a, b, c)"; commas inside nested parentheses do not separate.
-  std::vector<std::string>
-  split_vector(const std::string &text, const std::string &where);
+  std::vector<std::string> split_vector(const std::string &text, const std::string &where);
 
   /// Entries "name: value; name: value", in order. Semicolons inside parentheses do not separate.
-  std::vector<std::pair<std::string, std::string>>
-  split_named_entries(const std::string &text, const std::string &where);
+  std::vector<std::pair<std::string, std::string>> split_named_entries(const std::string &text,
+                                                                       const std::string &where);
 } // namespace Signorini
 
 #endif

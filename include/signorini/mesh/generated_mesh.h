@@ -41,16 +41,14 @@ namespace Signorini
   };
 
   /// All kinds generate_mesh() knows, separated by "|".
-  std::string
-  generated_mesh_kinds();
+  std::string generated_mesh_kinds();
 
   /// A coarse mesh of cells of near-equal edges. Balls and shells are centred at the origin; a half ball is
   /// the half z <= 0 with the flat boundary "top", quarters are x >= 0 and y >= 0 (boundaries "symmetry x",
   /// "symmetry y"), an eighth also z >= 0 ("symmetry z"). A cylinder has the axis z and lies in
   /// -height <= z <= 0 (boundaries "side", "top", "bottom"). A block has "left", "right", "front", "back",
   /// "bottom", "top" (x, y, z from low to high). Errors: InputError for sizes that make no sense.
-  GeneratedMesh
-  generate_mesh(const GeneratedMeshParameters &parameters);
+  GeneratedMesh generate_mesh(const GeneratedMeshParameters &parameters);
 } // namespace Signorini
 
 #endif

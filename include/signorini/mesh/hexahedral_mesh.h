@@ -22,24 +22,23 @@ namespace Signorini
       unsigned int name;
     };
 
-    std::vector<dealii::Point<3>>            vertices;
+    std::vector<dealii::Point<3>> vertices;
     /// Vertex numbers in deal.II's order (lexicographic).
     std::vector<std::array<unsigned int, 8>> cells;
     /// Index into volume_names, per cell.
-    std::vector<unsigned int>                cell_volume;
-    std::vector<BoundaryFace>                faces;
-    std::vector<std::string>                 boundary_names;
-    std::vector<std::string>                 volume_names;
+    std::vector<unsigned int> cell_volume;
+    std::vector<BoundaryFace> faces;
+    std::vector<std::string>  boundary_names;
+    std::vector<std::string>  volume_names;
     /// Remarks for the user, e.g. on mended cells.
-    std::vector<std::string>                 notes;
+    std::vector<std::string> notes;
 
     template <class Archive>
-    void
-    serialize(Archive &archive, const unsigned int)
+    void serialize(Archive &archive, const unsigned int)
     {
       archive &vertices &cells &cell_volume &boundary_names &volume_names &notes;
-      std::size_t n = faces.size();
-      archive    &n;
+      std::size_t                                                          n = faces.size();
+      archive                                                             &n;
       faces.resize(n);
       for (BoundaryFace &face : faces)
         archive &face.vertices &face.name;
@@ -52,8 +51,7 @@ namespace Signorini
 
   /// Smallest of the 8 corner Jacobians of a cell, each scaled by the product of its edge lengths: 1 for a
   /// brick, not positive for an inverted cell.
-  double
-  scaled_jacobian(const std::array<dealii::Point<3>, 8> &corners);
+  double scaled_jacobian(const std::array<dealii::Point<3>, 8> &corners);
 } // namespace Signorini
 
 #endif

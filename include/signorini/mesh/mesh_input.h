@@ -17,8 +17,7 @@ namespace Signorini
   /// their physical groups, or the ids as text where there is no name; faces without a group are "unnamed".
   /// Cells of mirrored orientation are mended, with a note.
   /// Errors: InputError for missing or broken files, unsupported elements (by name) and inverted cells.
-  HexahedralMesh
-  read_hexahedral_mesh(const std::string &file, const MPI_Comm communicator);
+  HexahedralMesh read_hexahedral_mesh(const std::string &file, const MPI_Comm communicator);
 } // namespace Signorini
 
 #endif

@@ -28,65 +28,56 @@ namespace Signorini
   public:
     explicit NodalSpace(const dealii::Triangulation<3> &triangulation);
 
-    const dealii::DoFHandler<3> &
-    dof_handler() const
+    const dealii::DoFHandler<3> &dof_handler() const
     {
       return dofs;
     }
 
-    MPI_Comm
-    communicator() const
+    MPI_Comm communicator() const
     {
       return dofs.get_communicator();
     }
 
     /// Closed hanging node constraints u_h = sum_k C_hk u_k of the locally relevant nodes.
-    const dealii::AffineConstraints<double> &
-    hanging_nodes() const
+    const dealii::AffineConstraints<double> &hanging_nodes() const
     {
       return constraints;
     }
 
-    NodeIndex
-    n_nodes() const
+    NodeIndex n_nodes() const
     {
       return dofs.n_dofs();
     }
 
     /// Number of nodes that are not hanging, over all ranks.
-    NodeIndex
-    n_conforming_nodes() const
+    NodeIndex n_conforming_nodes() const
     {
       return n_conforming;
     }
 
-    const dealii::IndexSet &
-    owned() const
+    const dealii::IndexSet &owned() const
     {
       return dofs.locally_owned_dofs();
     }
 
     /// Owned nodes, nodes of ghost cells, and parents of hanging ones among them.
-    const dealii::IndexSet &
-    relevant() const
+    const dealii::IndexSet &relevant() const
     {
       return relevant_nodes;
     }
 
     /// Position of a relevant node.
-    const dealii::Point<3> &
-    position(const NodeIndex node) const
+    const dealii::Point<3> &position(const NodeIndex node) const
     {
       return positions[relevant_nodes.index_within_set(node)];
     }
 
     /// The 8 nodes of an owned or ghost cell, in deal.II's vertex order.
-    void
-    cell_nodes(const dealii::DoFHandler<3>::active_cell_iterator &cell, std::array<NodeIndex, 8> &nodes) const;
+    void cell_nodes(const dealii::DoFHandler<3>::active_cell_iterator &cell,
+                    std::array<NodeIndex, 8>                          &nodes) const;
 
   private:
-    void
-    set_positions();
+    void set_positions();
 
     const dealii::FE_Q<3>             fe;
     dealii::DoFHandler<3>             dofs;

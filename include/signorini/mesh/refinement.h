@@ -19,8 +19,7 @@ namespace Signorini
     unsigned int initial_global = 0, global_cycles = 0;
     std::string  regions;
 
-    void
-    add_parameters(dealii::ParameterHandler &prm);
+    void add_parameters(dealii::ParameterHandler &prm);
   };
 
   /// A ball or box and how many times cells in it are refined beyond the coarse mesh and the global levels.
@@ -32,8 +31,7 @@ namespace Signorini
     unsigned int     levels;
 
     /// Whether a cell may intersect the region: by the bounding box of its vertices.
-    bool
-    touches(const dealii::Point<3> &lower_corner, const dealii::Point<3> &upper_corner) const;
+    bool touches(const dealii::Point<3> &lower_corner, const dealii::Point<3> &upper_corner) const;
   };
 
   class Refinement
@@ -43,16 +41,14 @@ namespace Signorini
     explicit Refinement(const RefinementParameters &parameters);
 
     /// Number of cycles after the first.
-    unsigned int
-    n_cycles() const
+    unsigned int n_cycles() const
     {
       return cycles;
     }
 
-    /// Marks the cells that cycle `cycle` (1, 2, ...) refines. Returns whether any cell of any rank is marked.
-    /// The caller prepares, executes, and transfers what it needs.
-    bool
-    mark(dealii::parallel::distributed::Triangulation<3> &triangulation, const unsigned int cycle) const;
+    /// Marks the cells that cycle `cycle` (1, 2, ...) refines. Returns whether any cell of any rank is
+    /// marked. The caller prepares, executes, and transfers what it needs.
+    bool mark(dealii::parallel::distributed::Triangulation<3> &triangulation, const unsigned int cycle) const;
 
   private:
     RefinementParameters          parameters;

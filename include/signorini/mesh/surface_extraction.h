@@ -15,11 +15,10 @@ namespace Signorini
   /// Collective. The boundary faces with given ids, gathered on all ranks.
   /// @param fixed prescribed components of a relevant node
   /// @param region a face belongs to the surface if a corner or the centre lies in the region; empty for all
-  ContactSurface
-  extract_contact_surface(const NodalSpace                                          &space,
-                          const std::set<dealii::types::boundary_id>                &ids,
-                          const std::function<FixedMask(const NodeIndex)>           &fixed,
-                          const std::function<bool(const dealii::Point<3> &point)> &region);
+  ContactSurface extract_contact_surface(const NodalSpace                                         &space,
+                                         const std::set<dealii::types::boundary_id>               &ids,
+                                         const std::function<FixedMask(const NodeIndex)>          &fixed,
+                                         const std::function<bool(const dealii::Point<3> &point)> &region);
 } // namespace Signorini
 
 #endif

@@ -24,28 +24,20 @@ namespace Signorini
 
   /// Collective. Writes the owned cells as NAME.RANK.vtu with NAME.pvtu and NAME.pvd (on rank 0).
   /// Fields are indexed like NodalSpace::relevant(); cell_value gives the cell field "body".
-  void
-  write_bodies(const std::string                                                        &folder,
-               const std::string                                                        &name,
-               const NodalSpace                                                         &space,
-               const std::vector<OutputField>                                           &fields,
-               const std::function<double(const dealii::types::material_id material)>  &body);
+  void write_bodies(const std::string &folder, const std::string &name, const NodalSpace &space,
+                    const std::vector<OutputField>                                         &fields,
+                    const std::function<double(const dealii::types::material_id material)> &body);
 
   /// Collective. Writes the faces of a contact surface that this rank owns. Fields are indexed by vertex.
-  void
-  write_surface(const std::string              &folder,
-                const std::string              &name,
-                const ContactSurface           &surface,
-                const std::vector<OutputField> &fields,
-                const MPI_Comm                  communicator);
+  void write_surface(const std::string &folder, const std::string &name, const ContactSurface &surface,
+                     const std::vector<OutputField> &fields, const MPI_Comm communicator);
 
   /// Collective. Volume weighted nodal averages of the stress: fields "stress" (xx, yy, zz, xy, yz, zx),
   /// "von Mises" and "principal stress" (3, largest first), in the unit of E.
   /// displacement: values at the relevant nodes, three each. material: Young's modulus and Poisson's ratio.
-  std::vector<OutputField>
-  nodal_stress(const NodalSpace                                                                          &space,
-               const std::vector<double>                                                                 &displacement,
-               const std::function<std::pair<double, double>(const dealii::types::material_id material)> &material);
+  std::vector<OutputField> nodal_stress(
+      const NodalSpace &space, const std::vector<double> &displacement,
+      const std::function<std::pair<double, double>(const dealii::types::material_id material)> &material);
 } // namespace Signorini
 
 #endif

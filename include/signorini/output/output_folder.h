@@ -23,15 +23,13 @@ namespace Signorini
     OutputFolder(const OutputFolder &) = delete;
 
     /// Where to write, with a slash at the end.
-    const std::string &
-    path() const
+    const std::string &path() const
     {
       return temporary;
     }
 
     /// Collective. Replaces older results by the new ones.
-    void
-    commit();
+    void commit();
 
   private:
     std::string    target, temporary;

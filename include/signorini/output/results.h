@@ -34,7 +34,8 @@ namespace Signorini
   {
     std::string name, nonmortar, mortar;
     Vector3     force, force_on_mortar, moment;
-    double      min_pressure = 0., max_pressure = 0., contact_area = 0., coverage = 0., min_gap = 0., max_penetration = 0.;
+    double      min_pressure = 0., max_pressure = 0., contact_area = 0., coverage = 0., min_gap = 0.,
+           max_penetration          = 0.;
     double      initial_penetration = 0., lost_area = 0.;
     std::size_t dropped_nodes = 0;
   };
@@ -57,7 +58,8 @@ namespace Signorini
   {
     /// Largest n·û - g over the contact nodes / largest displacement.
     double penetration = 0.;
-    /// The same sampled at points of all overlay cells (consistency error of the discretization, not of the solver).
+    /// The same sampled at points of all overlay cells (consistency error of the discretization, not of the
+    /// solver).
     double geometric_penetration = 0.;
     /// Largest tension / largest pressure.
     double tension = 0.;
@@ -82,7 +84,7 @@ namespace Signorini
   struct Results
   {
     std::string                 version, parameter_file, title;
-    unsigned int                ranks = 1;
+    unsigned int                ranks     = 1;
     bool                        converged = true;
     double                      wall_time = 0., peak_memory = 0.;
     std::vector<CycleResult>    cycles;

@@ -12,24 +12,19 @@
 namespace Signorini
 {
   /// summary.json (keys: doc/output.md). Numbers that are not finite become null.
-  void
-  write_summary(std::ostream &out, const Results &results);
+  void write_summary(std::ostream &out, const Results &results);
 
   /// table.txt: the columns of Table 1 of the paper, rates and times.
-  void
-  write_table(std::ostream &out, const Results &results);
+  void write_table(std::ostream &out, const Results &results);
 
   /// convergence.csv: cycle, iteration, correction (energy norm), relative, active nodes.
-  void
-  write_convergence(std::ostream &out, const Results &results);
+  void write_convergence(std::ostream &out, const Results &results);
 
   /// pressure.csv: x, y, z, area, pressure, gap, active.
-  void
-  write_pressure(std::ostream &out, const Results &results);
+  void write_pressure(std::ostream &out, const Results &results);
 
   /// The certificate in words.
-  void
-  print_certificate(std::ostream &out, const Results &results);
+  void print_certificate(std::ostream &out, const Results &results);
 } // namespace Signorini
 
 #endif

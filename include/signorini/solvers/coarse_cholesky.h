@@ -19,12 +19,10 @@ namespace Signorini
     ~CoarseCholesky();
 
     /// Collective. Factorizes; the ordering is reused while the structure stays the same.
-    void
-    factorize(const NodeBlockMatrix &matrix);
+    void factorize(const NodeBlockMatrix &matrix);
 
     /// Collective. solution = A^-1 rhs.
-    void
-    solve(Vector &solution, const Vector &rhs) const;
+    void solve(Vector &solution, const Vector &rhs) const;
 
   private:
     struct Factorization;

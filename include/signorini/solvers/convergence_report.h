@@ -13,7 +13,7 @@ namespace Signorini
   /// What a solver returns. Numbers start as NaN, so that a forgotten one is loud.
   struct ConvergenceReport
   {
-    bool         converged  = false;
+    bool converged = false;
     /// Applications of the V-cycle.
     unsigned int iterations = 0;
     /// Energy norm of the correction, one entry per iteration.
@@ -33,8 +33,7 @@ namespace Signorini
   };
 
   /// Geometric mean of the last (at most 5) reductions above rounding level.
-  double
-  convergence_rate(const std::vector<double> &history);
+  double convergence_rate(const std::vector<double> &history);
 } // namespace Signorini
 
 #endif

@@ -30,15 +30,11 @@ namespace Signorini
   /// Zeroes rows and columns of fixed components (the diagonal entry stays, or becomes `scale` where it
   /// is zero) and gives directions without any stiffness, which truncation can leave behind, a diagonal
   /// entry, so that blocks can be inverted. `rows` are owned rows.
-  void
-  eliminate_fixed_components(NodeBlockMatrix                 &matrix,
-                             const std::vector<FixedMask>    &fixed,
-                             const std::vector<unsigned int> &rows,
-                             const double                     scale);
+  void eliminate_fixed_components(NodeBlockMatrix &matrix, const std::vector<FixedMask> &fixed,
+                                  const std::vector<unsigned int> &rows, const double scale);
 
   /// The largest diagonal entry of a matrix, over all ranks: a scale for its units.
-  double
-  diagonal_scale(const NodeBlockMatrix &matrix);
+  double diagonal_scale(const NodeBlockMatrix &matrix);
 
   /// Matrices and transfers of all levels, Galerkin products from fine to coarse, and their truncation:
   /// on the finest level the normal part of the prolongation is removed at active nodes, and what
@@ -51,58 +47,49 @@ namespace Signorini
 
     /// Collective. Adds the next coarser level: transfer rows as in NodalTransfer, owned coarse nodes,
     /// fixed masks of the owned coarse nodes.
-    void
-    add_coarser_level(NodalTransfer &&transfer, const dealii::IndexSet &owned_coarse, const std::vector<FixedMask> &fixed);
+    void add_coarser_level(NodalTransfer &&transfer, const dealii::IndexSet &owned_coarse,
+                           const std::vector<FixedMask> &fixed);
 
     /// Collective. Chooses the interface rows of the level added last: contact nodes (global numbers, the
     /// same on all ranks) and one layer of neighbours.
-    void
-    set_interface(const std::vector<NodeIndex> &contact_nodes);
+    void set_interface(const std::vector<NodeIndex> &contact_nodes);
 
     /// Collective. After the last level: factorizes level 0. A hierarchy of a single level gets an
     /// algebraic copy of it as level 0, so that the truncated problem has an exact coarse solver.
-    void
-    finish();
+    void finish();
 
     /// Collective. Truncates at the active ones of the half-spaces of the finest level; recomputes only
     /// what changed since the last call. Returns whether anything changed on any rank.
-    bool
-    truncate(const HalfSpaces &half_spaces, const std::vector<unsigned char> &active);
+    bool truncate(const HalfSpaces &half_spaces, const std::vector<unsigned char> &active);
 
     /// Level 0 is the coarsest.
-    unsigned int
-    n_levels() const
+    unsigned int n_levels() const
     {
       return static_cast<unsigned int>(levels.size());
     }
 
-    MultigridLevel &
-    level(const unsigned int l)
+    MultigridLevel &level(const unsigned int l)
     {
       return *levels[levels.size() - 1 - l];
     }
 
-    const MultigridLevel &
-    level(const unsigned int l) const
+    const MultigridLevel &level(const unsigned int l) const
     {
       return *levels[levels.size() - 1 - l];
     }
 
-    MultigridLevel &
-    finest()
+    MultigridLevel &finest()
     {
       return *levels.front();
     }
 
     /// The level added last.
-    MultigridLevel &
-    coarsest()
+    MultigridLevel &coarsest()
     {
       return *levels.back();
     }
 
-    const CoarseCholesky &
-    coarse_solver() const
+    const CoarseCholesky &coarse_solver() const
     {
       return cholesky;
     }
@@ -110,8 +97,7 @@ namespace Signorini
   private:
     /// Removes the planes' normals from the changed block rows of the finest transfer. Both vectors with
     /// up-to-date ghosts: unit normals at active nodes, zero elsewhere; a flag at changed nodes.
-    void
-    truncate_transfer(const Vector &planes, const Vector &changed);
+    void truncate_transfer(const Vector &planes, const Vector &changed);
 
     /// Finest first.
     std::vector<std::unique_ptr<MultigridLevel>> levels;
@@ -119,7 +105,7 @@ namespace Signorini
     /// The blocks, before truncation, of the rows of the finest transfer that were ever truncated.
     std::unordered_map<unsigned int, std::vector<Block>> original_blocks;
     std::vector<unsigned char>                           truncated;
-    std::vector<double>                          scales;
+    std::vector<double>                                  scales;
   };
 } // namespace Signorini
 

@@ -20,8 +20,7 @@ namespace Signorini
     /// Bounds (length).
     std::vector<double> bounds;
 
-    std::size_t
-    size() const
+    std::size_t size() const
     {
       return nodes.size();
     }

@@ -29,69 +29,56 @@ namespace Signorini
     explicit ProjectedGaussSeidel(const NodeBlockMatrix &matrix);
 
     /// Recomputes the inverse diagonal blocks of all rows, or of the given ones.
-    void
-    update_diagonal();
-    void
-    update_diagonal(const std::vector<unsigned int> &rows);
+    void update_diagonal();
+    void update_diagonal(const std::vector<unsigned int> &rows);
 
     /// Sets the half-spaces; without a call there are none. Collective in nothing.
-    void
-    set_half_spaces(const HalfSpaces &half_spaces);
+    void set_half_spaces(const HalfSpaces &half_spaces);
 
     /// Chooses the rows of interface_sweep().
-    void
-    set_interface(const std::vector<unsigned int> &rows);
+    void set_interface(const std::vector<unsigned int> &rows);
 
     /// One sweep over all rows: v <- minimizer row by row. Energy never rises.
-    void
-    sweep(Vector &v, const Vector &rhs, const Direction direction);
+    void sweep(Vector &v, const Vector &rhs, const Direction direction);
 
     /// One sweep over the interface rows only.
-    void
-    interface_sweep(Vector &v, const Vector &rhs, const Direction direction);
+    void interface_sweep(Vector &v, const Vector &rhs, const Direction direction);
 
     /// For each half-space whether the last visit projected onto its plane.
-    const std::vector<unsigned char> &
-    active() const
+    const std::vector<unsigned char> &active() const
     {
       return is_active;
     }
 
     /// Moves v onto the planes of violated half-spaces (along A_pp^-1 n_p) and marks what it moved.
-    void
-    project(Vector &v);
+    void project(Vector &v);
 
-    /// Removes the normal parts at active nodes. A line search along corrections that are tangential there must
-    /// not see the contact forces: their product with the rounding errors of the correction drowns the slope.
-    void
-    restrict_to_tangents(Vector &residual) const;
+    /// Removes the normal parts at active nodes. A line search along corrections that are tangential there
+    /// must not see the contact forces: their product with the rounding errors of the correction drowns the
+    /// slope.
+    void restrict_to_tangents(Vector &residual) const;
 
     /// Makes c tangential at active nodes; elsewhere shortens it so that v + c keeps the half-spaces.
-    void
-    project_correction(Vector &c, const Vector &v) const;
+    void project_correction(Vector &c, const Vector &v) const;
 
     /// Bytes that a sweep reads and writes at least.
-    double
-    sweep_bytes() const;
+    double sweep_bytes() const;
 
   private:
-    void
-    relax(double *v, const double *rhs, const unsigned int row);
+    void relax(double *v, const double *rhs, const unsigned int row);
 
-    void
-    project_row(double *v_row, const int half_space);
+    void project_row(double *v_row, const int half_space);
 
-    void
-    run(Vector &v, const Vector &rhs, const SweepSchedule &schedule, const Direction direction);
+    void run(Vector &v, const Vector &rhs, const SweepSchedule &schedule, const Direction direction);
 
-    const NodeBlockMatrix      &matrix;
-    SweepSchedule               all_rows;
-    SweepSchedule               interface_rows;
-    std::vector<double>         inverse_diagonal;
-    HalfSpaces                  constraints;
-    std::vector<int>            half_space_of_row;
-    std::vector<Vector3>        projection_direction;
-    std::vector<unsigned char>  is_active;
+    const NodeBlockMatrix     &matrix;
+    SweepSchedule              all_rows;
+    SweepSchedule              interface_rows;
+    std::vector<double>        inverse_diagonal;
+    HalfSpaces                 constraints;
+    std::vector<int>           half_space_of_row;
+    std::vector<Vector3>       projection_direction;
+    std::vector<unsigned char> is_active;
   };
 } // namespace Signorini
 

@@ -26,12 +26,10 @@ namespace Signorini
     explicit SweepSchedule(const NodePartition &partition);
 
     /// The same order, for some of the owned nodes only.
-    SweepSchedule
-    subset(const std::vector<unsigned int> &nodes) const;
+    SweepSchedule subset(const std::vector<unsigned int> &nodes) const;
 
     /// Owned nodes, phase by phase; the same number of phases on all ranks.
-    const std::vector<std::vector<unsigned int>> &
-    phases() const
+    const std::vector<std::vector<unsigned int>> &phases() const
     {
       return rows;
     }

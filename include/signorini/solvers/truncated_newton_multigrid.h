@@ -23,8 +23,7 @@ namespace Signorini
     unsigned int max_iterations = 100;
 
     /// Declares the parameters in the current subsection.
-    void
-    add_parameters(dealii::ParameterHandler &prm);
+    void add_parameters(dealii::ParameterHandler &prm);
   };
 
   /// Truncated nonsmooth Newton multigrid (Gräser, Sack & Sander 2009): projected smoothing on the finest
@@ -35,7 +34,8 @@ namespace Signorini
   class TruncatedNewtonMultigrid
   {
   public:
-    /// Called after each iteration: number, energy norm of the correction relative to the iterate, active nodes.
+    /// Called after each iteration: number, energy norm of the correction relative to the iterate, active
+    /// nodes.
     using Monitor = std::function<void(unsigned int, double, unsigned int)>;
 
     /// The hierarchy must outlive the object; its truncation is changed.
@@ -43,27 +43,22 @@ namespace Signorini
 
     /// Collective. Solves from the given start, which is projected first. v has the layout of the finest
     /// level.
-    ConvergenceReport
-    solve(Vector &v, const ObstacleProblem &problem, const Monitor &monitor = {});
+    ConvergenceReport solve(Vector &v, const ObstacleProblem &problem, const Monitor &monitor = {});
 
     /// For each half-space of the last solve whether it is active.
-    const std::vector<unsigned char> &
-    active() const
+    const std::vector<unsigned char> &active() const
     {
       return hierarchy.finest().smoother->active();
     }
 
   private:
-    void
-    smooth(Vector &v, const Vector &rhs, const ProjectedGaussSeidel::Direction direction);
+    void smooth(Vector &v, const Vector &rhs, const ProjectedGaussSeidel::Direction direction);
 
     /// Truncated V-cycle, projection and exact line search; returns v·(b − residual).
-    double
-    correct(Vector &v, const ObstacleProblem &problem);
+    double correct(Vector &v, const ObstacleProblem &problem);
 
     /// Largest step along c that keeps the half-spaces.
-    double
-    admissible_step(const Vector &v, const Vector &c, const HalfSpaces &half_spaces) const;
+    double admissible_step(const Vector &v, const Vector &c, const HalfSpaces &half_spaces) const;
 
     MultigridHierarchy    &hierarchy;
     const SolverParameters parameters;

@@ -16,8 +16,8 @@ namespace Signorini
   /// Smoothing of all levels.
   struct SmoothingParameters
   {
-    unsigned int n_pre             = 3;
-    unsigned int n_post            = 3;
+    unsigned int n_pre              = 3;
+    unsigned int n_post             = 3;
     unsigned int n_interface_sweeps = 2;
   };
 
@@ -31,8 +31,7 @@ namespace Signorini
     ~VCycle();
 
     /// Collective. correction = (approximate inverse) * defect, on max_level.
-    void
-    apply(Vector &correction, const Vector &defect);
+    void apply(Vector &correction, const Vector &defect);
 
   private:
     struct Components;

@@ -18,7 +18,8 @@ namespace Signorini
   {
     /// Area of the selected nonmortar triangles, and of the overlay on them.
     double area_nonmortar = 0., area_covered = 0.;
-    /// Largest |sum of overlay areas - area| / area over selected triangles that are covered entirely (to 1e-6).
+    /// Largest |sum of overlay areas - area| / area over selected triangles that are covered entirely (to
+    /// 1e-6).
     double worst_tiling_defect = 0.;
     /// Overlay triangles, and pairs of triangles that meet.
     std::size_t n_cells = 0, n_pairs = 0;
@@ -35,21 +36,18 @@ namespace Signorini
   class ContactMapping
   {
   public:
-    /// Surfaces with vertex normals. is_selected: the nonmortar triangles whose overlay is wanted (a rank's own
-    /// faces); empty for all. The overlay of a triangle does not depend on the selection.
-    ContactMapping(const SurfaceMesh                             &nonmortar,
-                   const SurfaceMesh                             &mortar,
+    /// Surfaces with vertex normals. is_selected: the nonmortar triangles whose overlay is wanted (a rank's
+    /// own faces); empty for all. The overlay of a triangle does not depend on the selection.
+    ContactMapping(const SurfaceMesh &nonmortar, const SurfaceMesh &mortar,
                    const std::function<bool(const unsigned int)> &is_selected = {});
 
     /// Ordered by nonmortar, then by mortar triangle.
-    const std::vector<OverlayTriangle> &
-    overlay() const
+    const std::vector<OverlayTriangle> &overlay() const
     {
       return cells;
     }
 
-    const MappingReport &
-    report() const
+    const MappingReport &report() const
     {
       return summary;
     }
@@ -60,12 +58,11 @@ namespace Signorini
   };
 
   /// The point of a triangle with given barycentric coordinates.
-  dealii::Point<3>
-  evaluate(const SurfaceMesh &mesh, const unsigned int triangle, const std::array<double, 3> &barycentric);
+  dealii::Point<3> evaluate(const SurfaceMesh &mesh, const unsigned int triangle,
+                            const std::array<double, 3> &barycentric);
 
   /// Area of a triangle of a surface.
-  double
-  triangle_area(const SurfaceMesh &mesh, const unsigned int triangle);
+  double triangle_area(const SurfaceMesh &mesh, const unsigned int triangle);
 } // namespace Signorini
 
 #endif

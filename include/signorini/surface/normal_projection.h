@@ -10,8 +10,8 @@
 
 namespace Signorini
 {
-  /// Kernels of the projection along a continuous, vertexwise linear normal field. Pure functions; what cannot
-  /// be computed is a returned status. Distances have the unit of the coordinates.
+  /// Kernels of the projection along a continuous, vertexwise linear normal field. Pure functions; what
+  /// cannot be computed is a returned status. Distances have the unit of the coordinates.
   namespace NormalProjection
   {
     /// The one tolerance of the surface module: a point closer to an edge than this part of the edge's length
@@ -20,43 +20,31 @@ namespace Signorini
 
     struct OrientedEdge
     {
-      dealii::Point<3>     a, b;
+      dealii::Point<3> a, b;
       /// Normals at the ends; used for mortar edges only.
       dealii::Tensor<1, 3> normal_a, normal_b;
     };
 
-    /// Signed distance of the line through p along n from the line of an edge, seen against n: positive on the
-    /// left of a -> b for a viewer to whom n points. `position` is the parameter on the edge.
-    double
-    distance_from_edge(const dealii::Point<3>     &p,
-                       const dealii::Tensor<1, 3> &n,
-                       const OrientedEdge         &edge,
-                       double                     &position);
+    /// Signed distance of the line through p along n from the line of an edge, seen against n: positive on
+    /// the left of a -> b for a viewer to whom n points. `position` is the parameter on the edge.
+    double distance_from_edge(const dealii::Point<3> &p, const dealii::Tensor<1, 3> &n,
+                              const OrientedEdge &edge, double &position);
 
     /// Signed distance of a point from the curtain { x(s) + eta n(s) } of a mortar edge, in the same
     /// orientation; `position` is the parameter s of the nearest place.
-    double
-    distance_from_curtain(const dealii::Point<3> &v, const OrientedEdge &edge, double &position);
+    double distance_from_curtain(const dealii::Point<3> &v, const OrientedEdge &edge, double &position);
 
     /// System (10) of the paper: x(s) + eta n(s) = (1 - t) a + t b. s and t hold the starting guess.
-    bool
-    intersect_edges(const OrientedEdge &mortar, const OrientedEdge &nonmortar, double &s, double &t);
+    bool intersect_edges(const OrientedEdge &mortar, const OrientedEdge &nonmortar, double &s, double &t);
 
     /// System (9): v = sum_i w_i (x_i + eta n_i), sum w_i = 1, on a mortar triangle.
-    bool
-    inverse_project(std::array<double, 3>                     &weights,
-                    double                                    &eta,
-                    const dealii::Point<3>                    &v,
-                    const std::array<dealii::Point<3>, 3>     &corners,
-                    const std::array<dealii::Tensor<1, 3>, 3> &normals);
+    bool inverse_project(std::array<double, 3> &weights, double &eta, const dealii::Point<3> &v,
+                         const std::array<dealii::Point<3>, 3>     &corners,
+                         const std::array<dealii::Tensor<1, 3>, 3> &normals);
 
     /// The point p + eta n of a triangle: eta and barycentric coordinates (any sign).
-    bool
-    intersect_line(std::array<double, 3>                 &weights,
-                   double                                &eta,
-                   const dealii::Point<3>                &p,
-                   const dealii::Tensor<1, 3>            &n,
-                   const std::array<dealii::Point<3>, 3> &corners);
+    bool intersect_line(std::array<double, 3> &weights, double &eta, const dealii::Point<3> &p,
+                        const dealii::Tensor<1, 3> &n, const std::array<dealii::Point<3>, 3> &corners);
   } // namespace NormalProjection
 } // namespace Signorini
 

@@ -36,12 +36,11 @@ namespace Signorini
     /// Both surfaces need vertex normals and must outlive the object.
     PairIntersection(const SurfaceMesh &nonmortar, const SurfaceMesh &mortar);
 
-    Result
-    compute(const unsigned int nonmortar_triangle, const unsigned int mortar_triangle) const;
+    Result compute(const unsigned int nonmortar_triangle, const unsigned int mortar_triangle) const;
 
     /// Whether the line of a mortar vertex hits a nonmortar triangle that faces it.
-    bool
-    line_hits(std::array<double, 3> &weights, double &eta, const unsigned int mortar_vertex, const unsigned int triangle) const;
+    bool line_hits(std::array<double, 3> &weights, double &eta, const unsigned int mortar_vertex,
+                   const unsigned int triangle) const;
 
   private:
     /// Side of a vertex with respect to an edge of the other surface (-1, 0, 1) with its distance and the
@@ -54,23 +53,18 @@ namespace Signorini
 
     struct PairData;
 
-    NormalProjection::OrientedEdge
-    edge(const SurfaceMesh &mesh, const unsigned int a, const unsigned int b) const;
+    NormalProjection::OrientedEdge edge(const SurfaceMesh &mesh, const unsigned int a,
+                                        const unsigned int b) const;
 
     /// Computed for the edge from the lower to the higher vertex number, then turned: all triangles around
     /// get the same numbers.
-    Side
-    mortar_vertex_side(const unsigned int vertex, const unsigned int a, const unsigned int b) const;
+    Side mortar_vertex_side(const unsigned int vertex, const unsigned int a, const unsigned int b) const;
 
-    Side
-    nonmortar_vertex_side(const unsigned int vertex, const unsigned int a, const unsigned int b) const;
+    Side nonmortar_vertex_side(const unsigned int vertex, const unsigned int a, const unsigned int b) const;
 
-    void
-    add_mortar_vertices(Result &result, const PairData &pair) const;
-    void
-    add_nonmortar_vertices(Result &result, const PairData &pair) const;
-    void
-    add_crossings(Result &result, const PairData &pair) const;
+    void add_mortar_vertices(Result &result, const PairData &pair) const;
+    void add_nonmortar_vertices(Result &result, const PairData &pair) const;
+    void add_crossings(Result &result, const PairData &pair) const;
 
     const SurfaceMesh &nonmortar, &mortar;
   };

@@ -22,8 +22,7 @@ namespace Signorini
     std::vector<dealii::Tensor<1, 3>> vertex_normals;
 
     /// Vertex normals as normalised, area weighted sum of the normals of the adjacent triangles.
-    void
-    compute_vertex_normals();
+    void compute_vertex_normals();
   };
 
   /// Who is next to whom on a triangulated surface.

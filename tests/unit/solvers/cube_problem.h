@@ -31,23 +31,19 @@ namespace CubeProblem
       owned.add_range(all * rank / size, all * (rank + 1) / size);
     }
 
-    NodeIndex
-    node(const unsigned int i, const unsigned int j, const unsigned int k) const
+    NodeIndex node(const unsigned int i, const unsigned int j, const unsigned int k) const
     {
       return (k * (n + 1) + j) * (n + 1) + i;
     }
 
-    std::array<unsigned int, 3>
-    index(const NodeIndex node) const
+    std::array<unsigned int, 3> index(const NodeIndex node) const
     {
-      return {{static_cast<unsigned int>(node % (n + 1)),
-               static_cast<unsigned int>(node / (n + 1) % (n + 1)),
+      return {{static_cast<unsigned int>(node % (n + 1)), static_cast<unsigned int>(node / (n + 1) % (n + 1)),
                static_cast<unsigned int>(node / ((n + 1) * (n + 1)))}};
     }
 
     /// u = 0 on z = 1.
-    std::vector<FixedMask>
-    fixed() const
+    std::vector<FixedMask> fixed() const
     {
       std::vector<FixedMask> masks;
       for (const NodeIndex p : owned)
@@ -60,8 +56,7 @@ namespace CubeProblem
   };
 
   /// Stiffness of E = 1, nu = 0.3; cells belong to the rank of their first node.
-  inline NodeBlockMatrix
-  stiffness(const Grid &grid)
+  inline NodeBlockMatrix stiffness(const Grid &grid)
   {
     const unsigned int n     = grid.n;
     const NodeIndex    begin = grid.owned.nth_index_in_set(0), size = grid.owned.n_elements();
@@ -103,8 +98,8 @@ namespace CubeProblem
       for (unsigned int a = 0; a < 8; ++a)
         for (unsigned int b = 0; b < 8; ++b)
           {
-            const auto  &p   = matrix.partition();
-            double      *out = matrix.block(matrix.find(matrix.row_of(p.to_local(cell[a])), p.to_local(cell[b])));
+            const auto &p = matrix.partition();
+            double *out = matrix.block(matrix.find(matrix.row_of(p.to_local(cell[a])), p.to_local(cell[b])));
             for (unsigned int c = 0; c < 9; ++c)
               out[c] += k[9 * (8 * a + b) + c];
           }
@@ -113,8 +108,7 @@ namespace CubeProblem
   }
 
   /// Trilinear interpolation of the owned nodes of a grid from the grid with half the cells.
-  inline NodeRows
-  interpolation(const Grid &fine, const Grid &coarse)
+  inline NodeRows interpolation(const Grid &fine, const Grid &coarse)
   {
     NodeRows rows;
     for (const NodeIndex p : fine.owned)
@@ -139,8 +133,7 @@ namespace CubeProblem
   }
 
   /// Problem S1: rigid paraboloid under the face z = 0.
-  inline HalfSpaces
-  paraboloid(const Grid &grid)
+  inline HalfSpaces paraboloid(const Grid &grid)
   {
     HalfSpaces half_spaces;
     Vector3    normal;
@@ -157,8 +150,7 @@ namespace CubeProblem
   }
 
   /// Galerkin hierarchy with base 2; rows of the nodes on z = 0 are block rows so that they can be truncated.
-  inline MultigridHierarchy
-  hierarchy(const unsigned int n)
+  inline MultigridHierarchy hierarchy(const unsigned int n)
   {
     Grid               grid(n);
     NodeBlockMatrix    matrix = stiffness(grid);
@@ -166,13 +158,13 @@ namespace CubeProblem
     MultigridHierarchy result(std::move(matrix), masks);
     for (unsigned int m = n; m > 2; m /= 2)
       {
-        const Grid            fine(m), coarse(m / 2);
-        const NodePartition  &partition = result.coarsest().matrix.partition();
+        const Grid             fine(m), coarse(m / 2);
+        const NodePartition   &partition = result.coarsest().matrix.partition();
         std::vector<NodeIndex> contact;
         for (NodeIndex p = 0; p < (m + 1) * (m + 1); ++p)
           contact.push_back(p);
         result.set_interface(contact);
-        const NodeRows rows = import_ghost_rows(partition, interpolation(fine, coarse));
+        const NodeRows                       rows = import_ghost_rows(partition, interpolation(fine, coarse));
         std::vector<NodalTransfer::BlockRow> block_rows;
         for (unsigned int i = 0; i < partition.n_local(); ++i)
           if (m == n && partition.to_global(i) < (m + 1) * (m + 1))

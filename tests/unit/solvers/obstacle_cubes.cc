@@ -18,7 +18,8 @@ namespace
   };
 
   class PuncturedCube : public testing::TestWithParam<Expected>
-  {};
+  {
+  };
 } // namespace
 
 
@@ -51,8 +52,7 @@ TEST_P(PuncturedCube, ReachesTheKnownSolutionFromZero)
   EXPECT_NEAR(dealii::Utilities::MPI::sum(force, MPI_COMM_WORLD) / expected.force, 1., 1e-8);
 }
 
-INSTANTIATE_TEST_SUITE_P(Sizes,
-                         PuncturedCube,
+INSTANTIATE_TEST_SUITE_P(Sizes, PuncturedCube,
                          testing::Values(Expected{8, 9, 12, 2.110394093511e-4, 1.14727827e-2},
                                          Expected{16, 21, 12, 2.328860217949e-4, 1.17543487e-2},
                                          Expected{32, 89, 13, 2.360079949137e-4, 1.18747437e-2}));
@@ -97,15 +97,15 @@ TEST(MultigridHierarchy, TruncationIsUndone)
   const auto              copy        = [](const NodeBlockMatrix &matrix) {
     return std::vector<double>(matrix.block(0), matrix.block(matrix.row_end(matrix.n_rows() - 1)));
   };
-  const std::vector<double> before = copy(hierarchy.level(0).matrix);
+  const std::vector<double>  before = copy(hierarchy.level(0).matrix);
   std::vector<unsigned char> active(half_spaces.size(), 1);
   EXPECT_TRUE(hierarchy.truncate(half_spaces, active));
   EXPECT_FALSE(hierarchy.truncate(half_spaces, active));
   const std::vector<double> truncated = copy(hierarchy.level(0).matrix);
   active.assign(half_spaces.size(), 0);
   EXPECT_TRUE(hierarchy.truncate(half_spaces, active));
-  const std::vector<double> after = copy(hierarchy.level(0).matrix);
-  double difference = 0., change = 0., size = 0.;
+  const std::vector<double> after      = copy(hierarchy.level(0).matrix);
+  double                    difference = 0., change = 0., size = 0.;
   for (std::size_t k = 0; k < before.size(); ++k)
     {
       difference = std::max(difference, std::abs(before[k] - after[k]));
