@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/surface/contact_mapping.h>
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+using namespace Signorini;
+using dealii::Point;
+
+namespace
+{
+  using Shape = std::function<Point<3>(double, double)>;
+
+  /// n x n squares of the unit square, split in alternating directions, mapped by a shape. `up`: normals to
+  /// +z.
+  SurfaceMesh grid(const unsigned int n, const Shape &shape, const bool up, const double jitter = 0.,
+                   const unsigned int seed = 0)
+  {
+    std::mt19937                           random(seed);
+    std::uniform_real_distribution<double> noise(-jitter / n, jitter / n);
+    SurfaceMesh                            mesh;
+    for (unsigned int j = 0; j <= n; ++j)
+      for (unsigned int i = 0; i <= n; ++i)
+        {
+          const bool inner = i > 0 && i < n && j > 0 && j < n;
+          mesh.vertices.push_back(shape(double(i) / n + (inner ? noise(random) : 0.),
+                                        double(j) / n + (inner ? noise(random) : 0.)));
+        }
+    for (unsigned int j = 0; j < n; ++j)
+      for (unsigned int i = 0; i < n; ++i)
+        {
+          const unsigned int a = j * (n + 1) + i, b = a + 1, c = b + n + 1, d = a + n + 1;
+          if ((i + j) % 2)
+            for (const auto &t :
+                 {std::array<unsigned int, 3>{{a, b, c}}, std::array<unsigned int, 3>{{a, c, d}}})
+              mesh.triangles.push_back(t);
+          else
+            for (const auto &t :
+                 {std::array<unsigned int, 3>{{a, b, d}}, std::array<unsigned int, 3>{{b, c, d}}})
+              mesh.triangles.push_back(t);
+        }
+    if (!up)
+      for (auto &t : mesh.triangles)
+        std::swap(t[1], t[2]);
+    mesh.compute_vertex_normals();
+    return mesh;
+  }
+
+  Point<3> flat(const double x, const double y)
+  {
+    return Point<3>(x, y, 0.);
+  }
+
+  double area_of(const SurfaceMesh &mesh)
+  {
+    double area = 0.;
+    for (unsigned int t = 0; t < mesh.triangles.size(); ++t)
+      area += triangle_area(mesh, t);
+    return area;
+  }
+
+  /// Cells lie in one triangle of both sides, coordinates in [0,1] with sum 1.
+  void check_cells(const ContactMapping &mapping)
+  {
+    for (const OverlayTriangle &cell : mapping.overlay())
+      for (unsigned int c = 0; c < 3; ++c)
+        for (const auto &w : {cell.nonmortar[c], cell.mortar[c]})
+          {
+            EXPECT_NEAR(w[0] + w[1] + w[2], 1., 1e-12);
+            for (const double x : w)
+              {
+                EXPECT_GE(x, -1e-12);
+                EXPECT_LE(x, 1. + 1e-12);
+              }
+          }
+  }
+
+  void expect_full_cover(const SurfaceMesh &nonmortar, const SurfaceMesh &mortar)
+  {
+    const ContactMapping mapping(nonmortar, mortar);
+    EXPECT_NEAR(mapping.report().area_covered / area_of(nonmortar), 1., 1e-12);
+    EXPECT_LE(mapping.report().worst_tiling_defect, 1e-12);
+    check_cells(mapping);
+  }
+
+  /// A larger square, so that everything is covered.
+  Shape stretched(const Shape &shape)
+  {
+    return [shape](const double x, const double y) { return shape(1.4 * x - .2, 1.4 * y - .2); };
+  }
+} // namespace
+
+
+
+TEST(ContactMapping, FlatNonmatchingGrids)
+{
+  for (const unsigned int m : {1u, 2u, 4u, 7u, 31u})
+    expect_full_cover(grid(5, flat, true), grid(m, flat, false));
+}
+
+
+
+TEST(ContactMapping, IdenticalAndNestedGrids)
+{
+  expect_full_cover(grid(4, flat, true), grid(4, flat, false));
+  expect_full_cover(grid(8, flat, true), grid(4, flat, false));
+  expect_full_cover(grid(4, flat, true), grid(12, flat, false));
+}
+
+
+
+TEST(ContactMapping, VeryDifferentSizes)
+{
+  expect_full_cover(grid(1, flat, true), grid(100, flat, false));
+  expect_full_cover(grid(100, flat, true), grid(1, flat, false));
+}
+
+
+
+TEST(ContactMapping, JitteredGrids)
+{
+  for (unsigned int seed = 0; seed < 100; ++seed)
+    expect_full_cover(grid(6, flat, true, .3, seed), grid(5 + seed % 5, flat, false, .3, 1000 + seed));
+}
+
+
+
+TEST(ContactMapping, CurvedSurfaces)
+{
+  const Shape saddle = [](const double x, const double y) {
+    return Point<3>(x, y, .2 * (x - .5) * (y - .5));
+  };
+  const Shape wave = [](const double x, const double y) {
+    return Point<3>(x, y, .05 + .03 * std::sin(6. * x) * std::cos(5. * y));
+  };
+  const Shape cap = [](const double x, const double y) {
+    return Point<3>(x, y, 2. - std::sqrt(4. - (x - .5) * (x - .5) - (y - .5) * (y - .5)));
+  };
+  expect_full_cover(grid(9, wave, true), grid(7, stretched(saddle), false));
+  expect_full_cover(grid(6, cap, true, .2, 3), grid(11, stretched(cap), false, .2, 4));
+  expect_full_cover(grid(8, flat, true), grid(9, stretched(cap), false));
+}
+
+
+
+// The difference of Phi to the direct normal projection on a sphere falls with order 2.
+TEST(ContactMapping, ConvergesToTheNormalProjection)
+{
+  const auto cap = [](const double radius) {
+    return [radius](const double x, const double y) {
+      const dealii::Tensor<1, 3> direction = Point<3>(x - .5, y - .5, 1.);
+      return Point<3>(radius / direction.norm() * direction);
+    };
+  };
+  double previous = 0.;
+  for (unsigned int n = 4; n <= 16; n *= 2)
+    {
+      const SurfaceMesh inner = grid(n, cap(1.), true),
+                        outer = grid(n + n / 2 + 1, stretched(cap(1.1)), false);
+      const ContactMapping mapping(inner, outer);
+      double               error = 0.;
+      for (const OverlayTriangle &cell : mapping.overlay())
+        for (unsigned int c = 0; c < 3; ++c)
+          {
+            const Point<3> x = evaluate(inner, cell.nonmortar_triangle, cell.nonmortar[c]);
+            const Point<3> y = evaluate(outer, cell.mortar_triangle, cell.mortar[c]);
+            error            = std::max(error, (x / x.norm() - y / y.norm()).norm());
+          }
+      if (previous > 0.)
+        {
+          EXPECT_GT(previous / error, 3.);
+        }
+      previous = error;
+    }
+}
+
+
+
+TEST(ContactMapping, PartialCover)
+{
+  // The mortar surface covers [0.13, 0.77] x [0.21, 0.64], turned by nothing and by 0.3.
+  for (const double angle : {0., .3})
+    {
+      const Shape patch = [angle](const double x, const double y) {
+        const double u = .64 * (x - .5), v = .43 * (y - .5);
+        return Point<3>(.5 + std::cos(angle) * u - std::sin(angle) * v,
+                        .45 + std::sin(angle) * u + std::cos(angle) * v, 0.);
+      };
+      for (const unsigned int n : {1u, 5u})
+        for (const unsigned int m : {1u, 4u, 9u})
+          {
+            const SurfaceMesh    square = grid(n, flat, true), small = grid(m, patch, false);
+            const ContactMapping mapping(square, small);
+            EXPECT_NEAR(mapping.report().area_covered, .64 * .43, 1e-12) << n << ' ' << m << ' ' << angle;
+            check_cells(mapping);
+            const SurfaceMesh square_mortar = grid(n, flat, false), small_nonmortar = grid(m, patch, true);
+            expect_full_cover(small_nonmortar, square_mortar);
+          }
+    }
+}
+
+
+
+TEST(ContactMapping, ScalesAndGapsOfBothSigns)
+{
+  for (const double scale : {1e-9, 1., 1e9})
+    {
+      std::size_t n_cells = 0;
+      for (const double gap : {-.05, 0., .05})
+        {
+          const Shape below = [scale](const double x, const double y) {
+            return Point<3>(scale * x, scale * y, 0.);
+          };
+          const Shape above = [scale, gap](const double x, const double y) {
+            return Point<3>(scale * x, scale * y, scale * gap);
+          };
+          const SurfaceMesh    a = grid(5, below, true, .2, 1), b = grid(7, above, false, .2, 2);
+          const ContactMapping mapping(a, b);
+          EXPECT_NEAR(mapping.report().area_covered / (scale * scale), 1., 1e-12);
+          if (n_cells > 0)
+            {
+              EXPECT_EQ(mapping.report().n_cells, n_cells);
+            }
+          n_cells = mapping.report().n_cells;
+        }
+    }
+}
+
+
+
+TEST(ContactMapping, SurfacesThatFaceAwayDoNotMeet)
+{
+  const SurfaceMesh a = grid(3, flat, true), b = grid(4, flat, true);
+  EXPECT_EQ(ContactMapping(a, b).report().n_cells, 0u);
+}
+
+
+
+TEST(ContactMapping, SelectionDoesNotChangeATriangle)
+{
+  const SurfaceMesh            a = grid(6, flat, true, .2, 5), b = grid(7, flat, false, .2, 6);
+  const ContactMapping         all(a, b), odd(a, b, [](const unsigned int t) { return t % 2 == 1; });
+  std::vector<OverlayTriangle> expected;
+  for (const OverlayTriangle &cell : all.overlay())
+    if (cell.nonmortar_triangle % 2 == 1)
+      expected.push_back(cell);
+  ASSERT_EQ(expected.size(), odd.overlay().size());
+  for (std::size_t i = 0; i < expected.size(); ++i)
+    {
+      EXPECT_EQ(expected[i].mortar_triangle, odd.overlay()[i].mortar_triangle);
+      EXPECT_EQ(expected[i].nonmortar, odd.overlay()[i].nonmortar);
+      EXPECT_EQ(expected[i].mortar, odd.overlay()[i].mortar);
+    }
+}

@@ -1,0 +1,1 @@
+signorini_add_unit_tests(surface contact_mapping.cc)
