@@ -52,6 +52,9 @@ namespace Signorini
         region.radius = Expression(parts[1], where)(Point<3>());
       else
         region.upper = parse_point(parts[1], where);
+      for (unsigned int c = 0; c < 3 && !region.is_ball; ++c)
+        if (!(region.centre_or_lower[c] <= region.upper[c]))
+          throw InputError(where + ": the first corner must be the lower one in x, y and z.");
       const double levels = Expression(parts[2], where)(Point<3>());
       if (!(levels >= 0. && levels <= 20. && levels == std::floor(levels)) ||
           (region.is_ball && !(region.radius > 0.)))
