@@ -5,8 +5,6 @@
 #include <signorini/discretization/interpolation_exchange.h>
 #include <signorini/discretization/level_hierarchy.h>
 
-#include <deal.II/multigrid/mg_transfer_global_coarsening.h>
-
 namespace Signorini
 {
   using namespace dealii;
@@ -112,10 +110,10 @@ namespace Signorini
   LevelSpaces::LevelSpaces(const NodalSpace &finest, const Loads &loads)
     : finest(finest)
   {
-    triangulations = MGTransferGlobalCoarseningTools::create_geometric_coarsening_sequence(
-        finest.dof_handler().get_triangulation());
-    for (std::size_t l = 0; l + 1 < triangulations.size(); ++l)
-      coarse.push_back(std::make_unique<NodalSpace>(*triangulations[l]));
+    triangulations = create_coarsening_sequence(dynamic_cast<const parallel::distributed::Triangulation<3> &>(
+        finest.dof_handler().get_triangulation()));
+    for (const auto &triangulation : triangulations)
+      coarse.push_back(std::make_unique<NodalSpace>(*triangulation));
     for (unsigned int l = 0; l < n_levels(); ++l)
       {
         const NodalSpace   &s         = space(l);

@@ -1,5 +1,6 @@
 signorini_add_layer(mesh
   bodies.cc
+  coarsening_sequence.cc
   expression.cc
   generated_mesh.cc
   hexahedral_mesh.cc

@@ -7,6 +7,7 @@
 #include <signorini/algebra/interface_coupling.h>
 #include <signorini/algebra/replicated_data.h>
 #include <signorini/discretization/elasticity.h>
+#include <signorini/mesh/coarsening_sequence.h>
 #include <signorini/solvers/multigrid_hierarchy.h>
 
 #include <memory>
@@ -19,7 +20,7 @@ namespace Signorini
   /// by refining cells at most once; the two may be partitioned differently.
   NodeRows interpolation_rows(const NodalSpace &fine, const NodalSpace &coarse);
 
-  /// The coarser meshes of deal.II's global coarsening sequence with their nodal spaces, and the
+  /// The meshes of global coarsening with their nodal spaces, and the
   /// interpolation between consecutive levels.
   class LevelSpaces
   {
@@ -51,11 +52,11 @@ namespace Signorini
     }
 
   private:
-    const NodalSpace                                            &finest;
-    std::vector<std::shared_ptr<const dealii::Triangulation<3>>> triangulations;
-    std::vector<std::unique_ptr<NodalSpace>>                     coarse;
-    std::vector<NodeRows>                                        rows;
-    std::vector<std::vector<FixedMask>>                          masks;
+    const NodalSpace                                                             &finest;
+    std::vector<std::unique_ptr<dealii::parallel::distributed::Triangulation<3>>> triangulations;
+    std::vector<std::unique_ptr<NodalSpace>>                                      coarse;
+    std::vector<NodeRows>                                                         rows;
+    std::vector<std::vector<FixedMask>>                                           masks;
   };
 
   /// The transfer operator on the next coarser level (method.md, section 5):
