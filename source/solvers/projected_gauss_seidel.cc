@@ -3,6 +3,7 @@
 
 #include <signorini/solvers/projected_gauss_seidel.h>
 
+#include <deal.II/base/mpi.h>
 #include <deal.II/base/tensor.h>
 
 namespace Signorini
@@ -157,6 +158,26 @@ namespace Signorini
           for (unsigned int c = 0; c < dim; ++c)
             r[c] -= normal * n[c];
         }
+  }
+
+
+
+  double ProjectedGaussSeidel::normal_product(const Vector &a, const Vector &b) const
+  {
+    double sum = 0.;
+    for (std::size_t p = 0; p < constraints.size(); ++p)
+      if (is_active[p])
+        {
+          double normal_a = 0., normal_b = 0.;
+          for (unsigned int c = 0; c < dim; ++c)
+            {
+              const std::size_t i = dim * static_cast<std::size_t>(constraints.nodes[p]) + c;
+              normal_a += constraints.normals[p][c] * a.local_element(i);
+              normal_b += constraints.normals[p][c] * b.local_element(i);
+            }
+          sum += normal_a * normal_b;
+        }
+    return Utilities::MPI::sum(sum, matrix.partition().communicator());
   }
 
 

@@ -11,6 +11,12 @@ namespace Signorini
 
   void SolverParameters::add_parameters(ParameterHandler &prm)
   {
+    prm.declare_entry("Acceleration", "conjugate gradients", Patterns::Selection("none|conjugate gradients"),
+                      "Whether the V-cycle preconditions a conjugate gradient method while the active set "
+                      "rests, in the contact solve and in the linear comparison alike.");
+    prm.add_action("Acceleration", [this](const std::string &value) {
+      acceleration = value == "none" ? Acceleration::none : Acceleration::conjugate_gradients;
+    });
     prm.add_parameter("Pre-smoothing steps", smoothing.n_pre,
                       "Gauss-Seidel sweeps before the coarse correction.");
     prm.add_parameter("Post-smoothing steps", smoothing.n_post,
@@ -66,12 +72,23 @@ namespace Signorini
 
 
 
+  bool TruncatedNewtonMultigrid::all_ranks(const bool condition) const
+  {
+    return Utilities::MPI::min(static_cast<int>(condition),
+                               hierarchy.finest().matrix.partition().communicator()) != 0;
+  }
+
+
+
   double TruncatedNewtonMultigrid::admissible_step(const Vector &v, const Vector &c,
-                                                   const HalfSpaces &half_spaces) const
+                                                   const HalfSpaces                       &half_spaces,
+                                                   const std::vector<unsigned char> *const ignored) const
   {
     double step = std::numeric_limits<double>::max();
     for (std::size_t p = 0; p < half_spaces.size(); ++p)
       {
+        if (ignored != nullptr && (*ignored)[p])
+          continue;
         double motion = 0., room = half_spaces.bounds[p];
         for (unsigned int d = 0; d < dim; ++d)
           {
@@ -87,7 +104,7 @@ namespace Signorini
 
 
 
-  double TruncatedNewtonMultigrid::correct(Vector &v, const ObstacleProblem &problem)
+  double TruncatedNewtonMultigrid::correct(Vector &v, const ObstacleProblem &problem, const bool search)
   {
     const NodeBlockMatrix &matrix   = hierarchy.finest().matrix;
     ProjectedGaussSeidel  &smoother = *hierarchy.finest().smoother;
@@ -112,8 +129,15 @@ namespace Signorini
 
     c.reinit(v);
     coarse.to_finer.prolongate(c, coarse_correction);
-    smoother.restrict_to_tangents(residual);
     smoother.project_correction(c, v);
+    v.zero_out_ghost_values();
+    if (!search)
+      {
+        v.add(1., c);
+        return square;
+      }
+    // The slope must not see the contact forces: they are larger than the residual by orders of magnitude.
+    smoother.restrict_to_tangents(residual);
     product.reinit(v);
     matrix.vmult(product, c);
     const double slope = residual * c, curvature = product * c;
@@ -121,10 +145,34 @@ namespace Signorini
       {
         const double step =
             std::min(slope / curvature, std::max(1., admissible_step(v, c, problem.half_spaces)));
-        v.zero_out_ghost_values();
         v.add(step, c);
       }
     return square;
+  }
+
+
+
+  bool TruncatedNewtonMultigrid::accelerate(const Vector &start, const Vector &residual, Vector &z, Vector &az,
+                                            const HalfSpaces &half_spaces)
+  {
+    const ProjectedGaussSeidel &smoother = *hierarchy.finest().smoother;
+    if (has_direction)
+      {
+        const double beta = -(z * direction_product) / (direction * direction_product);
+        z.add(beta, direction);
+        az.add(beta, direction_product);
+      }
+    const double curvature = z * az;
+    const double slope     = residual * z - smoother.normal_product(residual, z);
+    const double step      = curvature > 0. ? slope / curvature : 0.;
+    if (!(step > 0.) || step > admissible_step(start, z, half_spaces, &smoother.active()))
+      return false;
+    direction         = z;
+    direction_product = az;
+    has_direction     = true;
+    z *= step;
+    az *= step;
+    return true;
   }
 
 
@@ -137,21 +185,50 @@ namespace Signorini
     ProjectedGaussSeidel  &smoother = *hierarchy.finest().smoother;
     smoother.set_half_spaces(problem.half_spaces);
     smoother.project(v);
-    n_updates = 0;
+    n_updates     = 0;
+    has_direction = false;
 
     ConvergenceReport report;
-    Vector            correction, product;
-    correction.reinit(v);
-    product.reinit(v);
+    Vector            start, residual, correction, product;
+    for (Vector *vector : {&start, &residual, &correction, &product})
+      vector->reinit(v);
+    matrix.vmult(residual, v);
+    residual.sadd(-1., 1., problem.rhs);
+    bool rests = false;
     while (report.iterations < parameters.max_iterations && !report.converged)
       {
-        correction.copy_locally_owned_data_from(v);
+        const std::vector<unsigned char> active = smoother.active();
+        start.copy_locally_owned_data_from(v);
         smooth(v, problem.rhs, ProjectedGaussSeidel::forward);
-        const double square = correct(v, problem);
+        bool         keeps_active = smoother.active() == active;
+        const double square       = correct(v, problem, !rests);
         smooth(v, problem.rhs, ProjectedGaussSeidel::backward);
-        correction.sadd(-1., 1., v);
+        keeps_active = all_ranks(keeps_active && smoother.active() == active);
+
+        correction.copy_locally_owned_data_from(v);
+        correction -= start;
         matrix.vmult(product, correction);
-        report.history.push_back(std::sqrt(std::max(0., correction * product)));
+        const double plain_norm = std::sqrt(std::max(0., correction * product));
+        rests = keeps_active && parameters.acceleration == Acceleration::conjugate_gradients;
+        if (rests && accelerate(start, residual, correction, product, problem.half_spaces))
+          {
+            v.copy_locally_owned_data_from(start);
+            v += correction;
+            report.history.push_back(std::sqrt(std::max(0., correction * product)));
+          }
+        else
+          {
+            if (rests)
+              {
+                // accelerate() has changed the correction.
+                correction.copy_locally_owned_data_from(v);
+                correction -= start;
+                matrix.vmult(product, correction);
+              }
+            rests = has_direction = false;
+            report.history.push_back(plain_norm);
+          }
+        residual -= product;
         report.scale = std::sqrt(std::max(0., square));
         ++report.iterations;
         unsigned int n_active = std::accumulate(smoother.active().begin(), smoother.active().end(), 0u);

@@ -58,6 +58,10 @@ namespace Signorini
     /// slope.
     void restrict_to_tangents(Vector &residual) const;
 
+    /// Collective. Sum of (n·a)(n·b) over the active nodes: the part of a·b that restrict_to_tangents() would
+    /// remove.
+    double normal_product(const Vector &a, const Vector &b) const;
+
     /// Makes c tangential at active nodes; elsewhere shortens it so that v + c keeps the half-spaces.
     void project_correction(Vector &c, const Vector &v) const;
 
