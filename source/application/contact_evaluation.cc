@@ -5,6 +5,8 @@
 #include <signorini/algebra/replicated_data.h>
 #include <signorini/application/contact_problem.h>
 #include <signorini/discretization/hexahedron.h>
+#include <signorini/mortar/contact_forces.h>
+#include <signorini/mortar/geometric_penetration.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -24,20 +26,6 @@ namespace Signorini
       std::vector<Vector3>       result;
       for (const NodeIndex node : surface.vertex_node)
         result.push_back(values[std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin()]);
-      return result;
-    }
-
-    /// Sample points of an overlay triangle: corners and centre.
-    constexpr double samples[4][3] = {{1., 0., 0.}, {0., 1., 0.}, {0., 0., 1.}, {1. / 3., 1. / 3., 1. / 3.}};
-
-    template <typename T>
-    T interpolate(const std::vector<T> &values, const std::array<unsigned int, 3> &triangle,
-                  const std::array<std::array<double, 3>, 3> &corners, const double (&weights)[3])
-    {
-      T result = T();
-      for (unsigned int c = 0; c < 3; ++c)
-        for (unsigned int i = 0; i < 3; ++i)
-          result += weights[c] * corners[c][i] * values[triangle[i]];
       return result;
     }
 
@@ -70,50 +58,31 @@ namespace Signorini
         result.dropped_nodes = coupling.dropped.size();
         result.min_pressure  = std::numeric_limits<double>::max();
         result.max_pressure  = -result.min_pressure;
+        std::vector<double> pressure(coupling.coupling.n_rows());
         for (std::size_t row = 0; row < d.coupling.n_rows(); ++row)
           if (d.origin[row].first == p)
             {
-              const std::size_t i     = d.origin[row].second;
-              const Vector3     force = (d.coupling.weight[row] * d.pressure[row]) * d.normals[row];
-              result.force -= force;
-              result.moment -= cross_product_3d(Vector3(coupling.positions[i]), force);
-              for (const auto *entry = d.coupling.begin(row); entry != d.coupling.end(row); ++entry)
-                if (std::binary_search(coupling.r_nodes.begin(), coupling.r_nodes.end(), entry->node))
-                  result.force += entry->weight * force;
-                else
-                  result.force_on_mortar += entry->weight * force;
+              const std::size_t i = d.origin[row].second;
+              pressure[i]         = d.pressure[row];
               result.min_pressure = std::min(result.min_pressure, d.pressure[row]);
               result.max_pressure = std::max(result.max_pressure, d.pressure[row]);
               if (d.active[row])
-                result.contact_area += d.coupling.weight[row];
-              results.pressure.push_back({coupling.positions[i], d.coupling.weight[row], d.pressure[row],
+                result.contact_area += coupling.areas[i];
+              results.pressure.push_back({coupling.positions[i], coupling.areas[i], d.pressure[row],
                                           d.opening[row], d.active[row] != 0});
             }
+        const ContactForces forces = compute_contact_forces(pair.nonmortar, pair.mortar, coupling, pressure);
+        result.force               = forces.nonmortar.force;
+        result.force_on_mortar     = forces.mortar.force;
+        result.moment              = forces.nonmortar.moment;
 
-        const auto           u_non   = vertex_displacements(pair.nonmortar, *d.partition, d.displacement);
-        const auto           u_mor   = vertex_displacements(pair.mortar, *d.partition, d.displacement);
-        double               min_gap = std::numeric_limits<double>::max(), min_initial = min_gap;
-        const auto          &non = pair.nonmortar.mesh, &mor = pair.mortar.mesh;
-        std::vector<Vector3> x_non(non.vertices.begin(), non.vertices.end()),
-            x_mor(mor.vertices.begin(), mor.vertices.end());
-        for (const OverlayTriangle &cell : pair.mapping->overlay())
-          for (const auto &w : samples)
-            {
-              const auto &t = non.triangles[cell.nonmortar_triangle],
-                         &m = mor.triangles[cell.mortar_triangle];
-              Vector3 n     = interpolate(non.vertex_normals, t, cell.nonmortar, w);
-              n /= n.norm();
-              const Vector3 x = interpolate(x_non, t, cell.nonmortar, w);
-              const double  g = pair.prescribed_gap ? pair.prescribed_gap(Point<3>(x))
-                                                    : n * (interpolate(x_mor, m, cell.mortar, w) - x);
-              const double  relative =
-                  n * (interpolate(u_non, t, cell.nonmortar, w) - interpolate(u_mor, m, cell.mortar, w));
-              min_initial = std::min(min_initial, g);
-              min_gap     = std::min(min_gap, g - relative);
-            }
-        result.min_gap             = Utilities::MPI::min(min_gap, comm);
-        result.max_penetration     = std::max(0., -result.min_gap);
-        result.initial_penetration = std::max(0., -Utilities::MPI::min(min_initial, comm));
+        const auto penetration = sample_geometric_penetration(
+            pair.nonmortar, pair.mortar, pair.mapping->overlay(),
+            vertex_displacements(pair.nonmortar, *d.partition, d.displacement),
+            vertex_displacements(pair.mortar, *d.partition, d.displacement), pair.prescribed_gap, comm);
+        result.min_gap             = penetration.min_gap;
+        result.max_penetration     = std::max(0., penetration.max_penetration());
+        result.initial_penetration = std::max(0., -penetration.min_initial_gap);
         if (result.min_pressure > result.max_pressure)
           result.min_pressure = result.max_pressure = 0.;
         results.pairs.push_back(result);
@@ -262,76 +231,5 @@ namespace Signorini
     collect_reactions();
     collect_probes();
     certify();
-  }
-
-
-
-  void ContactProblem::describe()
-  {
-    setup_space();
-    CycleResult cycle;
-    setup_contact(cycle);
-    Discretization &d = discretization;
-    struct Extent
-    {
-      double   area = 0.;
-      Point<3> low = Point<3>(1e300, 1e300, 1e300), high = Point<3>(-1e300, -1e300, -1e300);
-    };
-    std::map<types::boundary_id, Extent> extents;
-    std::vector<std::size_t>             cells(bodies.n_bodies(), 0);
-    std::array<NodeIndex, 8>             nodes;
-    for (const auto &cell : d.space->dof_handler().active_cell_iterators())
-      if (cell->is_locally_owned())
-        {
-          ++cells[bodies.body_of_material(cell->material_id())];
-          d.space->cell_nodes(cell, nodes);
-          for (const unsigned int f : cell->face_indices())
-            if (cell->face(f)->at_boundary())
-              {
-                Extent                 &extent = extents[cell->face(f)->boundary_id()];
-                std::array<Point<3>, 4> x;
-                for (unsigned int v = 0; v < 4; ++v)
-                  {
-                    x[v] = d.space->position(nodes[GeometryInfo<3>::face_to_cell_vertices(f, v)]);
-                    for (unsigned int c = 0; c < dim; ++c)
-                      {
-                        extent.low[c]  = std::min(extent.low[c], x[v][c]);
-                        extent.high[c] = std::max(extent.high[c], x[v][c]);
-                      }
-                  }
-                extent.area += .5 * (cross_product_3d(x[1] - x[0], x[2] - x[0]).norm() +
-                                     cross_product_3d(x[3] - x[1], x[3] - x[2]).norm());
-              }
-        }
-    for (unsigned int b = 0; b < bodies.n_bodies(); ++b)
-      {
-        const std::size_t n_cells = Utilities::MPI::sum(cells[b], comm);
-        const Material   &m       = bodies.material(b);
-        out << "body " << bodies.body_name(b) << ": " << n_cells
-            << " cells, E = " << parameters.bodies[m.body].young
-            << ", nu = " << parameters.bodies[m.body].poisson << std::endl;
-        for (unsigned int i = 0; i < bodies.boundary_names(b).size(); ++i)
-          {
-            const Extent e    = extents[bodies.boundary_id(b, i)];
-            const double area = Utilities::MPI::sum(e.area, comm);
-            Point<3>     low, high;
-            for (unsigned int c = 0; c < dim; ++c)
-              {
-                low[c]  = Utilities::MPI::min(e.low[c], comm);
-                high[c] = Utilities::MPI::max(e.high[c], comm);
-              }
-            out << "  boundary " << bodies.boundary_names(b)[i] << ": area " << area << ", box (" << low
-                << ") to (" << high << ")" << std::endl;
-          }
-      }
-    for (unsigned int p = 0; p < d.pairs.size(); ++p)
-      {
-        const auto &gaps = d.couplings[p].gaps;
-        out << "pair " << d.pairs[p].name << ": nonmortar " << d.pairs[p].nonmortar_name << ", mortar "
-            << d.pairs[p].mortar_name << ", " << gaps.size() << " contact nodes, gap "
-            << *std::min_element(gaps.begin(), gaps.end()) << " to "
-            << *std::max_element(gaps.begin(), gaps.end()) << ", coverage "
-            << d.couplings[p].covered_area / d.couplings[p].area << std::endl;
-      }
   }
 } // namespace Signorini

@@ -3,7 +3,7 @@
 
 #include <signorini/algebra/input_error.h>
 #include <signorini/application/contact_problem.h>
-#include <signorini/mesh/surface_extraction.h>
+#include <signorini/solvers/sweep_measurement.h>
 
 #include <deal.II/base/utilities.h>
 #include <deal.II/distributed/solution_transfer.h>
@@ -12,28 +12,6 @@
 namespace Signorini
 {
   using namespace dealii;
-
-  namespace
-  {
-    /// "body: boundary".
-    std::pair<std::string, std::string> split_side(const std::string &text, const std::string &where)
-    {
-      const std::size_t colon = text.find(':');
-      if (colon == std::string::npos)
-        throw InputError(where + ": \"" + text + "\" should read \"body: boundary\".");
-      return {Utilities::trim(text.substr(0, colon)), Utilities::trim(text.substr(colon + 1))};
-    }
-
-    double average_face_area(const ContactSurface &surface)
-    {
-      double area = 0.;
-      for (unsigned int t = 0; t < surface.mesh.triangles.size(); ++t)
-        area += triangle_area(surface.mesh, t);
-      return surface.faces.empty() ? 0. : area / static_cast<double>(surface.faces.size());
-    }
-  } // namespace
-
-
 
   ContactProblem::ContactProblem(ProblemParameters &parameters, const MPI_Comm communicator,
                                  ConditionalOStream &out)
@@ -65,196 +43,12 @@ namespace Signorini
 
 
 
-  void ContactProblem::define_pairs()
-  {
-    for (const PairParameters &p : parameters.pairs)
-      {
-        PairDefinition    definition;
-        const std::string section     = "Pair " + p.name + "/";
-        definition.parameters         = p;
-        const std::string *sides[2]   = {&p.first, &p.second};
-        const std::string *regions[2] = {&p.first_region, &p.second_region};
-        const char        *names[2]   = {"First", "Second"};
-        for (unsigned int i = 0; i < 2; ++i)
-          {
-            const std::string where     = section + names[i];
-            const auto [body, boundary] = split_side(*sides[i], where);
-            definition.body[i]          = bodies.body_index(body, where);
-            definition.boundary[i]      = boundary;
-            try
-              {
-                bodies.boundary_ids(definition.body[i], boundary);
-              }
-            catch (const InputError &e)
-              {
-                throw InputError(where + ": " + e.what());
-              }
-            definition.has_region[i] = !Utilities::trim(*regions[i]).empty();
-            if (definition.has_region[i])
-              definition.region[i] = Expression(*regions[i], where + " region");
-          }
-        definition.has_gap = Utilities::trim(p.initial_gap) != "geometry";
-        if (definition.has_gap)
-          definition.gap = Expression(p.initial_gap, section + "Initial gap");
-        if (p.penetration != "resolve" && p.penetration != "refuse")
-          throw InputError(section + "Initial penetration: use resolve or refuse.");
-        pair_definitions.push_back(definition);
-      }
-  }
-
-
-
   void ContactProblem::setup_space()
   {
     Discretization &d = discretization;
     d.space           = std::make_unique<NodalSpace>(bodies.triangulation());
     d.partition       = std::make_unique<NodePartition>(d.space->owned(), d.space->relevant(), comm);
     d.dirichlet       = evaluate_dirichlet(*d.space, loads, true);
-  }
-
-
-
-  unsigned int ContactProblem::choose_nonmortar(const PairDefinition &definition,
-                                                const ContactSurface (&surfaces)[2])
-  {
-    const double young[2] = {parameters.bodies[definition.body[0]].young,
-                             parameters.bodies[definition.body[1]].young};
-    unsigned int softer   = 0;
-    if (std::abs(young[0] - young[1]) > 1e-6 * std::max(young[0], young[1]))
-      softer = young[0] < young[1] ? 0 : 1;
-    else
-      softer = average_face_area(surfaces[0]) <= average_face_area(surfaces[1]) * (1. + 1e-9) ? 0 : 1;
-    if (definition.parameters.nonmortar == "auto")
-      {
-        note("pair " + definition.parameters.name + ": \"" + bodies.body_name(definition.body[softer]) +
-             "\" is the nonmortar side (the softer body, then the finer mesh).");
-        return softer;
-      }
-    const unsigned int chosen = definition.parameters.nonmortar == "first" ? 0 : 1;
-    if (young[chosen] > 10. * young[1 - chosen])
-      note("warning: pair " + definition.parameters.name +
-           ": the nonmortar side is the stiffer body; the solver needs many more iterations this way.");
-    return chosen;
-  }
-
-
-
-  ContactPair ContactProblem::make_pair(const PairDefinition &definition, CycleResult &cycle)
-  {
-    Discretization &d = discretization;
-    Timer           time;
-    ContactSurface  surfaces[2];
-    for (unsigned int i = 0; i < 2; ++i)
-      surfaces[i] = extract_contact_surface(
-          *d.space, bodies.boundary_ids(definition.body[i], definition.boundary[i]),
-          [&](const NodeIndex node) { return d.dirichlet.mask[d.space->relevant().index_within_set(node)]; },
-          definition.has_region[i] ? [&](const Point<3> &p) { return definition.region[i](p) > 0.; }
-                                   : std::function<bool(const Point<3> &)>());
-    for (unsigned int i = 0; i < 2; ++i)
-      if (surfaces[i].faces.empty())
-        throw InputError("Pair " + definition.parameters.name + ": the boundary \"" + definition.boundary[i] +
-                         "\" of body \"" + bodies.body_name(definition.body[i]) +
-                         "\" has no faces in its region.");
-
-    const unsigned int non = choose_nonmortar(definition, surfaces);
-    ContactPair        pair;
-    pair.name           = definition.parameters.name;
-    pair.nonmortar_body = definition.body[non];
-    pair.mortar_body    = definition.body[1 - non];
-    pair.nonmortar_name = bodies.body_name(pair.nonmortar_body) + ": " + definition.boundary[non];
-    pair.mortar_name    = bodies.body_name(pair.mortar_body) + ": " + definition.boundary[1 - non];
-    pair.nonmortar      = std::move(surfaces[non]);
-    pair.mortar         = std::move(surfaces[1 - non]);
-    if (definition.has_gap)
-      pair.prescribed_gap = [gap = definition.gap](const Point<3> &p) { return gap(p); };
-    cycle.times["mesh"] += time.wall_time();
-
-    time.restart();
-    const unsigned int rank = Utilities::MPI::this_mpi_process(comm);
-    pair.mapping =
-        std::make_unique<ContactMapping>(pair.nonmortar.mesh, pair.mortar.mesh, [&](const unsigned int t) {
-          return pair.nonmortar.faces[pair.nonmortar.triangle_face[t]].owner == rank;
-        });
-    if (Utilities::MPI::sum(pair.mapping->report().n_cells, comm) == 0)
-      throw InputError("Pair " + pair.name + ": the surfaces \"" + pair.nonmortar_name + "\" and \"" +
-                       pair.mortar_name +
-                       "\" do not face each other anywhere: there is not a single overlay cell.");
-    cycle.times["mapping"] += time.wall_time();
-
-    time.restart();
-    pair.moments =
-        compute_face_moments(pair.nonmortar, pair.mortar, pair.mapping->overlay(), pair.prescribed_gap, comm);
-    cycle.times["mortar"] += time.wall_time();
-    return pair;
-  }
-
-
-
-  void ContactProblem::setup_contact(CycleResult &cycle)
-  {
-    Discretization &d = discretization;
-    d.pairs.clear();
-    for (const PairDefinition &definition : pair_definitions)
-      d.pairs.push_back(make_pair(definition, cycle));
-
-    Timer                            time;
-    std::vector<std::set<NodeIndex>> nonmortar_nodes, mortar_nodes;
-    for (const ContactPair &pair : d.pairs)
-      {
-        nonmortar_nodes.push_back(touched_nonmortar_nodes(pair.nonmortar, pair.moments));
-        mortar_nodes.push_back(touched_mortar_nodes(pair.mortar, pair.moments));
-      }
-    d.couplings.clear();
-    for (unsigned int p = 0; p < d.pairs.size(); ++p)
-      {
-        std::set<NodeIndex> excluded;
-        for (unsigned int q = 0; q < d.pairs.size(); ++q)
-          {
-            if (q < p)
-              excluded.insert(nonmortar_nodes[q].begin(), nonmortar_nodes[q].end());
-            if (q != p)
-              excluded.insert(mortar_nodes[q].begin(), mortar_nodes[q].end());
-          }
-        const ContactPair &pair = d.pairs[p];
-        d.couplings.push_back(couple(pair.nonmortar, pair.mortar, pair.moments, excluded,
-                                     static_cast<bool>(pair.prescribed_gap)));
-        const PairCoupling                 &c = d.couplings.back();
-        std::map<std::string, unsigned int> reasons;
-        for (const DroppedNode &node : c.dropped)
-          ++reasons[to_string(node.reason)];
-        for (const auto &[reason, n] : reasons)
-          note("pair " + pair.name + ", cycle " + std::to_string(cycle.cycle) + ": " + std::to_string(n) +
-               " nonmortar nodes without multiplier (" + reason + ").");
-        if (c.lost_area > 1e-12 * c.area)
-          note("pair " + pair.name + ": an area of " + std::to_string(c.lost_area) +
-               " is covered but carries no multiplier.");
-        const double smallest = c.gaps.empty() ? 0. : *std::min_element(c.gaps.begin(), c.gaps.end());
-        double       size     = 0.;
-        for (const Point<3> &x : c.positions)
-          size = std::max(size, x.distance(c.positions[0]));
-        // Faceted curved surfaces overlap by rounding and by their sagitta; report what exceeds rounding.
-        if (smallest < -1e-12 * size && cycle.cycle == 0)
-          {
-            std::ostringstream text;
-            text << "pair " << pair.name << ": initial penetration of " << -smallest << " (weighted gap)";
-            if (pair_definitions[p].parameters.penetration == "refuse")
-              throw InputError(text.str() + "; \"Initial penetration = refuse\" does not allow it.");
-            note(text.str() + ", resolved as an interference fit.");
-          }
-      }
-    d.origin = join_couplings(d.coupling, d.couplings);
-    d.row_masks.clear();
-    d.normals.clear();
-    d.gaps.clear();
-    for (const auto &[p, row] : d.origin)
-      {
-        d.row_masks.push_back(d.couplings[p].fixed[row]);
-        d.normals.push_back(d.couplings[p].normals[row]);
-        d.gaps.push_back(d.couplings[p].gaps[row]);
-      }
-    d.transformation =
-        std::make_unique<BasisTransformation>(*d.space, *d.partition, d.dirichlet, d.coupling, d.row_masks);
-    cycle.times["mortar"] += time.wall_time();
   }
 
 
@@ -345,7 +139,7 @@ namespace Signorini
     cycle.active_nodes  = std::accumulate(d.active.begin(), d.active.end(), std::size_t(0));
     d.displacement      = d.transformation->to_displacement(v, matrix.partition());
     if (parameters.measure_sweeps && cycle.cycle == refinement.n_cycles())
-      measure_sweeps(cycle, *hierarchy, problem.rhs);
+      cycle.sweeps = measure_sweeps(*hierarchy, problem.rhs);
     if (parameters.compare_linear && !d.pairs.empty())
       {
         // The contact hierarchy is not needed any more: make room for the linear one.
@@ -401,46 +195,6 @@ namespace Signorini
     matrix.vmult(product, solution);
     cycle.difference = scale > 0. ? std::sqrt(std::max(0., product * solution) / scale) : 0.;
     cycle.times["linear_solve"] += time.wall_time();
-  }
-
-
-
-  void ContactProblem::measure_sweeps(CycleResult &cycle, MultigridHierarchy &hierarchy, const Vector &rhs)
-  {
-    ProjectedGaussSeidel &smoother = *hierarchy.finest().smoother;
-    Vector                v;
-    v.reinit(rhs);
-    std::vector<double> times;
-    for (unsigned int i = 0; i < 5; ++i)
-      {
-        Timer time;
-        smoother.sweep(v, rhs, ProjectedGaussSeidel::forward);
-        times.push_back(time.wall_time());
-      }
-    std::sort(times.begin(), times.end());
-    cycle.sweep_time             = times[2];
-    cycle.sweep_bytes_per_second = Utilities::MPI::sum(smoother.sweep_bytes(), comm) / times[2];
-
-    const NodeBlockMatrix &matrix = hierarchy.finest().matrix;
-    const double          *begin  = matrix.block(0);
-    const std::size_t      n      = 9 * matrix.row_end(matrix.n_rows() - 1);
-    times.clear();
-    double sum = 0.;
-    for (unsigned int i = 0; i < 5; ++i)
-      {
-        Timer  time;
-        double s[8] = {};
-        for (std::size_t k = 0; k + 8 <= n; k += 8)
-          for (unsigned int j = 0; j < 8; ++j)
-            s[j] += begin[k + j];
-        sum += std::accumulate(s, s + 8, 0.);
-        times.push_back(time.wall_time());
-      }
-    std::sort(times.begin(), times.end());
-    volatile double keep = sum;
-    (void)keep;
-    cycle.read_bytes_per_second =
-        Utilities::MPI::sum(static_cast<double>(n * sizeof(double)), comm) / times[2];
   }
 
 

@@ -38,8 +38,8 @@ namespace Signorini
     if (n_coarser == 0)
       return sequence;
 
-    const auto [vertices, cells, ids] = GridTools::get_coarse_mesh_description(finest);
-    const auto manifolds              = finest.get_manifold_ids();
+    const auto [vertices, cells, ids]                       = GridTools::get_coarse_mesh_description(finest);
+    const auto                                    manifolds = finest.get_manifold_ids();
     const std::unique_ptr<p8est_t, ForestDeleter> forest(
         p8est_copy(const_cast<p8est_t *>(finest.get_p4est()), 0));
     for (unsigned int level = n_coarser; level-- > 0;)

@@ -127,9 +127,9 @@ namespace Signorini
           json.number("difference", cycle.difference);
           json.end('}');
         }
-      json.number("sweep_time_s", cycle.sweep_time);
-      json.number("sweep_bytes_per_s", cycle.sweep_bytes_per_second);
-      json.number("read_bytes_per_s", cycle.read_bytes_per_second);
+      json.number("sweep_time_s", cycle.sweeps.time);
+      json.number("sweep_bytes_per_s", cycle.sweeps.bytes_per_second);
+      json.number("read_bytes_per_s", cycle.sweeps.read_bytes_per_second);
       json.begin('{', "times_s");
       for (const char *name : {"mesh", "mapping", "mortar", "assembly", "hierarchy", "solve", "linear_solve",
                                "estimate", "output"})

@@ -152,8 +152,8 @@ namespace Signorini
 
 
 
-  bool TruncatedNewtonMultigrid::accelerate(const Vector &start, const Vector &residual, Vector &z, Vector &az,
-                                            const HalfSpaces &half_spaces)
+  bool TruncatedNewtonMultigrid::accelerate(const Vector &start, const Vector &residual, Vector &z,
+                                            Vector &az, const HalfSpaces &half_spaces)
   {
     const ProjectedGaussSeidel &smoother = *hierarchy.finest().smoother;
     if (has_direction)

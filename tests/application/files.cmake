@@ -9,6 +9,7 @@ function(signorini_add_application_test case)
 endfunction()
 
 signorini_add_application_test(command_line 1)
+signorini_add_application_test(corner 1 2)
 signorini_add_application_test(cubes 1 2 4)
 signorini_add_application_test(errors 1 2)
 signorini_add_application_test(half_model 1)

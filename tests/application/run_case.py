@@ -65,9 +65,9 @@ def iterations(s):
 
 
 def constant_pressure(s, pressure, tolerance=1e-10):
-    pair = s['pairs'][0]
-    near(pair['min_pressure'], pressure, tolerance, 'smallest pressure')
-    near(pair['max_pressure'], pressure, tolerance, 'largest pressure')
+    for pair in s['pairs']:
+        near(pair['min_pressure'], pressure, tolerance, f'smallest pressure of {pair["name"]}')
+        near(pair['max_pressure'], pressure, tolerance, f'largest pressure of {pair["name"]}')
 
 
 def patch_test(p):
@@ -100,6 +100,21 @@ def hanging_nodes(p):
             s = p.solve('patch_test/patch_test.prm', *sides, f'Refinement/Regions=ball: (0.4, 0.5, {z}), 0.31, 1')
             constant_pressure(s, 2.5 if sides else 5.)
             certificate(s)
+
+
+def corner(p):
+    s = p.solve(os.path.join(TOP, 'tests', 'application', 'corner.prm'), 'Body block/Probes=middle: (0.4, 0.5, 0.3)')
+    constant_pressure(s, 2.5)
+    certificate(s)
+    iterations(s)
+    for pair, direction in zip(s['pairs'], (2, 0)):
+        near(pair['force'][direction], 2.5, 1e-10, f'force of {pair["name"]}')
+        near(pair['contact_area'], 1., 1e-10, f'contact area of {pair["name"]}')
+        # Both sides of the constant pressure have the centre (1/2, 1/2) of the face.
+        near(pair['moment'][1], (-1.25, 1.25)[direction == 0], 1e-10, f'moment of {pair["name"]}')
+    for value, expected in zip(s['probes'][0]['displacement'], (-4e-4, -5e-4, -3e-4)):
+        near(value, expected, 1e-10, 'displacement')
+    check(any('another contact pair' in note for note in s['notes']), 'dropped nodes are not reported')
 
 
 def swapped_sides(p):

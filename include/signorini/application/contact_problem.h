@@ -101,7 +101,6 @@ namespace Signorini
     void evaluate_contact(const Vector &v, const ObstacleProblem &problem, const NodeBlockMatrix &matrix,
                           const std::vector<double> &gaps);
     void solve_linear(CycleResult &cycle, const LevelSpaces &levels, const Vector &start);
-    void measure_sweeps(CycleResult &cycle, MultigridHierarchy &hierarchy, const Vector &rhs);
     void refine();
     void finish();
     void certify();

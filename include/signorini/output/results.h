@@ -6,6 +6,7 @@
 
 #include <signorini/algebra/types.h>
 #include <signorini/solvers/convergence_report.h>
+#include <signorini/solvers/sweep_measurement.h>
 
 #include <deal.II/base/point.h>
 
@@ -24,9 +25,9 @@ namespace Signorini
     ConvergenceReport nonlinear, linear;
     bool              has_linear = false;
     /// Relative difference of the linear and the nonlinear solution (energy norm).
-    double difference = 0.;
-    /// Seconds, NaN where not measured; bytes per second.
-    double                        sweep_time = 0., sweep_bytes_per_second = 0., read_bytes_per_second = 0.;
+    double           difference = 0.;
+    SweepMeasurement sweeps;
+    /// Seconds.
     std::map<std::string, double> times;
   };
 

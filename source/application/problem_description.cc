@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/application/contact_problem.h>
+
+#include <deal.II/base/mpi.h>
+
+namespace Signorini
+{
+  using namespace dealii;
+
+  void ContactProblem::describe()
+  {
+    setup_space();
+    CycleResult cycle;
+    setup_contact(cycle);
+    Discretization &d = discretization;
+    struct Extent
+    {
+      double   area = 0.;
+      Point<3> low = Point<3>(1e300, 1e300, 1e300), high = Point<3>(-1e300, -1e300, -1e300);
+    };
+    std::map<types::boundary_id, Extent> extents;
+    std::vector<std::size_t>             cells(bodies.n_bodies(), 0);
+    std::array<NodeIndex, 8>             nodes;
+    for (const auto &cell : d.space->dof_handler().active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          ++cells[bodies.body_of_material(cell->material_id())];
+          d.space->cell_nodes(cell, nodes);
+          for (const unsigned int f : cell->face_indices())
+            if (cell->face(f)->at_boundary())
+              {
+                Extent                 &extent = extents[cell->face(f)->boundary_id()];
+                std::array<Point<3>, 4> x;
+                for (unsigned int v = 0; v < 4; ++v)
+                  {
+                    x[v] = d.space->position(nodes[GeometryInfo<3>::face_to_cell_vertices(f, v)]);
+                    for (unsigned int c = 0; c < dim; ++c)
+                      {
+                        extent.low[c]  = std::min(extent.low[c], x[v][c]);
+                        extent.high[c] = std::max(extent.high[c], x[v][c]);
+                      }
+                  }
+                extent.area += .5 * (cross_product_3d(x[1] - x[0], x[2] - x[0]).norm() +
+                                     cross_product_3d(x[3] - x[1], x[3] - x[2]).norm());
+              }
+        }
+    for (unsigned int b = 0; b < bodies.n_bodies(); ++b)
+      {
+        const std::size_t n_cells = Utilities::MPI::sum(cells[b], comm);
+        const Material   &m       = bodies.material(b);
+        out << "body " << bodies.body_name(b) << ": " << n_cells
+            << " cells, E = " << parameters.bodies[m.body].young
+            << ", nu = " << parameters.bodies[m.body].poisson << std::endl;
+        for (unsigned int i = 0; i < bodies.boundary_names(b).size(); ++i)
+          {
+            const Extent e    = extents[bodies.boundary_id(b, i)];
+            const double area = Utilities::MPI::sum(e.area, comm);
+            Point<3>     low, high;
+            for (unsigned int c = 0; c < dim; ++c)
+              {
+                low[c]  = Utilities::MPI::min(e.low[c], comm);
+                high[c] = Utilities::MPI::max(e.high[c], comm);
+              }
+            out << "  boundary " << bodies.boundary_names(b)[i] << ": area " << area << ", box (" << low
+                << ") to (" << high << ")" << std::endl;
+          }
+      }
+    for (unsigned int p = 0; p < d.pairs.size(); ++p)
+      {
+        const auto &gaps = d.couplings[p].gaps;
+        out << "pair " << d.pairs[p].name << ": nonmortar " << d.pairs[p].nonmortar_name << ", mortar "
+            << d.pairs[p].mortar_name << ", " << gaps.size() << " contact nodes, gap "
+            << *std::min_element(gaps.begin(), gaps.end()) << " to "
+            << *std::max_element(gaps.begin(), gaps.end()) << ", coverage "
+            << d.couplings[p].covered_area / d.couplings[p].area << std::endl;
+      }
+  }
+} // namespace Signorini
