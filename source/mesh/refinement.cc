@@ -21,6 +21,11 @@ namespace Signorini
         "Regions", regions,
         "Balls and boxes with the number of levels their cells are refined beyond the global levels, one "
         "level per cycle: \"ball: (x, y, z), radius, levels; box: (x, y, z), (x, y, z), levels; ...\".");
+    prm.add_parameter(
+        "Final global cycles", final_global_cycles,
+        "Cycles, each with one global refinement, after the regions have been worked through. "
+        "They keep the nested iteration cheap: each mesh has about eight times the cells of the "
+        "one before.");
   }
 
 
@@ -91,6 +96,8 @@ namespace Signorini
         regions.push_back(parse_region(kind, text));
         cycles = std::max(cycles, parameters.global_cycles + regions.back().levels);
       }
+    first_final_cycle = cycles + 1;
+    cycles += parameters.final_global_cycles;
   }
 
 
@@ -100,7 +107,7 @@ namespace Signorini
   {
     if (cycle > cycles)
       return false;
-    const bool global = cycle <= parameters.global_cycles;
+    const bool global = cycle <= parameters.global_cycles || cycle >= first_final_cycle;
     // Local refinement follows the global cycles. Regions may be nested: each cycle brings every region one
     // level further until it has its levels.
     const unsigned int base   = parameters.initial_global + parameters.global_cycles;

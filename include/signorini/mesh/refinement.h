@@ -16,7 +16,7 @@ namespace Signorini
   /// Prescribed refinement, worked through one level per cycle of the nested iteration.
   struct RefinementParameters
   {
-    unsigned int initial_global = 0, global_cycles = 0;
+    unsigned int initial_global = 0, global_cycles = 0, final_global_cycles = 0;
     std::string  regions;
 
     void add_parameters(dealii::ParameterHandler &prm);
@@ -53,7 +53,7 @@ namespace Signorini
   private:
     RefinementParameters          parameters;
     std::vector<RefinementRegion> regions;
-    unsigned int                  cycles;
+    unsigned int                  cycles, first_final_cycle;
   };
 } // namespace Signorini
 
