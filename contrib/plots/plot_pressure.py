@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Draws pressure.csv of a result folder: contact pressure over the distance from its centre, as pressure.png.
+"""Draws pressure.csv of a result folder as pressure.png: a map of the contact pressure on the surface, seen along its mean
+normal, and the pressure over the distance from its centre.
 
 usage: plot_pressure.py FOLDER [--hertz FILE.json]
 The JSON file gives radius, E1, nu1, E2, nu2, and symmetry (the number of copies of the model that make up the whole):
@@ -28,7 +29,8 @@ def main():
     x = np.c_[table['x'], table['y'], table['z']]
     weight = table['area'] * np.maximum(table['pressure'], 0)
     centre = np.zeros(3)
-    fig, ax = plt.subplots(figsize=(7, 4.5))
+    fig, (plan, ax) = plt.subplots(1, 2, figsize=(11, 4.5), gridspec_kw={'width_ratios': [1, 1.25]})
+    loaded = table['pressure'] > 1e-6 * max(table['pressure'].max(), 0)
     if args.hertz:
         with open(args.hertz) as f:
             h = json.load(f)
@@ -36,7 +38,7 @@ def main():
     elif weight.sum() > 0:
         centre = (weight[:, None] * x).sum(0) / weight.sum()
     r = np.linalg.norm(x - centre, axis=1)
-    reach = 1.6 * r[weight > 0].max() if (weight > 0).any() else r.max()
+    reach = 1.6 * r[loaded].max() if loaded.any() else r.max()
     if args.hertz:
         force = abs(summary['pairs'][0]['force'][2]) * h['symmetry']
         e_star = 1 / ((1 - h['nu1'] ** 2) / h['E1'] + (1 - h['nu2'] ** 2) / h['E2'])
@@ -50,9 +52,19 @@ def main():
               f'  largest nodal pressure = {table["pressure"].max():.6g}   Hertz: a = {a:.6g}  p0 = {p0:.6g}')
     near = r <= reach
     ax.plot(r[near], table['pressure'][near], 'o', ms=3, color='#c0392b', label='contact nodes')
+    # The plane in which the contact nodes spread most.
+    axes = np.linalg.svd(x[near] - x[near].mean(0), full_matrices=False)[2]
+    across = int(np.argmax(np.abs(axes[-1])))
+    horizontal, vertical = [c for c in range(3) if c != across]
+    points = plan.scatter(x[near, horizontal], x[near, vertical], c=table['pressure'][near], s=14, cmap='inferno_r',
+                          edgecolors='0.6', linewidths=.2)
+    fig.colorbar(points, ax=plan, label='contact pressure')
+    plan.set_aspect('equal')
+    plan.set_xlabel('xyz'[horizontal])
+    plan.set_ylabel('xyz'[vertical])
     ax.set_xlabel('distance from the centre of contact')
     ax.set_ylabel('contact pressure')
-    ax.set_title(summary.get('title', ''))
+    fig.suptitle(summary.get('title', ''))
     ax.legend()
     ax.grid(alpha=.3)
     fig.tight_layout()
