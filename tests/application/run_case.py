@@ -129,13 +129,32 @@ def swapped_sides(p):
     certificate(s)
 
 
+# The same linear field with the planes x and y and the right side loaded by its pressure 2.5 instead of held.
+PARTLY_FIXED = [f'Body {b}/{k}' for b, end in (('upper', 'top'), ('lower', 'bottom')) for k in
+                (f'Dirichlet=left: {LINEAR}; {end}: {LINEAR}', 'Pressures=right: 2.5; front: 2.5; back: 2.5')]
+
+
+def partly_fixed(p):
+    # Only one side of the border of the contact surfaces is held: its nodes carry no multiplier.
+    for rotation in ([], ROTATED):
+        for side in ('first', 'second'):
+            s = p.solve('patch_test/patch_test.prm', *PARTLY_FIXED, *rotation, f'Pair interface/Nonmortar={side}')
+            constant_pressure(s, 2.5)
+            certificate(s)
+
+
 def overhang(p):
-    # The nonmortar side sticks out of the mortar side: an uncovered strip without load.
-    for side in ('first', 'second'):
-        s = p.solve('patch_test/patch_test.prm', 'Body lower/Upper corner=0.75, 1, 0', 'Body lower/Divisions=3, 4, 4',
-                    f'Pair interface/Nonmortar={side}')
-        certificate(s)
-        near(s['pairs'][0]['force'][2], -s['pairs'][0]['force_on_mortar'][2], 1e-12, 'force')
+    # One body sticks out in x; the strip that is not covered is loaded with the pressure of the contact.
+    for wide, narrow, strip, boundary in (('upper', 'lower', 'x > 0.75', 'bottom'), ('lower', 'upper', 'x > 0.75', 'top')):
+        corner = 'Upper corner=0.75, 1, ' + ('0' if narrow == 'lower' else '1')
+        for side in ('first', 'second'):
+            for divisions in ('3, 4, 4', '2, 3, 3'):
+                s = p.solve('patch_test/patch_test.prm', f'Body {narrow}/{corner}', f'Body {narrow}/Divisions={divisions}',
+                            f'Body {wide}/Divisions=4, 5, 4', f'Body {wide}/Pressures={boundary}: 5*({strip})',
+                            f'Pair interface/Nonmortar={side}')
+                constant_pressure(s, 5.)
+                certificate(s)
+                near(abs(s['pairs'][0]['force'][2]), 3.75, 1e-10, 'force')
 
 
 def pulled(p):
@@ -155,6 +174,33 @@ def cubes(p):
         check(s['cycles'][cycle]['active_nodes'] == active, f'active nodes {s["cycles"][cycle]["active_nodes"]}')
         near(s['cycles'][cycle]['energy'], energy, 2e-10, 'energy')
     near(s['pairs'][0]['force'][2], 8.32696552e1, 1e-8, 'force')
+
+
+def ranks(p):
+    """Displacement, pressure and active set do not depend on the number of ranks."""
+    settings = ('cubes/cubes.prm', 'Refinement/Global cycles=2', 'Refinement/Regions=ball: (0.5, 0.5, 0), 0.2, 1',
+                'Body upper/Probes=a: (0.3, 0.4, 0.1); b: (0.5, 0.5, 0); c: (0.9, 0.1, 0.5)')
+    with tempfile.TemporaryDirectory() as folder:
+        results = []
+        for name, program in (('one', Program(p.command[-1], 1)), ('many', p)):
+            s = program.solve(*settings, keep=os.path.join(folder, name))
+            with open(os.path.join(folder, name, 'pressure.csv')) as f:
+                rows = sorted(([float(row[k]) for k in ('x', 'y', 'z', 'pressure', 'active')] for row in csv.DictReader(f)),
+                              key=lambda row: [round(c, 9) for c in row[:3]])
+            results.append((s, rows))
+    (one, rows_one), (many, rows_many) = results
+    scale = max(row[3] for row in rows_one)
+    check(len(rows_one) == len(rows_many), 'contact nodes')
+    for a, b in zip(rows_one, rows_many):
+        check(max(abs(x - y) for x, y in zip(a[:3], b[:3])) < 1e-12, f'node {a} became {b}')
+        check(abs(a[3] - b[3]) <= 1e-9 * scale, f'pressure {a} became {b}')
+        check(a[4] == b[4], f'active {a} became {b}')
+    for a, b in zip(one['probes'], many['probes']):
+        size = max(abs(c) for c in a['displacement'])
+        check(max(abs(x - y) for x, y in zip(a['displacement'], b['displacement'])) <= 1e-9 * size, f'displacement {a} became {b}')
+    for a, b in zip(one['cycles'], many['cycles']):
+        check(a['active_nodes'] == b['active_nodes'], 'active nodes')
+        check(abs(a['nonlinear']['iterations'] - b['nonlinear']['iterations']) <= 2, 'iterations')
 
 
 def half_model(p):
