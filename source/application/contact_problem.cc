@@ -20,6 +20,7 @@ namespace Signorini
     , out(out)
     , bodies(communicator, parameters.bodies, parameters.base_folder)
     , refinement(parameters.refinement)
+    , progress(std::cout, Progress::wanted(out.is_active(), parameters.verbosity))
   {
     for (unsigned int b = 0; b < bodies.n_bodies(); ++b)
       loads.add(bodies, b, parameters.loads[b]);
@@ -37,8 +38,17 @@ namespace Signorini
     if (std::find(results.notes.begin(), results.notes.end(), text) != results.notes.end())
       return;
     results.notes.push_back(text);
-    if (parameters.verbosity > 0)
-      out << "note: " << text << std::endl;
+    print("note: " + text);
+  }
+
+
+
+  void ContactProblem::print(const std::string &line)
+  {
+    if (parameters.verbosity == 0)
+      return;
+    progress.clear();
+    out << line << std::endl;
   }
 
 
@@ -54,7 +64,8 @@ namespace Signorini
 
 
   void ContactProblem::evaluate_contact(const Vector &v, const ObstacleProblem &problem,
-                                        const NodeBlockMatrix &matrix, const std::vector<double> &gaps)
+                                        const NodeBlockMatrix &matrix, const std::vector<double> &gaps,
+                                        const std::vector<unsigned char> &active)
   {
     Discretization &d = discretization;
     Vector          residual;
@@ -63,18 +74,21 @@ namespace Signorini
     residual.sadd(-1., 1., problem.rhs);
     const auto forces = replicate_values(matrix.partition(), residual, d.coupling.rows);
     const auto values = replicate_values(matrix.partition(), v, d.coupling.rows);
+    // The active set is what the projection of the solver wrote.
+    Vector flags;
+    flags.reinit(v);
+    for (std::size_t p = 0; p < problem.half_spaces.size(); ++p)
+      flags.local_element(dim * problem.half_spaces.nodes[p]) = active[p];
+    const auto active_rows = replicate_values(matrix.partition(), flags, d.coupling.rows);
     d.pressure.resize(d.coupling.n_rows());
     d.opening.resize(d.coupling.n_rows());
     d.active.resize(d.coupling.n_rows());
-    double scale = 0.;
     for (std::size_t p = 0; p < d.coupling.n_rows(); ++p)
       {
         d.pressure[p] = (forces[p] * d.normals[p]) / d.coupling.weight[p];
         d.opening[p]  = gaps[p] - d.normals[p] * values[p];
-        scale         = std::max(scale, values[p].norm());
+        d.active[p]   = active_rows[p][0] != 0. && d.pressure[p] > 0.;
       }
-    for (std::size_t p = 0; p < d.coupling.n_rows(); ++p)
-      d.active[p] = d.opening[p] <= 1e-14 * std::max(scale, std::abs(gaps[p])) && d.pressure[p] > 0.;
   }
 
 
@@ -83,12 +97,14 @@ namespace Signorini
   {
     Discretization &d = discretization;
     Timer           time;
+    progress.show("assembling");
     LinearSystem system = assemble_elasticity(bodies, *d.space, loads, d.dirichlet, d.coupling, d.row_masks);
     ObstacleProblem problem;
     problem.rhs = std::move(system.rhs);
     cycle.times["assembly"] += time.wall_time();
 
     time.restart();
+    progress.show("building levels");
     const LevelSpaces levels(*d.space, loads);
     auto              hierarchy =
         std::make_unique<MultigridHierarchy>(build_hierarchy(std::move(system), levels, d.coupling));
@@ -122,8 +138,14 @@ namespace Signorini
     const auto monitor = [&](const unsigned int iteration, const double correction,
                              const unsigned int active) {
       if (parameters.verbosity > 1)
-        out << "    iteration " << std::setw(3) << iteration << "   correction " << std::scientific
-            << std::setprecision(3) << correction << std::defaultfloat << "   active " << active << std::endl;
+        {
+          std::ostringstream line;
+          line << "    iteration " << std::setw(3) << iteration << "   correction " << std::scientific
+               << std::setprecision(3) << correction << "   active " << active;
+          print(line.str());
+        }
+      progress.show("solving",
+                    correction > 0. ? std::log(correction) / std::log(parameters.solver.tolerance) : 1.);
     };
     TruncatedNewtonMultigrid solver(*hierarchy, parameters.solver);
     cycle.nonlinear = solver.solve(v, problem, monitor);
@@ -134,7 +156,7 @@ namespace Signorini
         note("cycle " + std::to_string(cycle.cycle) + ": " + cycle.nonlinear.note + ".");
       }
 
-    evaluate_contact(v, problem, matrix, gaps);
+    evaluate_contact(v, problem, matrix, gaps, solver.active());
     cycle.contact_nodes = d.coupling.n_rows();
     cycle.active_nodes  = std::accumulate(d.active.begin(), d.active.end(), std::size_t(0));
     d.displacement      = d.transformation->to_displacement(v, matrix.partition());
@@ -144,6 +166,7 @@ namespace Signorini
       {
         // The contact hierarchy is not needed any more: make room for the linear one.
         hierarchy.reset();
+        progress.show("linear comparison");
         solve_linear(cycle, levels, start);
       }
   }
@@ -262,7 +285,10 @@ namespace Signorini
             check_rigid_motions(bodies, *discretization.space, discretization.dirichlet);
           }
         else if (refinement.mark(bodies.triangulation(), cycle))
-          refine();
+          {
+            progress.show("refining");
+            refine();
+          }
         else
           {
             results.cycles.pop_back();
@@ -271,22 +297,22 @@ namespace Signorini
         result.cells = bodies.triangulation().n_global_active_cells();
         result.dofs  = dim * discretization.space->n_conforming_nodes();
         result.times["mesh"] += time.wall_time();
-        if (parameters.verbosity > 0)
-          out << "cycle " << cycle << ": " << result.cells << " cells, " << result.dofs << " dofs"
-              << std::endl;
+        print("cycle " + std::to_string(cycle) + ": " + std::to_string(result.cells) + " cells, " +
+              std::to_string(result.dofs) + " dofs");
+        progress.show("contact mapping and mortar integrals");
         setup_contact(result);
         solve_cycle(result);
-        if (parameters.verbosity > 0)
-          {
-            out << "  " << result.nonlinear.iterations << " iterations";
-            if (result.has_linear)
-              out << " (linear multigrid " << result.linear.iterations << ", difference " << result.difference
-                  << ")";
-            out << ", " << result.active_nodes << " of " << result.contact_nodes << " contact nodes active"
-                << std::endl;
-          }
+        std::ostringstream line;
+        line << "  " << result.nonlinear.iterations << " iterations";
+        if (result.has_linear)
+          line << " (linear multigrid " << result.linear.iterations << ", difference " << result.difference
+               << ")";
+        line << ", " << result.active_nodes << " of " << result.contact_nodes << " contact nodes active";
+        print(line.str());
       }
+    progress.show("evaluating");
     finish();
+    progress.clear();
     results.wall_time = total_time.wall_time();
   }
 

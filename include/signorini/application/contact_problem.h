@@ -9,6 +9,7 @@
 #include <signorini/discretization/level_hierarchy.h>
 #include <signorini/mesh/refinement.h>
 #include <signorini/mortar/pair_coupling.h>
+#include <signorini/output/progress.h>
 #include <signorini/output/results.h>
 #include <signorini/surface/contact_mapping.h>
 
@@ -99,7 +100,7 @@ namespace Signorini
     unsigned int choose_nonmortar(const PairDefinition &definition, const ContactSurface (&surfaces)[2]);
     void         solve_cycle(CycleResult &cycle);
     void evaluate_contact(const Vector &v, const ObstacleProblem &problem, const NodeBlockMatrix &matrix,
-                          const std::vector<double> &gaps);
+                          const std::vector<double> &gaps, const std::vector<unsigned char> &active);
     void solve_linear(CycleResult &cycle, const LevelSpaces &levels, const Vector &start);
     void refine();
     void finish();
@@ -108,6 +109,8 @@ namespace Signorini
     void collect_reactions();
     void collect_probes();
     void note(const std::string &text);
+    /// A line on the terminal of rank 0.
+    void print(const std::string &line);
 
     ProblemParameters          &parameters;
     const MPI_Comm              comm;
@@ -116,7 +119,7 @@ namespace Signorini
     Loads                       loads;
     Refinement                  refinement;
     std::vector<PairDefinition> pair_definitions;
-    double                      equilibrium_residual = 0.;
+    Progress                    progress;
     dealii::Timer               total_time;
   };
 } // namespace Signorini

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_output_progress_h
+#define signorini_output_progress_h
+
+#include <ostream>
+#include <string>
+
+namespace Signorini
+{
+  /// One line at the bottom of a terminal that says what is going on, rewritten in place. Prints nothing if it
+  /// is off: into files and pipes go only the plain lines of the program.
+  class Progress
+  {
+  public:
+    Progress(std::ostream &out, const bool enabled);
+
+    /// Clears the line.
+    ~Progress();
+
+    /// On if the standard output is a terminal, this is the root rank, and the verbosity is at least 1.
+    static bool wanted(const bool is_root, const unsigned int verbosity);
+
+    /// Shows a phase.
+    void show(const std::string &phase);
+
+    /// Shows a phase with a bar; fraction between 0 and 1.
+    void show(const std::string &phase, const double fraction);
+
+    /// Takes the line away; to be called before anything else is printed.
+    void clear();
+
+  private:
+    void write(const std::string &text);
+
+    std::ostream &out;
+    const bool    enabled;
+    std::size_t   width = 0;
+  };
+} // namespace Signorini
+
+#endif
