@@ -5,4 +5,5 @@ signorini_add_layer(discretization
   hexahedron.cc
   interpolation_exchange.cc
   level_hierarchy.cc
+  vertex_expansion.cc
 )

@@ -9,8 +9,8 @@
 
 namespace Signorini
 {
-  /// One line at the bottom of a terminal that says what is going on, rewritten in place. Prints nothing if it
-  /// is off: into files and pipes go only the plain lines of the program.
+  /// One line at the bottom of a terminal that says what is going on, rewritten in place. Prints nothing if
+  /// it is off: into files and pipes go only the plain lines of the program.
   class Progress
   {
   public:
