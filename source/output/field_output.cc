@@ -126,6 +126,7 @@ namespace Signorini
           auto &patch          = output.patches.back();
           patch.patch_index    = static_cast<unsigned int>(output.patches.size() - 1);
           patch.n_subdivisions = 1;
+          patch.reference_cell = ReferenceCells::Hexahedron;
           patch.data.reinit(output.names.size(), 8);
           for (unsigned int v = 0; v < 8; ++v)
             {
@@ -152,6 +153,7 @@ namespace Signorini
           auto &patch          = output.patches.back();
           patch.patch_index    = static_cast<unsigned int>(output.patches.size() - 1);
           patch.n_subdivisions = 1;
+          patch.reference_cell = ReferenceCells::Quadrilateral;
           patch.data.reinit(output.names.size(), 4);
           for (unsigned int v = 0; v < 4; ++v)
             {
