@@ -27,6 +27,31 @@ namespace Signorini
         return std::tie(coarse_cell, path, face_number) <
                std::tie(other.coarse_cell, other.path, other.face_number);
       }
+
+      bool operator==(const PackedFace &other) const
+      {
+        return std::tie(coarse_cell, path, face_number) ==
+               std::tie(other.coarse_cell, other.path, other.face_number);
+      }
+    };
+
+    /// One entry of the constraint of a hanging node of a face.
+    struct PackedParent
+    {
+      NodeIndex             hanging, parent;
+      double                weight;
+      std::array<double, 3> point;
+      FixedMask             fixed;
+
+      bool operator<(const PackedParent &other) const
+      {
+        return std::tie(hanging, parent) < std::tie(other.hanging, other.parent);
+      }
+
+      bool operator==(const PackedParent &other) const
+      {
+        return std::tie(hanging, parent) == std::tie(other.hanging, other.parent);
+      }
     };
 
     using Cell = DoFHandler<3>::active_cell_iterator;
@@ -104,62 +129,118 @@ namespace Signorini
       return packed;
     }
 
-    std::vector<PackedFace> gather_faces(const std::vector<PackedFace> &mine, const MPI_Comm communicator)
+    void pack_parents(std::vector<PackedParent> &parents, const PackedFace &face, const NodalSpace &space,
+                      const std::function<FixedMask(const NodeIndex)> &fixed)
     {
-      std::vector<PackedFace> all;
+      for (const NodeIndex node : face.nodes)
+        if (node != invalid_node)
+          if (const auto *entries = space.hanging_nodes().get_constraint_entries(node))
+            for (const auto &[parent, weight] : *entries)
+              {
+                const Point<3> &p = space.position(parent);
+                parents.push_back({node, parent, weight, {{p[0], p[1], p[2]}}, fixed(parent)});
+              }
+    }
+
+    /// What all ranks have, sorted and without copies.
+    template <typename T>
+    std::vector<T> gather_sorted(const std::vector<T> &mine, const MPI_Comm communicator)
+    {
+      std::vector<T> all;
       if (Utilities::MPI::n_mpi_processes(communicator) == 1)
         all = mine;
       else
         {
           const char *const begin = reinterpret_cast<const char *>(mine.data());
           for (const auto &bytes : Utilities::MPI::all_gather(
-                   communicator, std::vector<char>(begin, begin + mine.size() * sizeof(PackedFace))))
+                   communicator, std::vector<char>(begin, begin + mine.size() * sizeof(T))))
             {
               const std::size_t n = all.size();
-              all.resize(n + bytes.size() / sizeof(PackedFace));
+              all.resize(n + bytes.size() / sizeof(T));
               std::memcpy(static_cast<void *>(all.data() + n), bytes.data(), bytes.size());
             }
         }
       std::sort(all.begin(), all.end());
+      all.erase(std::unique(all.begin(), all.end()), all.end());
       return all;
     }
 
-    /// Triangles of a face with hanging vertices on some of its edges: ears with a corner between two
-    /// neighbouring polygon vertices are cut where the remaining polygon stays well shaped.
-    void triangulate(std::vector<std::array<unsigned int, 3>> &triangles, std::vector<unsigned int> polygon,
-                     const std::vector<Point<3>> &vertices)
+    /// Twice the area along the normal over the square of the longest edge.
+    double triangle_quality(const Point<3> &a, const Point<3> &b, const Point<3> &c,
+                            const Tensor<1, 3> &normal)
     {
-      while (polygon.size() > 3)
-        {
-          // The ear with the shortest diagonal; a flat ear (three points of one edge) is none.
-          const std::size_t n        = polygon.size();
-          std::size_t       best     = n;
-          double            shortest = std::numeric_limits<double>::max();
-          for (std::size_t i = 0; i < n; ++i)
+      const double longest = std::max({(b - a).norm_square(), (c - b).norm_square(), (a - c).norm_square()});
+      return cross_product_3d(b - a, c - a) * normal / longest;
+    }
+
+    /// Triangulates a polygon such that the worst triangle is as good as possible: hanging vertices lie
+    /// on edges, and no triangle may have its three corners on one edge. Dynamic programming over the pieces
+    /// that diagonals cut off; there are at most eight corners.
+    class PolygonTriangulation
+    {
+    public:
+      PolygonTriangulation(std::vector<std::array<unsigned int, 3>> &triangles,
+                           const std::vector<unsigned int> &polygon, const std::vector<Point<3>> &vertices)
+        : triangles(triangles)
+        , polygon(polygon)
+        , n(polygon.size())
+        , worst(n * n, std::numeric_limits<double>::max())
+        , apex(n * n, 0)
+      {
+        Tensor<1, 3> normal;
+        for (std::size_t i = 1; i + 1 < n; ++i)
+          normal += cross_product_3d(vertices[polygon[i]] - vertices[polygon[0]],
+                                     vertices[polygon[i + 1]] - vertices[polygon[0]]);
+        normal /= normal.norm();
+        for (std::size_t length = 2; length < n; ++length)
+          for (std::size_t i = 0; i + length < n; ++i)
             {
-              const Point<3> &a = vertices[polygon[(i + n - 1) % n]], &b = vertices[polygon[i]],
-                             &c     = vertices[polygon[(i + 1) % n]];
-              const double diagonal = a.distance(c);
-              const double height   = cross_product_3d(b - a, c - b).norm() / diagonal;
-              if (height > 1e-3 * diagonal && diagonal < shortest * (1. - 1e-9))
+              const std::size_t j = i + length;
+              worst[n * i + j]    = -std::numeric_limits<double>::max();
+              for (std::size_t k = i + 1; k < j; ++k)
                 {
-                  shortest = diagonal;
-                  best     = i;
+                  const double quality =
+                      std::min({worst[n * i + k], worst[n * k + j],
+                                triangle_quality(vertices[polygon[i]], vertices[polygon[k]],
+                                                 vertices[polygon[j]], normal)});
+                  // Among equals the first, whatever the rounding.
+                  if (k == i + 1 || quality > worst[n * i + j] + 1e-9)
+                    {
+                      worst[n * i + j] = quality;
+                      apex[n * i + j]  = k;
+                    }
                 }
             }
-          Assert(best < n, ExcInternalError());
-          triangles.push_back({{polygon[(best + n - 1) % n], polygon[best], polygon[(best + 1) % n]}});
-          polygon.erase(polygon.begin() + best);
-        }
-      triangles.push_back({{polygon[0], polygon[1], polygon[2]}});
-    }
+        add(0, n - 1);
+      }
+
+    private:
+      void add(const std::size_t i, const std::size_t j)
+      {
+        if (j - i < 2)
+          return;
+        const std::size_t k = apex[n * i + j];
+        add(i, k);
+        add(k, j);
+        triangles.push_back({{polygon[i], polygon[k], polygon[j]}});
+      }
+
+      std::vector<std::array<unsigned int, 3>> &triangles;
+      const std::vector<unsigned int>          &polygon;
+      const std::size_t                         n;
+      std::vector<double>                       worst;
+      std::vector<std::size_t>                  apex;
+    };
 
     /// Vertex normals: area weighted; hanging vertices get the mean of their parents; then projected onto the
     /// free directions.
     void set_normals(ContactSurface &surface)
     {
       surface.mesh.compute_vertex_normals();
-      auto &normals = surface.mesh.vertex_normals;
+      auto             &normals = surface.mesh.vertex_normals;
+      std::vector<bool> is_without_faces;
+      for (const Tensor<1, 3> &normal : normals)
+        is_without_faces.push_back(normal.norm() == 0.);
       for (std::size_t v = 0; v < normals.size(); ++v)
         if (!surface.hanging[v].empty())
           {
@@ -169,6 +250,15 @@ namespace Signorini
             if (mean.norm() > 0.)
               normals[v] = mean / mean.norm();
           }
+      // Vertices without faces take after the hanging vertices that depend on them.
+      std::vector<Tensor<1, 3>> inherited(normals.size());
+      for (std::size_t v = 0; v < normals.size(); ++v)
+        for (const auto &[parent, weight] : surface.hanging[v])
+          if (is_without_faces[parent])
+            inherited[parent] += weight * normals[v];
+      for (std::size_t v = 0; v < normals.size(); ++v)
+        if (inherited[v].norm() > 0.)
+          normals[v] = inherited[v] / inherited[v].norm();
       surface.normal_share.resize(normals.size());
       for (std::size_t v = 0; v < normals.size(); ++v)
         {
@@ -186,7 +276,8 @@ namespace Signorini
                                          const std::function<FixedMask(const NodeIndex)>  &fixed,
                                          const std::function<bool(const Point<3> &point)> &region)
   {
-    std::vector<PackedFace> mine;
+    std::vector<PackedFace>   mine;
+    std::vector<PackedParent> my_parents;
     for (const auto &cell : space.dof_handler().active_cell_iterators())
       if (cell->is_locally_owned() && cell->at_boundary())
         for (const unsigned int face : cell->face_indices())
@@ -202,13 +293,26 @@ namespace Signorini
                   inside = region(corner);
                 }
               if (inside || region(centre))
-                mine.push_back(packed);
+                {
+                  mine.push_back(packed);
+                  pack_parents(my_parents, packed, space, fixed);
+                }
             }
 
     ContactSurface                              surface;
     std::unordered_map<NodeIndex, unsigned int> number;
     std::vector<unsigned int>                   polygon;
-    const std::vector<PackedFace>               faces = gather_faces(mine, space.communicator());
+    const std::vector<PackedFace>               faces = gather_sorted(mine, space.communicator());
+    const auto add_vertex = [&](const NodeIndex node, const std::array<double, 3> &p, const FixedMask mask) {
+      const auto [it, is_new] = number.insert({node, static_cast<unsigned int>(surface.vertex_node.size())});
+      if (is_new)
+        {
+          surface.vertex_node.push_back(node);
+          surface.vertex_fixed.push_back(mask);
+          surface.mesh.vertices.emplace_back(p[0], p[1], p[2]);
+        }
+      return it->second;
+    };
     for (const PackedFace &face : faces)
       {
         polygon.clear();
@@ -217,42 +321,25 @@ namespace Signorini
         for (unsigned int v = 0; v < 8; ++v)
           if (face.nodes[v] != invalid_node)
             {
-              const auto [it, is_new] =
-                  number.insert({face.nodes[v], static_cast<unsigned int>(surface.vertex_node.size())});
-              if (is_new)
-                {
-                  surface.vertex_node.push_back(face.nodes[v]);
-                  surface.vertex_fixed.push_back(face.fixed[v]);
-                  surface.mesh.vertices.emplace_back(face.points[v][0], face.points[v][1], face.points[v][2]);
-                }
-              polygon.push_back(it->second);
+              const unsigned int vertex = add_vertex(face.nodes[v], face.points[v], face.fixed[v]);
+              polygon.push_back(vertex);
               if (v % 2 == 0)
-                surface.faces.back().corners[v / 2] = it->second;
+                surface.faces.back().corners[v / 2] = vertex;
             }
-        triangulate(surface.mesh.triangles, polygon, surface.mesh.vertices);
+        PolygonTriangulation(surface.mesh.triangles, polygon, surface.mesh.vertices);
         surface.triangle_face.resize(surface.mesh.triangles.size(),
                                      static_cast<unsigned int>(surface.faces.size() - 1));
       }
 
-    // A vertex in the middle of an edge of any face depends on the ends of the edge; chains are resolved.
+    // The constraints come from the mesh, not from the faces: the coarser neighbour of a hanging vertex may
+    // lie outside of the region or belong to another boundary. Its corners then are vertices without faces.
+    for (const PackedParent &entry : gather_sorted(my_parents, space.communicator()))
+      {
+        const unsigned int parent = add_vertex(entry.parent, entry.point, entry.fixed);
+        surface.hanging.resize(surface.vertex_node.size());
+        surface.hanging[number[entry.hanging]].emplace_back(parent, entry.weight);
+      }
     surface.hanging.resize(surface.vertex_node.size());
-    for (const PackedFace &face : faces)
-      for (unsigned int v = 1; v < 8; v += 2)
-        if (face.nodes[v] != invalid_node)
-          surface.hanging[number[face.nodes[v]]] = {{number[face.nodes[v - 1]], .5},
-                                                    {number[face.nodes[(v + 1) % 8]], .5}};
-    for (auto &entries : surface.hanging)
-      for (std::size_t i = 0; i < entries.size();)
-        if (const auto &parents = surface.hanging[entries[i].first]; !parents.empty())
-          {
-            const auto [parent, weight] = entries[i];
-            (void)parent;
-            entries.erase(entries.begin() + i);
-            for (const auto &[grandparent, share] : std::vector<std::pair<unsigned int, double>>(parents))
-              entries.emplace_back(grandparent, weight * share);
-          }
-        else
-          ++i;
     set_normals(surface);
     return surface;
   }

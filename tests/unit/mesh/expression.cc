@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/algebra/input_error.h>
+#include <signorini/mesh/expression.h>
+#include <signorini/mesh/refinement.h>
+
+#include <gtest/gtest.h>
+
+using namespace dealii;
+using namespace Signorini;
+
+TEST(Expression, Evaluates)
+{
+  const Point<3> p(2., 3., 5.);
+  EXPECT_EQ(Expression("7", "test")(p), 7.);
+  EXPECT_EQ(Expression("-1e-3*x + y*z", "test")(p), -2e-3 + 15.);
+  EXPECT_NEAR(Expression("2*sin(pi*x/4)", "test")(p), 2., 1e-15);
+  EXPECT_EQ(Expression("5*(x > 1)", "test")(p), 5.);
+  EXPECT_TRUE(Expression("0", "test").is_zero());
+  EXPECT_FALSE(Expression("x", "test").is_zero());
+}
+
+
+
+TEST(Expression, NamesTheParameterInErrors)
+{
+  for (const char *text : {"bla(x)", "x +", "", "1 2", "w"})
+    try
+      {
+        Expression(text, "Body first/Dirichlet")(Point<3>());
+        ADD_FAILURE() << "\"" << text << "\" was taken";
+      }
+    catch (const InputError &e)
+      {
+        EXPECT_NE(std::string(e.what()).find("Body first/Dirichlet"), std::string::npos) << e.what();
+      }
+}
+
+
+
+TEST(Expression, RefusesValuesThatAreNotFinite)
+{
+  const Expression inverse("1/x", "Body first/Pressures");
+  EXPECT_EQ(inverse(Point<3>(2., 0., 0.)), .5);
+  EXPECT_THROW(inverse(Point<3>()), InputError);
+}
+
+
+
+TEST(Lists, KeepParenthesesTogether)
+{
+  EXPECT_EQ(split_vector("(min(x, y), 2, *)", "test"), (std::vector<std::string>{"min(x, y)", "2", "*"}));
+  const auto entries = split_named_entries("left: (0, *, *); top: (0, 0, max(x; 1))", "test");
+  ASSERT_EQ(entries.size(), 2u);
+  EXPECT_EQ(entries[0].first, "left");
+  EXPECT_EQ(entries[1].second, "(0, 0, max(x; 1))");
+  EXPECT_THROW(split_vector("(1, 2", "test"), InputError);
+  EXPECT_THROW(split_named_entries("left (0, 0, 0)", "test"), InputError);
+}
+
+
+
+TEST(Refinement, ReadsRegionsAndCountsCycles)
+{
+  RefinementParameters p;
+  p.global_cycles       = 1;
+  p.final_global_cycles = 2;
+  p.regions             = "ball: (0, 0, 0), 2, 3; box: (0, 0, 0), (1, 1, 1), 1";
+  EXPECT_EQ(Refinement(p).n_cycles(), 1u + 3u + 2u);
+  for (const char *bad : {"ball: (0, 0, 0), 2", "ball: (0, 0, 0), -1, 3", "cone: (0, 0, 0), 1, 1",
+                          "box: (1, 0, 0), (0, 1, 1), 1", "ball: (0, 0, 0), 1, 1.5"})
+    {
+      p.regions = bad;
+      EXPECT_THROW(Refinement{p}, InputError) << bad;
+    }
+}
+
+
+
+// Global cycles, then the regions one level a cycle, then the final global cycles.
+TEST(Refinement, WorksThroughTheCycles)
+{
+  BodyParameters body;
+  body.divisions = "2, 2, 2";
+  Bodies               bodies(MPI_COMM_WORLD, {body}, ".");
+  RefinementParameters p;
+  p.global_cycles       = 1;
+  p.final_global_cycles = 1;
+  p.regions             = "ball: (0, 0, 0), 0.1, 2";
+  const Refinement         refinement(p);
+  std::vector<std::size_t> cells;
+  for (unsigned int cycle = 1; cycle <= refinement.n_cycles(); ++cycle)
+    {
+      EXPECT_TRUE(refinement.mark(bodies.triangulation(), cycle));
+      bodies.triangulation().execute_coarsening_and_refinement();
+      cells.push_back(bodies.triangulation().n_global_active_cells());
+    }
+  EXPECT_EQ(cells, (std::vector<std::size_t>{64, 71, 78, 624}));
+  EXPECT_FALSE(refinement.mark(bodies.triangulation(), refinement.n_cycles() + 1));
+}

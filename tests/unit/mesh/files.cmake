@@ -1,0 +1,6 @@
+signorini_add_unit_tests(mesh RANKS "1;2;4"
+  expression.cc
+  generated_mesh.cc
+  mesh_input.cc
+  surface_extraction.cc
+)

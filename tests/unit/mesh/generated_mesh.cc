@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/algebra/input_error.h>
+#include <signorini/mesh/bodies.h>
+#include <signorini/mesh/coarsening_sequence.h>
+#include <signorini/mesh/nodal_space.h>
+
+#include <deal.II/grid/grid_tools.h>
+#include <deal.II/multigrid/mg_transfer_global_coarsening.h>
+
+#include <gtest/gtest.h>
+
+using namespace dealii;
+using namespace Signorini;
+
+namespace
+{
+  struct Shape
+  {
+    const char *kind;
+    double      volume;
+    /// Boundary and its area.
+    std::vector<std::pair<const char *, double>> areas;
+  };
+
+  BodyParameters body(const std::string &kind)
+  {
+    BodyParameters p;
+    p.name         = "body";
+    p.mesh         = kind;
+    p.radius       = 2.;
+    p.inner_radius = 1.;
+    p.height       = 3.;
+    p.upper_corner = "1, 2, 3";
+    p.divisions    = "1, 2, 2";
+    return p;
+  }
+
+  double volume(const NodalSpace &space)
+  {
+    double sum = 0.;
+    for (const auto &cell : space.dof_handler().active_cell_iterators())
+      if (cell->is_locally_owned())
+        sum += cell->measure();
+    return Utilities::MPI::sum(sum, space.communicator());
+  }
+
+  double area(const Bodies &bodies, const std::string &boundary)
+  {
+    const auto ids = bodies.boundary_ids(0, boundary);
+    double     sum = 0.;
+    for (const auto &cell : bodies.triangulation().active_cell_iterators())
+      if (cell->is_locally_owned())
+        for (const auto &face : cell->face_iterators())
+          if (face->at_boundary() && ids.count(face->boundary_id()) > 0)
+            sum += .5 * cross_product_3d(face->vertex(3) - face->vertex(0), face->vertex(2) - face->vertex(1)).norm();
+    return Utilities::MPI::sum(sum, MPI_COMM_WORLD);
+  }
+
+  class GeneratedMeshes : public testing::TestWithParam<Shape>
+  {
+  };
+} // namespace
+
+
+
+TEST_P(GeneratedMeshes, HaveVolumesAndAreasThatConverge)
+{
+  const Shape shape = GetParam();
+  Bodies      bodies(MPI_COMM_WORLD, {body(shape.kind)}, ".");
+  double      last = 0.;
+  for (unsigned int level = 0; level < 3; ++level)
+    {
+      if (level > 0)
+        bodies.triangulation().refine_global(1);
+      for (const auto &cell : bodies.triangulation().active_cell_iterators())
+        if (cell->is_locally_owned())
+          {
+            std::array<Point<3>, 8> corners;
+            double                  shortest = 1e300, longest = 0.;
+            for (unsigned int v = 0; v < 8; ++v)
+              corners[v] = cell->vertex(v);
+            for (unsigned int l = 0; l < 12; ++l)
+              {
+                const double length = corners[GeometryInfo<3>::line_to_cell_vertices(l, 0)].distance(
+                    corners[GeometryInfo<3>::line_to_cell_vertices(l, 1)]);
+                shortest = std::min(shortest, length);
+                longest  = std::max(longest, length);
+              }
+            EXPECT_GT(scaled_jacobian(corners), .2) << shape.kind;
+            EXPECT_LT(longest, 4. * shortest) << shape.kind;
+          }
+      const NodalSpace space(bodies.triangulation());
+      const double     error = std::abs(volume(space) / shape.volume - 1.);
+      if (level > 0)
+        {
+          // Chords: second order.
+          EXPECT_LE(error, std::max(.35 * last, 1e-12)) << shape.kind;
+        }
+      last = error;
+    }
+  EXPECT_LT(last, .02);
+  for (const auto &[boundary, exact] : shape.areas)
+    EXPECT_NEAR(area(bodies, boundary) / exact, 1., .02) << shape.kind << ", " << boundary;
+  EXPECT_THROW(bodies.boundary_ids(0, "lid"), InputError);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, GeneratedMeshes,
+    testing::Values(Shape{"block", 6., {{"left", 6.}, {"right", 6.}, {"front", 3.}, {"back", 3.}, {"bottom", 2.}, {"top", 2.}}},
+                    Shape{"ball", 32. / 3. * M_PI, {{"sphere", 16. * M_PI}}},
+                    Shape{"half ball", 16. / 3. * M_PI, {{"sphere", 8. * M_PI}, {"top", 4. * M_PI}}},
+                    Shape{"quarter of ball", 8. / 3. * M_PI, {{"sphere", 4. * M_PI}, {"symmetry x", 2. * M_PI}, {"symmetry y", 2. * M_PI}}},
+                    Shape{"quarter of half ball", 4. / 3. * M_PI, {{"sphere", 2. * M_PI}, {"top", M_PI}, {"symmetry x", M_PI}, {"symmetry y", M_PI}}},
+                    Shape{"eighth of ball", 4. / 3. * M_PI, {{"sphere", 2. * M_PI}, {"symmetry z", M_PI}}},
+                    Shape{"cylinder", 12. * M_PI, {{"side", 12. * M_PI}, {"top", 4. * M_PI}, {"bottom", 4. * M_PI}}},
+                    Shape{"quarter of cylinder", 3. * M_PI, {{"side", 3. * M_PI}, {"top", M_PI}, {"symmetry x", 6.}, {"symmetry y", 6.}}},
+                    Shape{"spherical shell", 28. / 3. * M_PI, {{"outer", 16. * M_PI}, {"inner", 4. * M_PI}}},
+                    Shape{"eighth of spherical shell", 7. / 6. * M_PI, {{"outer", 2. * M_PI}, {"inner", .5 * M_PI}}}));
+
+
+
+TEST(GeneratedMesh, RefusesSizesThatMakeNoSense)
+{
+  BodyParameters p = body("ball");
+  p.radius         = 0.;
+  EXPECT_THROW(Bodies(MPI_COMM_WORLD, {p}, "."), InputError);
+  p           = body("block");
+  p.divisions = "1, 0, 1";
+  EXPECT_THROW(Bodies(MPI_COMM_WORLD, {p}, "."), InputError);
+  p              = body("spherical shell");
+  p.inner_radius = 3.;
+  EXPECT_THROW(Bodies(MPI_COMM_WORLD, {p}, "."), InputError);
+}
+
+
+
+namespace
+{
+  void refine_near_pole(Bodies &bodies)
+  {
+    bodies.triangulation().refine_global(1);
+    for (unsigned int i = 0; i < 3; ++i)
+      {
+        for (const auto &cell : bodies.triangulation().active_cell_iterators())
+          if (cell->is_locally_owned() && cell->center().distance(Point<3>(0., 0., -2.)) < 1.2 / (i + 1))
+            cell->set_refine_flag();
+        bodies.triangulation().execute_coarsening_and_refinement();
+      }
+  }
+} // namespace
+
+
+
+// The same cells as deal.II's own sequence, on every level.
+TEST(CoarseningSequence, HasTheMeshesOfDealII)
+{
+  Bodies bodies(MPI_COMM_WORLD, {body("half ball")}, ".");
+  refine_near_pole(bodies);
+  const auto   ours     = create_coarsening_sequence(bodies.triangulation());
+  const auto   expected = MGTransferGlobalCoarseningTools::create_geometric_coarsening_sequence(bodies.triangulation());
+  ASSERT_EQ(ours.size() + 1, expected.size());
+  for (std::size_t l = 0; l < ours.size(); ++l)
+    {
+      EXPECT_EQ(ours[l]->n_global_active_cells(), expected[l]->n_global_active_cells()) << "level " << l;
+      const auto centres = [](const Triangulation<3> &mesh) {
+        std::vector<std::pair<std::string, double>> mine;
+        for (const auto &cell : mesh.active_cell_iterators())
+          if (cell->is_locally_owned())
+            mine.emplace_back(cell->id().to_string(), cell->center().norm());
+        std::vector<std::pair<std::string, double>> all;
+        for (const auto &part : Utilities::MPI::all_gather(MPI_COMM_WORLD, mine))
+          all.insert(all.end(), part.begin(), part.end());
+        std::sort(all.begin(), all.end());
+        return all;
+      };
+      const auto a = centres(*ours[l]), b = centres(*expected[l]);
+      ASSERT_EQ(a.size(), b.size());
+      for (std::size_t i = 0; i < a.size(); ++i)
+        {
+          EXPECT_EQ(a[i].first, b[i].first);
+          EXPECT_NEAR(a[i].second, b[i].second, 1e-12);
+        }
+    }
+}
+
+
+
+// Node positions follow the sphere and survive refinement and repartitioning.
+TEST(NodalSpace, NodesLieOnTheSphere)
+{
+  Bodies bodies(MPI_COMM_WORLD, {body("half ball")}, ".");
+  refine_near_pole(bodies);
+  const NodalSpace                           space(bodies.triangulation());
+  const std::set<types::boundary_id>         sphere = bodies.boundary_ids(0, "sphere");
+  std::array<NodeIndex, 8>                   nodes;
+  unsigned int                               n_hanging = 0;
+  for (const auto &cell : space.dof_handler().active_cell_iterators())
+    if (cell->is_locally_owned())
+      {
+        space.cell_nodes(cell, nodes);
+        for (const unsigned int f : cell->face_indices())
+          if (cell->face(f)->at_boundary() && sphere.count(cell->face(f)->boundary_id()) > 0)
+            for (unsigned int v = 0; v < 4; ++v)
+              {
+                const NodeIndex node = nodes[GeometryInfo<3>::face_to_cell_vertices(f, v)];
+                if (space.hanging_nodes().is_constrained(node))
+                  {
+                    // Without cracks: at the mean of the parents.
+                    Point<3> mean;
+                    for (const auto &[parent, weight] : *space.hanging_nodes().get_constraint_entries(node))
+                      mean += weight * space.position(parent);
+                    EXPECT_LT(mean.distance(space.position(node)), 1e-14);
+                    ++n_hanging;
+                  }
+                else
+                  {
+                    EXPECT_NEAR(space.position(node).norm(), 2., 1e-14);
+                  }
+              }
+      }
+  EXPECT_GT(Utilities::MPI::sum(n_hanging, MPI_COMM_WORLD), 0u);
+}

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include "mesh_file.h"
+
+#include <signorini/algebra/input_error.h>
+#include <signorini/mesh/mesh_input.h>
+
+#include <gtest/gtest.h>
+
+#include <gmsh.h>
+
+using namespace dealii;
+using namespace Signorini;
+
+namespace
+{
+  const char *const hexahedron = "5 2 7 1 1 2 3 4 5 6 7 8";
+  const char *const bottom     = "3 2 11 1 1 2 3 4";
+  const char *const names      = "2\n2 11 \"bottom\"\n3 7 \"bone\"\n";
+
+  std::string error_of(const std::string &content)
+  {
+    const TemporaryFile file(content);
+    try
+      {
+        read_hexahedral_mesh(file.path, MPI_COMM_WORLD);
+      }
+    catch (const InputError &e)
+      {
+        EXPECT_NE(std::string(e.what()).find(file.path), std::string::npos) << e.what();
+        return e.what();
+      }
+    ADD_FAILURE() << "no error";
+    return "";
+  }
+
+  void expect_in(const std::string &text, const std::string &word)
+  {
+    EXPECT_NE(text.find(word), std::string::npos) << text;
+  }
+} // namespace
+
+
+
+TEST(MeshInput, KeepsPhysicalNames)
+{
+  const TemporaryFile file(gmsh_text(cube(), {bottom, hexahedron}, names));
+  const auto          mesh = read_hexahedral_mesh(file.path, MPI_COMM_WORLD);
+  EXPECT_EQ(mesh.cells.size(), 1u);
+  EXPECT_EQ(mesh.vertices.size(), 8u);
+  ASSERT_EQ(mesh.volume_names, std::vector<std::string>{"bone"});
+  ASSERT_EQ(mesh.faces.size(), 6u);
+  unsigned int n_bottom = 0;
+  for (const auto &face : mesh.faces)
+    if (mesh.boundary_names[face.name] == "bottom")
+      {
+        ++n_bottom;
+        for (const unsigned int v : face.vertices)
+          EXPECT_EQ(mesh.vertices[v][2], 0.);
+      }
+    else
+      EXPECT_EQ(mesh.boundary_names[face.name], "unnamed");
+  EXPECT_EQ(n_bottom, 1u);
+}
+
+
+
+TEST(MeshInput, TakesIdsWhereThereAreNoNames)
+{
+  const TemporaryFile file(gmsh_text(cube(), {bottom, hexahedron}));
+  const auto          mesh = read_hexahedral_mesh(file.path, MPI_COMM_WORLD);
+  EXPECT_EQ(mesh.volume_names, std::vector<std::string>{"7"});
+  EXPECT_NE(std::find(mesh.boundary_names.begin(), mesh.boundary_names.end(), "11"), mesh.boundary_names.end());
+}
+
+
+
+TEST(MeshInput, DoesNotJoinCoincidentNodes)
+{
+  auto       points = cube();
+  const auto upper  = cube(1.);
+  points.insert(points.end(), upper.begin(), upper.end());
+  const TemporaryFile file(gmsh_text(points, {"5 2 7 1 1 2 3 4 5 6 7 8", "5 2 8 2 9 10 11 12 13 14 15 16"}));
+  const auto          mesh = read_hexahedral_mesh(file.path, MPI_COMM_WORLD);
+  EXPECT_EQ(mesh.vertices.size(), 16u);
+  EXPECT_EQ(mesh.faces.size(), 12u);
+  EXPECT_EQ(mesh.volume_names.size(), 2u);
+}
+
+
+
+TEST(MeshInput, ReadsOtherVersionsAndBinaryFiles)
+{
+  const TemporaryFile text(gmsh_text(cube(), {bottom, hexahedron}, names));
+  for (const double version : {2.2, 4.1})
+    for (const double binary : {0., 1.})
+      {
+        const TemporaryFile file("");
+        if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+          {
+            gmsh::initialize();
+            gmsh::option::setNumber("General.Terminal", 0);
+            gmsh::open(text.path);
+            gmsh::option::setNumber("Mesh.MshFileVersion", version);
+            gmsh::option::setNumber("Mesh.Binary", binary);
+            gmsh::write(file.path);
+            gmsh::finalize();
+          }
+        MPI_Barrier(MPI_COMM_WORLD);
+        const auto mesh = read_hexahedral_mesh(file.path, MPI_COMM_WORLD);
+        EXPECT_EQ(mesh.cells.size(), 1u) << version << " " << binary;
+        EXPECT_EQ(mesh.volume_names, std::vector<std::string>{"bone"}) << version << " " << binary;
+        EXPECT_EQ(std::count(mesh.boundary_names.begin(), mesh.boundary_names.end(), "bottom"), 1);
+      }
+}
+
+
+
+TEST(MeshInput, TurnsMirroredCellsOver)
+{
+  const TemporaryFile file(gmsh_text(cube(), {"5 2 7 1 5 6 7 8 1 2 3 4"}));
+  const auto          mesh = read_hexahedral_mesh(file.path, MPI_COMM_WORLD);
+  ASSERT_EQ(mesh.notes.size(), 1u);
+  std::array<Point<3>, 8> corners;
+  for (unsigned int v = 0; v < 8; ++v)
+    corners[v] = mesh.vertices[mesh.cells[0][v]];
+  EXPECT_NEAR(scaled_jacobian(corners), 1., 1e-14);
+}
+
+
+
+TEST(MeshInput, RefusesWhatItCannotUse)
+{
+  auto points = cube();
+  points[7]   = Point<3>(.2, .2, -.5);
+  expect_in(error_of(gmsh_text(points, {hexahedron})), "inverted");
+  expect_in(error_of(gmsh_text(cube(), {"4 2 7 1 1 2 3 5"})), "Tetrahedron");
+  expect_in(error_of(gmsh_text(cube(), {bottom})), "no hexahedra");
+  std::vector<Point<3>> quadratic(20);
+  std::string           nodes = "17 2 7 1";
+  for (unsigned int i = 0; i < 20; ++i)
+    {
+      quadratic[i] = Point<3>(.1 * i, .2 * i * i, .3);
+      nodes += " " + std::to_string(i + 1);
+    }
+  expect_in(error_of(gmsh_text(quadratic, {nodes})), "Hexahedron 20");
+  const std::string good = gmsh_text(cube(), {bottom, hexahedron});
+  error_of(good.substr(0, good.size() / 2));
+  error_of("this is not a mesh\n");
+  EXPECT_THROW(read_hexahedral_mesh("/nonexistent/file.msh", MPI_COMM_WORLD), InputError);
+}
