@@ -7,8 +7,10 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <chrono>
 #include <iostream>
 #include <optional>
+#include <thread>
 
 namespace
 {
@@ -79,6 +81,23 @@ namespace
     parameters.print(std::cout, true);
   }
 
+  /// Whether all ranks come here within two seconds: bad input is mostly found by all of them together, but
+  /// some of it (the value of an expression, say) by one rank while the others wait for it elsewhere.
+  bool all_ranks_come(const MPI_Comm communicator)
+  {
+    MPI_Request request;
+    MPI_Ibarrier(communicator, &request);
+    for (unsigned int i = 0; i < 200; ++i)
+      {
+        int done = 0;
+        MPI_Test(&request, &done, MPI_STATUS_IGNORE);
+        if (done)
+          return true;
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      }
+    return false;
+  }
+
   void run(const CommandLine &line)
   {
     const MPI_Comm             comm = MPI_COMM_WORLD;
@@ -122,6 +141,8 @@ main(int argc, char **argv)
 {
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   const bool is_root = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+  MPI_Comm   for_errors;
+  MPI_Comm_dup(MPI_COMM_WORLD, &for_errors);
   try
     {
       const CommandLine line = parse(argc, argv);
@@ -142,8 +163,11 @@ main(int argc, char **argv)
     }
   catch (const InputError &e)
     {
-      if (is_root)
+      const bool together = all_ranks_come(for_errors);
+      if (is_root || !together)
         std::cerr << "signorini: error: " << e.what() << std::endl;
+      if (!together)
+        MPI_Abort(MPI_COMM_WORLD, 1);
       return 1;
     }
   catch (const std::exception &e)

@@ -36,6 +36,7 @@ namespace Signorini
 
   Expression::Expression(const std::string &text, const std::string &where)
     : source(Utilities::trim(text))
+    , place(where)
   {
     std::size_t used = 0;
     try
@@ -52,6 +53,10 @@ namespace Signorini
           throw InputError(where + ": \"" + source + "\" is not a finite number.");
         return;
       }
+    // deal.II tells what the parser found on the standard error: take it into our message instead.
+    std::ostringstream    words;
+    std::streambuf *const standard_error = std::cerr.rdbuf(words.rdbuf());
+    std::string           error;
     try
       {
         auto function = std::make_shared<FunctionParser<3>>(1);
@@ -61,8 +66,33 @@ namespace Signorini
       }
     catch (const std::exception &)
       {
-        throw InputError(where + ": \"" + source + "\" is not an expression in x, y, z.");
+        error = where + ": \"" + source + "\" is not an expression in x, y, z";
+        std::string       line;
+        const std::string key = "Message:  <";
+        for (std::istringstream lines(words.str()); std::getline(lines, line);)
+          if (line.compare(0, key.size(), key) == 0 && line.back() == '>')
+            error += " (" + line.substr(key.size(), line.size() - key.size() - 1) + ")";
+        error += ".";
       }
+    std::cerr.rdbuf(standard_error);
+    if (!error.empty())
+      throw InputError(error);
+  }
+
+
+
+  double Expression::operator()(const Point<3> &p) const
+  {
+    if (!parser)
+      return constant;
+    const double value = parser->value(p);
+    if (!std::isfinite(value))
+      {
+        std::ostringstream message;
+        message << place << ": \"" << source << "\" has no finite value at (" << p << ").";
+        throw InputError(message.str());
+      }
+    return value;
   }
 
 

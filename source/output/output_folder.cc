@@ -64,8 +64,9 @@ namespace Signorini
 
   OutputFolder::~OutputFolder()
   {
+    // On every rank: after an error that one rank alone has met, the others never come here.
     std::error_code ignored;
-    if (!committed && Utilities::MPI::this_mpi_process(comm) == 0)
+    if (!committed)
       fs::remove_all(temporary, ignored);
   }
 

@@ -291,6 +291,7 @@ def errors(p):
                  ([prm, '--set', 'Body upper/Mesh=missing.msh'], 'missing.msh'),
                  ([prm, '--set', 'Pair interface/First=upper: lid'], 'lid'),
                  ([prm, '--set', 'Body upper/Dirichlet=top: (0, 0, bla(x))'], 'bla'),
+                 ([prm, '--set', 'Body upper/Dirichlet=top: (1/(x-1), 0, 0)'], 'finite'),
                  ([prm, '--wrong'], '--wrong')]
         for arguments, word in cases:
             run = p.call(*arguments, '--output', out)

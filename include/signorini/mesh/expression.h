@@ -25,10 +25,8 @@ namespace Signorini
     /// `where` names the parameter; it appears in the InputError for text that cannot be understood.
     Expression(const std::string &text, const std::string &where);
 
-    double operator()(const dealii::Point<3> &p) const
-    {
-      return parser ? parser->value(p) : constant;
-    }
+    /// Errors: InputError where the value is not finite (not collective: one rank alone may throw).
+    double operator()(const dealii::Point<3> &p) const;
 
     bool is_zero() const
     {
@@ -41,7 +39,7 @@ namespace Signorini
     }
 
   private:
-    std::string                                      source   = "0";
+    std::string                                      source   = "0", place;
     double                                           constant = 0.;
     std::shared_ptr<const dealii::FunctionParser<3>> parser;
   };
