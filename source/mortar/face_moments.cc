@@ -142,7 +142,8 @@ namespace Signorini
             x[i] = evaluate(nonmortar.mesh, cell.nonmortar_triangle, cell.nonmortar[i]);
             y[i] = evaluate(mortar.mesh, cell.mortar_triangle, cell.mortar[i]);
           }
-        const double        area = triangle_area(x);
+        // Negative where the mapping is turned, so that the cells of a face add up to what they cover.
+        const double area = cell.share() * Signorini::triangle_area(nonmortar.mesh, cell.nonmortar_triangle);
         const TriangleRule &rule =
             triangle_rule(face.is_parallelogram() && mortar_face.is_parallelogram() && !prescribed_gap);
         ShapeOnTriangle phi_at(face, x), theta_at(mortar_face, y);

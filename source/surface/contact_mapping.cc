@@ -1,19 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/surface/common_polygon.h>
 #include <signorini/surface/contact_mapping.h>
-#include <signorini/surface/normal_projection.h>
-#include <signorini/surface/pair_intersection.h>
 
-#include <deal.II/boost_adaptors/bounding_box.h>
-#include <deal.II/boost_adaptors/point.h>
-#include <deal.II/boost_adaptors/segment.h>
-#include <deal.II/numerics/rtree.h>
-
-#include <boost/geometry/algorithms/disjoint.hpp>
-#include <boost/geometry/index/rtree.hpp>
-
-#include <queue>
+#include <deal.II/base/tensor.h>
 
 namespace Signorini
 {
@@ -42,206 +33,256 @@ namespace Signorini
 
   namespace
   {
-    namespace bg  = boost::geometry;
-    namespace bgi = boost::geometry::index;
+    using On       = SurfacePoint::On;
+    using Position = CommonPolygon::Position;
 
-    using TreeBox   = bg::model::box<Point<3>>;
-    using TreeValue = std::pair<TreeBox, unsigned int>;
-    using Tree      = bgi::rtree<TreeValue, bgi::linear<16>>;
-
-    /// Coordinate c of any of boost's points.
-    template <typename P>
-    double component(const P &p, const unsigned int c)
+    /// Where a point lies on the border of a triangle, counterclockwise.
+    Position position_on(const SurfaceTopology &topology, const unsigned int triangle, const SurfacePoint &p)
     {
-      return c == 0 ? bg::get<0>(p) : (c == 1 ? bg::get<1>(p) : bg::get<2>(p));
-    }
-
-    TreeBox bounding_box(const SurfaceMesh &mesh, const unsigned int triangle)
-    {
-      Point<3> low = mesh.vertices[mesh.triangles[triangle][0]], high = low;
-      for (const unsigned int v : mesh.triangles[triangle])
-        for (unsigned int c = 0; c < 3; ++c)
-          {
-            low[c]  = std::min(low[c], mesh.vertices[v][c]);
-            high[c] = std::max(high[c], mesh.vertices[v][c]);
-          }
-      // A box of a flat triangle has no thickness: give it some, against rounding in the ray test.
-      const double margin = 1e-9 * low.distance(high);
-      for (unsigned int c = 0; c < 3; ++c)
+      if (p.on == On::vertex)
+        return {static_cast<int>(2 * topology.local_corner(triangle, p.index)), 0.};
+      if (p.on == On::edge)
         {
-          low[c] -= margin;
-          high[c] += margin;
+          const unsigned int i     = topology.local_edge(triangle, p.index);
+          const bool         along = topology.triangles[triangle][i] == topology.edges[p.index][0];
+          return {static_cast<int>(2 * i + 1), along ? p.x[0] : -p.x[0]};
         }
-      return {low, high};
+      return {};
     }
 
-    Tree make_tree(const SurfaceMesh &mesh)
+    Position turned(const Position &p)
     {
-      std::vector<TreeValue> boxes;
-      boxes.reserve(mesh.triangles.size());
-      for (unsigned int t = 0; t < mesh.triangles.size(); ++t)
-        boxes.emplace_back(bounding_box(mesh, t), t);
-      return Tree(boxes.begin(), boxes.end());
+      return p.feature < 0 ? p : Position{(6 - p.feature) % 6, -p.along};
     }
 
-    /// Collects all pairs of triangles that meet, from seeds, by walking over edges that are crossed.
-    class PairFront
+    /// A node in a nonmortar triangle, with a mortar triangle that it lies in as well.
+    struct Incident
     {
-    public:
-      PairFront(const SurfaceMesh &nonmortar, const SurfaceMesh &mortar)
-        : nonmortar(nonmortar)
-        , mortar(mortar)
-        , nonmortar_topology(nonmortar)
-        , mortar_topology(mortar)
-        , intersection(nonmortar, mortar)
-        , met(nonmortar.triangles.size())
+      unsigned int mortar_triangle, node;
+
+      bool operator<(const Incident &other) const
       {
-        seed_from_mortar_vertices();
-        advance();
-        seed_from_nonmortar_vertices();
-        advance();
+        return mortar_triangle != other.mortar_triangle ? mortar_triangle < other.mortar_triangle
+                                                        : node < other.node;
       }
-
-      /// Mortar triangles of each nonmortar triangle, with their common polygons.
-      std::vector<std::vector<std::pair<unsigned int, PairIntersection::Polygon>>> polygons;
-
-      std::vector<unsigned int> unmapped;
-
-    private:
-      void push(const unsigned int t, const unsigned int m)
-      {
-        auto &list = met[t];
-        if (std::find(list.begin(), list.end(), m) == list.end())
-          {
-            list.push_back(m);
-            front.emplace(t, m);
-          }
-      }
-
-      /// Step 1 of the paper: lines from the mortar vertices along their normals, nearest admissible hit.
-      void seed_from_mortar_vertices()
-      {
-        polygons.resize(nonmortar.triangles.size());
-        if (nonmortar.triangles.empty() || mortar.triangles.empty())
-          return;
-        const Tree tree   = make_tree(nonmortar);
-        const auto bounds = tree.bounds();
-        for (unsigned int v = 0; v < mortar.vertices.size(); ++v)
-          {
-            // As far as the other surface reaches.
-            double reach = 0.;
-            for (unsigned int c = 0; c < 3; ++c)
-              reach += std::max(std::abs(component(bounds.min_corner(), c) - mortar.vertices[v][c]),
-                                std::abs(component(bounds.max_corner(), c) - mortar.vertices[v][c]));
-            const Tensor<1, 3>                &n = mortar.vertex_normals[v];
-            const bg::model::segment<Point<3>> line(mortar.vertices[v] - reach * n,
-                                                    mortar.vertices[v] + reach * n);
-            double                             nearest = std::numeric_limits<double>::max();
-            int                                hit     = -1;
-            for (auto it = tree.qbegin(bgi::intersects(line)); it != tree.qend(); ++it)
-              {
-                std::array<double, 3> w;
-                double                eta;
-                if (intersection.line_hits(w, eta, v, it->second) && std::abs(eta) < nearest)
-                  {
-                    nearest = std::abs(eta);
-                    hit     = static_cast<int>(it->second);
-                  }
-              }
-            if (hit < 0)
-              unmapped.push_back(v);
-            else
-              for (unsigned int k = mortar_topology.fan_start[v]; k < mortar_topology.fan_start[v + 1]; ++k)
-                push(hit, mortar_topology.fan[k]);
-          }
-      }
-
-      /// Where the nonmortar surface lies inside of one mortar triangle no mortar vertex leads to it: try
-      /// the mortar triangles nearest to the vertices of triangles that nothing has met yet.
-      void seed_from_nonmortar_vertices()
-      {
-        if (nonmortar.triangles.empty() || mortar.triangles.empty())
-          return;
-        const Tree        tree = make_tree(mortar);
-        std::vector<bool> tried(nonmortar.vertices.size(), false);
-        for (unsigned int t = 0; t < nonmortar.triangles.size(); ++t)
-          if (polygons[t].empty())
-            for (const unsigned int v : nonmortar.triangles[t])
-              if (!tried[v])
-                {
-                  tried[v] = true;
-                  std::vector<TreeValue> candidates;
-                  tree.query(bgi::nearest(nonmortar.vertices[v], 8), std::back_inserter(candidates));
-                  for (const TreeValue &candidate : candidates)
-                    push(t, candidate.second);
-                }
-      }
-
-      void advance()
-      {
-        while (!front.empty())
-          {
-            const auto [t, m] = front.front();
-            front.pop();
-            PairIntersection::Result result = intersection.compute(t, m);
-            if (result.polygon.size() < 3)
-              continue;
-            // Corners on an edge: the triangles behind it meet as well (or touch, which costs one look).
-            for (unsigned int e = 0; e < 3; ++e)
-              {
-                if (result.touches_nonmortar_edge[e] && nonmortar_topology.neighbours[t][e] >= 0)
-                  push(nonmortar_topology.neighbours[t][e], m);
-                if (result.touches_mortar_edge[e] && mortar_topology.neighbours[m][e] >= 0)
-                  push(t, mortar_topology.neighbours[m][e]);
-              }
-            polygons[t].emplace_back(m, std::move(result.polygon));
-          }
-      }
-
-      const SurfaceMesh                                &nonmortar, &mortar;
-      const SurfaceTopology                             nonmortar_topology, mortar_topology;
-      PairIntersection                                  intersection;
-      std::vector<std::vector<unsigned int>>            met;
-      std::queue<std::pair<unsigned int, unsigned int>> front;
     };
+
+    void add_incident(std::vector<Incident> &list, const SurfaceTopology &mortar, const MappingNode &node,
+                      const unsigned int index)
+    {
+      const SurfacePoint &p = node.mortar;
+      if (p.on == On::triangle)
+        list.push_back({p.index, index});
+      else if (p.on == On::edge)
+        {
+          for (const unsigned int m : mortar.edge_triangles[p.index])
+            if (m != SurfaceTopology::none)
+              list.push_back({m, index});
+        }
+      else
+        for (unsigned int k = mortar.fan_start[p.index]; k < mortar.fan_start[p.index + 1]; ++k)
+          list.push_back({mortar.fan[k], index});
+    }
+
+    /// Twice the signed part of the triangle that a polygon covers.
+    double share_of(const std::vector<std::array<double, 2>> &x)
+    {
+      double share = 0.;
+      for (std::size_t i = 1; i + 1 < x.size(); ++i)
+        share +=
+            (x[i][0] - x[0][0]) * (x[i + 1][1] - x[0][1]) - (x[i][1] - x[0][1]) * (x[i + 1][0] - x[0][0]);
+      return share;
+    }
   } // namespace
 
 
 
-  ContactMapping::ContactMapping(const SurfaceMesh &nonmortar, const SurfaceMesh &mortar,
+  ContactMapping::ContactMapping(const SurfaceMesh &nonmortar_mesh, const SurfaceMesh &mortar_mesh,
                                  const std::function<bool(const unsigned int)> &is_selected)
+    : polygon_start(1, 0)
+    , nonmortar(nonmortar_mesh.triangles, nonmortar_mesh.vertices.size())
+    , mortar(mortar_mesh.triangles, mortar_mesh.vertices.size())
   {
-    PairFront front(nonmortar, mortar);
-    summary.unmapped_mortar = std::move(front.unmapped);
+    const Incidence incidence(nonmortar_mesh, mortar_mesh, nonmortar, mortar);
+    PlaneGraph      graph(incidence);
+    graph_nodes          = std::move(graph.nodes);
+    summary.n_lost_edges = graph.lost_edges.size();
+    for (unsigned int v = 0; v < graph.unmapped.size(); ++v)
+      if (graph.unmapped[v] != Unmapped::not_at_all)
+        summary.unmapped.emplace_back(v, graph.unmapped[v]);
+
+    std::vector<Incident>              incident;
+    std::vector<CommonPolygon::Corner> corners;
+    std::vector<std::array<double, 2>> flat;
+    CommonPolygon                      polygon;
     for (unsigned int t = 0; t < nonmortar.triangles.size(); ++t)
       {
         if (is_selected && !is_selected(t))
           continue;
-        const double area = triangle_area(nonmortar, t);
-        double       sum  = 0.;
-        summary.area_nonmortar += area;
-        auto &list = front.polygons[t];
-        std::sort(list.begin(), list.end(), [](const auto &a, const auto &b) { return a.first < b.first; });
-        for (const auto &[m, polygon] : list)
+        incident.clear();
+        for (unsigned int i = 0; i < 3; ++i)
           {
-            ++summary.n_pairs;
-            for (std::size_t i = 1; i + 1 < polygon.size(); ++i)
+            if (const unsigned int node = graph.nonmortar_vertex_node[nonmortar.triangles[t][i]];
+                node != SurfaceTopology::none)
+              add_incident(incident, mortar, graph_nodes[node], node);
+            const unsigned int e = nonmortar.triangle_edges[t][i];
+            for (unsigned int k = graph.edge_start[e]; k < graph.edge_start[e + 1]; ++k)
+              add_incident(incident, mortar, graph_nodes[graph.edge_nodes[k]], graph.edge_nodes[k]);
+          }
+        for (unsigned int k = graph.triangle_start[t]; k < graph.triangle_start[t + 1]; ++k)
+          add_incident(incident, mortar, graph_nodes[graph.triangle_nodes[k]], graph.triangle_nodes[k]);
+        std::sort(incident.begin(), incident.end());
+
+        const double area      = triangle_area(nonmortar_mesh, t);
+        double       sum       = 0.;
+        bool         at_border = false;
+        summary.area_nonmortar += area;
+        for (std::size_t first = 0, last; first < incident.size(); first = last)
+          {
+            const unsigned int m = incident[first].mortar_triangle;
+            for (last = first + 1; last < incident.size() && incident[last].mortar_triangle == m;)
+              ++last;
+            if (last - first < 3 || !incidence.triangles_face(t, m))
+              continue;
+            corners.clear();
+            for (std::size_t k = first; k < last; ++k)
               {
-                const auto &a = polygon[0], &b = polygon[i], &c = polygon[i + 1];
-                // Twice the share of the triangle's area: the determinant of the barycentric coordinates.
-                const double share = (b.nonmortar[1] - a.nonmortar[1]) * (c.nonmortar[2] - a.nonmortar[2]) -
-                                     (b.nonmortar[2] - a.nonmortar[2]) * (c.nonmortar[1] - a.nonmortar[1]);
-                if (std::abs(share) < 1e-15)
-                  continue;
-                cells.push_back(
-                    {t, m, {{a.nonmortar, b.nonmortar, c.nonmortar}}, {{a.mortar, b.mortar, c.mortar}}});
-                sum += std::abs(share) * area;
+                const MappingNode &node = graph_nodes[incident[k].node];
+                corners.push_back({incident[k].node, position_on(nonmortar, t, node.nonmortar),
+                                   turned(position_on(mortar, m, node.mortar))});
               }
+            if (!polygon.sort(corners))
+              {
+                ++summary.n_broken;
+                continue;
+              }
+            flat.clear();
+            for (const auto &corner : corners)
+              {
+                const auto w = graph_nodes[corner.node].nonmortar.weights_in(nonmortar, t);
+                flat.push_back({{w[1], w[2]}});
+              }
+            const double share = share_of(flat);
+            // Triangles that only touch.
+            if (std::abs(share) < 1e-15)
+              continue;
+            ++summary.n_pairs;
+            summary.n_flips += share < -1e-12;
+            sum += share * area;
+            summary.n_cells += corners.size() - 2;
+            polygon_triangles.emplace_back(t, m);
+            for (const auto &corner : corners)
+              polygon_corners.push_back(corner.node);
+            polygon_start.push_back(static_cast<unsigned int>(polygon_corners.size()));
+            for (const unsigned int e : mortar.triangle_edges[m])
+              at_border = at_border || mortar.is_border(e);
           }
         summary.area_covered += sum;
-        if (std::abs(sum - area) < 1e-6 * area)
+        if (sum != 0. && !at_border)
           summary.worst_tiling_defect = std::max(summary.worst_tiling_defect, std::abs(sum - area) / area);
       }
-    summary.n_cells = cells.size();
+  }
+
+
+
+  void ContactMapping::triangulate(std::vector<OverlayTriangle> &triangles, const std::size_t polygon) const
+  {
+    const auto [t, m] = polygon_triangles[polygon];
+    std::vector<std::array<double, 2>> flat;
+    for (unsigned int k = polygon_start[polygon]; k < polygon_start[polygon + 1]; ++k)
+      {
+        const auto w = graph_nodes[polygon_corners[k]].nonmortar.weights_in(nonmortar, t);
+        flat.push_back({{w[1], w[2]}});
+      }
+    std::vector<std::array<unsigned int, 3>> pieces;
+    triangulate_polygon(pieces, flat);
+    for (const auto &piece : pieces)
+      {
+        OverlayTriangle cell;
+        cell.nonmortar_triangle = t;
+        cell.mortar_triangle    = m;
+        for (unsigned int c = 0; c < 3; ++c)
+          {
+            const MappingNode &node = graph_nodes[polygon_corners[polygon_start[polygon] + piece[c]]];
+            cell.nonmortar[c]       = node.nonmortar.weights_in(nonmortar, t);
+            cell.mortar[c]          = node.mortar.weights_in(mortar, m);
+          }
+        if (std::abs(cell.share()) >= 1e-15)
+          triangles.push_back(cell);
+      }
+  }
+
+
+
+  std::vector<OverlayTriangle> ContactMapping::overlay() const
+  {
+    std::vector<OverlayTriangle> triangles;
+    triangles.reserve(summary.n_cells);
+    for (std::size_t i = 0; i < n_polygons(); ++i)
+      triangulate(triangles, i);
+    return triangles;
+  }
+
+
+
+  SurfacePoint ContactMapping::locate(const std::vector<unsigned int> &order, const std::size_t first,
+                                      const std::size_t last, const std::array<double, 3> &weights,
+                                      const bool to_mortar) const
+  {
+    // The triangle in which the smallest coordinate of the point is largest: at least 0 inside.
+    std::vector<OverlayTriangle> triangles;
+    for (std::size_t i = first; i < last; ++i)
+      triangulate(triangles, order.empty() ? i : order[i]);
+    double       best = -1e-10;
+    SurfacePoint result;
+    for (const OverlayTriangle &cell : triangles)
+      {
+        const auto &from = to_mortar ? cell.nonmortar : cell.mortar,
+                   &to   = to_mortar ? cell.mortar : cell.nonmortar;
+        const double ux = from[1][1] - from[0][1], uy = from[1][2] - from[0][2], vx = from[2][1] - from[0][1],
+                     vy = from[2][2] - from[0][2], px = weights[1] - from[0][1], py = weights[2] - from[0][2];
+        const double det = ux * vy - uy * vx;
+        if (det == 0.)
+          continue;
+        const double b = (px * vy - py * vx) / det, c = (ux * py - uy * px) / det, a = 1. - b - c;
+        if (const double smallest = std::min(a, std::min(b, c)); smallest > best)
+          {
+            best = smallest;
+            std::array<double, 3> w;
+            for (unsigned int k = 0; k < 3; ++k)
+              w[k] = a * to[0][k] + b * to[1][k] + c * to[2][k];
+            result = SurfacePoint::in_triangle(to_mortar ? cell.mortar_triangle : cell.nonmortar_triangle, w);
+          }
+      }
+    return result;
+  }
+
+
+
+  SurfacePoint ContactMapping::image(const unsigned int t, const std::array<double, 3> &weights) const
+  {
+    const auto range =
+        std::equal_range(polygon_triangles.begin(), polygon_triangles.end(), std::make_pair(t, 0u),
+                         [](const auto &a, const auto &b) { return a.first < b.first; });
+    return locate({}, range.first - polygon_triangles.begin(), range.second - polygon_triangles.begin(),
+                  weights, true);
+  }
+
+
+
+  SurfacePoint ContactMapping::preimage(const unsigned int m, const std::array<double, 3> &weights) const
+  {
+    if (by_mortar_start.empty())
+      {
+        by_mortar_start.assign(mortar.triangles.size() + 1, 0);
+        for (const auto &pair : polygon_triangles)
+          ++by_mortar_start[pair.second + 1];
+        std::partial_sum(by_mortar_start.begin(), by_mortar_start.end(), by_mortar_start.begin());
+        by_mortar.resize(polygon_triangles.size());
+        std::vector<unsigned int> next(by_mortar_start.begin(), by_mortar_start.end() - 1);
+        for (unsigned int i = 0; i < polygon_triangles.size(); ++i)
+          by_mortar[next[polygon_triangles[i].second]++] = i;
+      }
+    return locate(by_mortar, by_mortar_start[m], by_mortar_start[m + 1], weights, false);
   }
 } // namespace Signorini

@@ -1,6 +1,10 @@
 signorini_add_layer(surface
+  box_tree.cc
+  common_polygon.cc
   contact_mapping.cc
+  incidence.cc
   normal_projection.cc
-  pair_intersection.cc
+  plane_graph.cc
+  plane_graph_edges.cc
   surface_mesh.cc
 )

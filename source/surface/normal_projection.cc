@@ -13,13 +13,16 @@ namespace Signorini
   {
     namespace
     {
+      /// Newton's method is at rounding after a step of this size in a parameter: what is left is its square.
+      constexpr double last_step = 1e-9;
+
       /// Solves a 3x3 system given by columns; false if it is singular.
       bool solve(Tensor<1, 3> &x, const Tensor<1, 3> &c0, const Tensor<1, 3> &c1, const Tensor<1, 3> &c2,
                  const Tensor<1, 3> &rhs)
       {
         const Tensor<1, 3> c12 = cross_product_3d(c1, c2);
         const double       det = c0 * c12;
-        if (!(std::abs(det) > 1e-14 * c0.norm() * c1.norm() * c2.norm()))
+        if (!(det * det > 1e-28 * c0.norm_square() * c1.norm_square() * c2.norm_square()))
           return false;
         x[0] = (rhs * c12) / det;
         x[1] = (c0 * cross_product_3d(rhs, c2)) / det;
@@ -67,7 +70,7 @@ namespace Signorini
           const double step = (r * tangent) / ((d + eta * slope) * tangent);
           const double old  = s;
           s                 = std::min(2., std::max(-1., s + step));
-          if (!(std::abs(s - old) > 1e-15))
+          if (!(std::abs(s - old) > last_step))
             break;
         }
       n = edge.normal_a + s * slope;
@@ -95,7 +98,7 @@ namespace Signorini
           s += step[0];
           eta += step[1];
           t += step[2];
-          if (std::abs(step[0]) < 1e-15 && std::abs(step[2]) < 1e-15)
+          if (std::abs(step[0]) < last_step && std::abs(step[2]) < last_step)
             break;
         }
       return std::isfinite(s) && std::isfinite(t);
@@ -125,7 +128,7 @@ namespace Signorini
           weights[2] += step[1];
           weights[0] = 1. - weights[1] - weights[2];
           eta += step[2];
-          if (std::abs(step[0]) < 1e-15 && std::abs(step[1]) < 1e-15)
+          if (std::abs(step[0]) < last_step && std::abs(step[1]) < last_step)
             break;
         }
       return std::isfinite(weights[0]) && std::isfinite(eta);

@@ -27,31 +27,131 @@ namespace Signorini
 
 
 
-  SurfaceTopology::SurfaceTopology(const SurfaceMesh &mesh)
-    : neighbours(mesh.triangles.size(), {{-1, -1, -1}})
-    , fan_start(mesh.vertices.size() + 1, 0)
-    , fan(3 * mesh.triangles.size())
+  SurfaceTopology::SurfaceTopology(std::vector<std::array<unsigned int, 3>> triangle_list,
+                                   const std::size_t                        n_vertices)
+    : triangles(std::move(triangle_list))
+    , triangle_edges(triangles.size())
+    , fan_start(n_vertices + 1, 0)
+    , fan(3 * triangles.size())
   {
-    for (const auto &triangle : mesh.triangles)
+    for (const auto &triangle : triangles)
       for (const unsigned int v : triangle)
         ++fan_start[v + 1];
     std::partial_sum(fan_start.begin(), fan_start.end(), fan_start.begin());
     std::vector<unsigned int> next(fan_start.begin(), fan_start.end() - 1);
-    for (unsigned int t = 0; t < mesh.triangles.size(); ++t)
-      for (const unsigned int v : mesh.triangles[t])
+    for (unsigned int t = 0; t < triangles.size(); ++t)
+      for (const unsigned int v : triangles[t])
         fan[next[v]++] = t;
 
-    for (unsigned int t = 0; t < mesh.triangles.size(); ++t)
-      for (unsigned int e = 0; e < 3; ++e)
-        {
-          const unsigned int a = mesh.triangles[t][e], b = mesh.triangles[t][(e + 1) % 3];
-          for (unsigned int k = fan_start[a]; k < fan_start[a + 1]; ++k)
-            if (const auto &other = mesh.triangles[fan[k]];
-                fan[k] != t && std::find(other.begin(), other.end(), b) != other.end())
+    // Each edge is made at its lower vertex; the few edges there are searched one after the other.
+    edges.reserve(3 * triangles.size() / 2 + n_vertices / 2);
+    edge_triangles.reserve(edges.capacity());
+    for (unsigned int v = 0; v < n_vertices; ++v)
+      {
+        const std::size_t first = edges.size();
+        for (unsigned int k = fan_start[v]; k < fan_start[v + 1]; ++k)
+          {
+            const unsigned int t = fan[k];
+            for (unsigned int i = 0; i < 3; ++i)
               {
-                neighbours[t][e] = static_cast<int>(fan[k]);
-                break;
+                const unsigned int a = triangles[t][i], b = triangles[t][(i + 1) % 3];
+                if (std::min(a, b) != v)
+                  continue;
+                const unsigned int other = std::max(a, b), side = a < b ? 0 : 1;
+                std::size_t        e    = first;
+                bool               used = false;
+                for (; e < edges.size(); ++e)
+                  if (edges[e][1] == other)
+                    {
+                      used = used || edge_triangles[e][side] != none;
+                      if (edge_triangles[e][side] == none)
+                        break;
+                    }
+                if (e == edges.size())
+                  {
+                    n_conflicts += used;
+                    edges.push_back({{v, other}});
+                    edge_triangles.push_back({{none, none}});
+                  }
+                edge_triangles[e][side] = t;
+                triangle_edges[t][i]    = static_cast<unsigned int>(e);
               }
-        }
+          }
+      }
+  }
+
+
+
+  SurfacePoint SurfacePoint::at_vertex(const unsigned int vertex)
+  {
+    SurfacePoint p;
+    p.on    = On::vertex;
+    p.index = vertex;
+    return p;
+  }
+
+
+
+  SurfacePoint SurfacePoint::on_edge(const unsigned int edge, const double parameter)
+  {
+    SurfacePoint p;
+    p.on    = On::edge;
+    p.index = edge;
+    p.x[0]  = std::min(1., std::max(0., parameter));
+    return p;
+  }
+
+
+
+  SurfacePoint SurfacePoint::in_triangle(const unsigned int triangle, const std::array<double, 3> &weights)
+  {
+    double sum = 0.;
+    for (const double w : weights)
+      sum += std::max(0., w);
+    SurfacePoint p;
+    p.on    = On::triangle;
+    p.index = triangle;
+    p.x     = {{std::max(0., weights[1]) / sum, std::max(0., weights[2]) / sum}};
+    return p;
+  }
+
+
+
+  bool SurfacePoint::lies_in(const SurfaceTopology &topology, const unsigned int triangle) const
+  {
+    const auto contains = [&](const std::array<unsigned int, 3> &list) {
+      return list[0] == index || list[1] == index || list[2] == index;
+    };
+    switch (on)
+      {
+        case On::triangle:
+          return index == triangle;
+        case On::edge:
+          return contains(topology.triangle_edges[triangle]);
+        case On::vertex:
+          return contains(topology.triangles[triangle]);
+        default:
+          return false;
+      }
+  }
+
+
+
+  std::array<double, 3> SurfacePoint::weights_in(const SurfaceTopology &topology,
+                                                 const unsigned int     triangle) const
+  {
+    std::array<double, 3> w = {{0., 0., 0.}};
+    if (on == On::triangle)
+      w = {{std::max(0., 1. - x[0] - x[1]), x[0], x[1]}};
+    else if (on == On::vertex)
+      w[topology.local_corner(triangle, index)] = 1.;
+    else
+      {
+        const unsigned int i = topology.local_edge(triangle, index), j = (i + 1) % 3;
+        const bool         along = topology.triangles[triangle][i] == topology.edges[index][0];
+        w[i]                     = along ? 1. - x[0] : x[0];
+        w[j]                     = along ? x[0] : 1. - x[0];
+      }
+    return w;
   }
 } // namespace Signorini

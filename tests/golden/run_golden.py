@@ -42,14 +42,14 @@ def differences(new, old, path=''):
         if len(new) != len(old):
             yield f'{path}: {len(new)} entries, stored {len(old)}'
         # Components of a vector are compared on the scale of the vector.
-        scale = max((abs(x) for x in old), default=0) if all(isinstance(x, float) for x in old) else None
+        scale = max((abs(x) for x in old), default=0) if any(isinstance(x, float) for x in old) else None
         for i, (a, b) in enumerate(zip(new, old)):
             if scale is not None:
                 if abs(a - b) > 1e-8 * scale:
                     yield f'{path}/{i}: {a!r}, stored {b!r}'
             else:
                 yield from differences(a, b, f'{path}/{i}')
-    elif isinstance(old, float):
+    elif isinstance(old, float) or isinstance(new, float):  # JSON writes 1.0 as 1
         if abs(new - old) > 1e-8 * abs(old):
             yield f'{path}: {new!r}, stored {old!r}'
     # Rounding may decide whether the last correction is below the tolerance; more would be a change.

@@ -5,10 +5,10 @@
 #define signorini_surface_contact_mapping_h
 
 #include <signorini/surface/overlay.h>
+#include <signorini/surface/plane_graph.h>
 #include <signorini/surface/surface_mesh.h>
 
 #include <functional>
-#include <string>
 #include <vector>
 
 namespace Signorini
@@ -18,43 +18,87 @@ namespace Signorini
   {
     /// Area of the selected nonmortar triangles, and of the overlay on them.
     double area_nonmortar = 0., area_covered = 0.;
-    /// Largest |sum of overlay areas - area| / area over selected triangles that are covered entirely (to
-    /// 1e-6).
+    /// Largest |sum of overlay areas - area| / area over selected triangles that are covered entirely: those
+    /// that no border of the mortar surface runs through.
     double worst_tiling_defect = 0.;
-    /// Overlay triangles, and pairs of triangles that meet.
+    /// Overlay triangles (some may have no area, to rounding, and are left out of the overlay), and pairs of
+    /// triangles that meet.
     std::size_t n_cells = 0, n_pairs = 0;
-    /// Mortar vertices that no line along their normal takes to the nonmortar surface.
-    std::vector<unsigned int> unmapped_mortar;
+    /// Polygons whose orientation is turned, because a cell of the mortar surface is bent more than it is
+    /// wide (their area counts negative); and pairs of triangles whose common corners make no polygon.
+    std::size_t n_flips = 0, n_broken = 0;
+    /// Mortar edges whose image could not be followed.
+    std::size_t n_lost_edges = 0;
+    /// Mortar vertices without an image, in ascending order, with the reason.
+    std::vector<std::pair<unsigned int, Unmapped>> unmapped;
   };
 
   /// The contact mapping Phi between two triangulated surfaces (Krause & Sander, section 3): Phi^-1 is the
-  /// projection of the mortar surface along its continuous normal field. Corners of the overlay are images of
-  /// mortar vertices, nonmortar vertices (system (9)) and crossings of edges (system (10)).
-  ///
-  /// Whether a vertex lies left of, right of, or on an edge of the other surface is a function of that vertex
-  /// and that edge alone, so all triangles around agree on it, and the pieces of a triangle tile it.
+  /// projection of the mortar surface along its continuous normal field. The faces of the plane graph are the
+  /// polygons in which a nonmortar and a mortar triangle meet; Phi is linear on the triangles they are cut
+  /// into.
   class ContactMapping
   {
   public:
-    /// Surfaces with vertex normals. is_selected: the nonmortar triangles whose overlay is wanted (a rank's
-    /// own faces); empty for all. The overlay of a triangle does not depend on the selection.
+    /// Surfaces with vertex normals; they need not outlive the mapping. is_selected: the nonmortar triangles
+    /// whose overlay is wanted (a rank's own faces); empty for all. The overlay of a triangle does not depend
+    /// on the selection.
     ContactMapping(const SurfaceMesh &nonmortar, const SurfaceMesh &mortar,
                    const std::function<bool(const unsigned int)> &is_selected = {});
 
-    /// Ordered by nonmortar, then by mortar triangle.
-    const std::vector<OverlayTriangle> &overlay() const
+    std::size_t n_polygons() const
     {
-      return cells;
+      return polygon_triangles.size();
     }
+
+    /// Appends the triangles of one polygon.
+    void triangulate(std::vector<OverlayTriangle> &triangles, const std::size_t polygon) const;
+
+    /// The triangles of all polygons, ordered by nonmortar, then by mortar triangle.
+    std::vector<OverlayTriangle> overlay() const;
+
+    /// Phi at a point of a nonmortar triangle, Phi^-1 at a point of a mortar triangle. On::nothing where the
+    /// surfaces do not meet.
+    SurfacePoint image(const unsigned int nonmortar_triangle, const std::array<double, 3> &weights) const;
+    SurfacePoint preimage(const unsigned int mortar_triangle, const std::array<double, 3> &weights) const;
 
     const MappingReport &report() const
     {
       return summary;
     }
 
+    const SurfaceTopology &nonmortar_topology() const
+    {
+      return nonmortar;
+    }
+
+    const SurfaceTopology &mortar_topology() const
+    {
+      return mortar;
+    }
+
+    /// Nodes of the plane graph.
+    const std::vector<MappingNode> &nodes() const
+    {
+      return graph_nodes;
+    }
+
+    /// Polygon i meets nonmortar triangle first and mortar triangle second; its corners are the nodes
+    /// corners[start[i]] ... corners[start[i+1]-1], counterclockwise for a viewer outside of the nonmortar
+    /// body.
+    std::vector<std::pair<unsigned int, unsigned int>> polygon_triangles;
+    std::vector<unsigned int>                          polygon_start, polygon_corners;
+
   private:
-    std::vector<OverlayTriangle> cells;
-    MappingReport                summary;
+    SurfacePoint locate(const std::vector<unsigned int> &order, const std::size_t first,
+                        const std::size_t last, const std::array<double, 3> &weights,
+                        const bool to_mortar) const;
+
+    SurfaceTopology          nonmortar, mortar;
+    std::vector<MappingNode> graph_nodes;
+    MappingReport            summary;
+    /// Polygons by mortar triangle; made when Phi^-1 is asked for first.
+    mutable std::vector<unsigned int> by_mortar_start, by_mortar;
   };
 
   /// The point of a triangle with given barycentric coordinates.

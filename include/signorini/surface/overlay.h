@@ -20,6 +20,13 @@ namespace Signorini
     std::array<std::array<double, 3>, 3> nonmortar;
     /// The same in the mortar triangle.
     std::array<std::array<double, 3>, 3> mortar;
+
+    /// Its part of the area of the nonmortar triangle; negative where the mapping is turned.
+    double share() const
+    {
+      const auto &[a, b, c] = nonmortar;
+      return (b[1] - a[1]) * (c[2] - a[2]) - (b[2] - a[2]) * (c[1] - a[1]);
+    }
   };
 } // namespace Signorini
 

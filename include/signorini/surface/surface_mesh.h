@@ -25,15 +25,76 @@ namespace Signorini
     void compute_vertex_normals();
   };
 
-  /// Who is next to whom on a triangulated surface.
+  /// Triangles, edges and vertices of a triangulated surface and who is next to whom. Plain arrays, sized
+  /// once.
   struct SurfaceTopology
   {
-    explicit SurfaceTopology(const SurfaceMesh &mesh);
+    static constexpr unsigned int none = static_cast<unsigned int>(-1);
 
-    /// Per triangle and edge (corner i to corner i + 1) the triangle behind that edge, or -1.
-    std::vector<std::array<int, 3>> neighbours;
+    /// Vertex numbers below n_vertices.
+    SurfaceTopology(std::vector<std::array<unsigned int, 3>> triangles, const std::size_t n_vertices);
+
+    /// Of an edge the local number (corner i to corner i + 1) in one of its triangles.
+    unsigned int local_edge(const unsigned int triangle, const unsigned int edge) const
+    {
+      const auto &e = triangle_edges[triangle];
+      return e[0] == edge ? 0 : (e[1] == edge ? 1 : 2);
+    }
+
+    unsigned int local_corner(const unsigned int triangle, const unsigned int vertex) const
+    {
+      const auto &t = triangles[triangle];
+      return t[0] == vertex ? 0 : (t[1] == vertex ? 1 : 2);
+    }
+
+    bool is_border(const unsigned int edge) const
+    {
+      return edge_triangles[edge][0] == none || edge_triangles[edge][1] == none;
+    }
+
+    std::vector<std::array<unsigned int, 3>> triangles;
+    /// Edge i of a triangle goes from corner i to corner i + 1.
+    std::vector<std::array<unsigned int, 3>> triangle_edges;
+    /// Ends of an edge, the lower number first.
+    std::vector<std::array<unsigned int, 2>> edges;
+    /// The triangle that runs through the edge from its lower to its higher vertex (it lies on the left for a
+    /// viewer outside of the body) and the one that runs through it the other way; or `none`.
+    std::vector<std::array<unsigned int, 2>> edge_triangles;
     /// Triangles around vertex v: fan[fan_start[v]] ... fan[fan_start[v+1]-1].
     std::vector<unsigned int> fan_start, fan;
+    /// Triangles that would be the third on an edge or the second on the same side of it: their edge is a
+    /// border of its own.
+    std::size_t n_conflicts = 0;
+  };
+
+  /// A place on a surface: at a vertex, on an edge, or inside of a triangle. Decided once and kept, so that
+  /// everything that is built on it agrees.
+  struct SurfacePoint
+  {
+    enum class On : unsigned char
+    {
+      nothing,
+      vertex,
+      edge,
+      triangle
+    };
+
+    On           on    = On::nothing;
+    unsigned int index = SurfaceTopology::none;
+    /// On an edge: the parameter from the lower to the higher vertex number (first); in a triangle: the
+    /// barycentric coordinates of corners 1 and 2.
+    std::array<double, 2> x = {{0., 0.}};
+
+    static SurfacePoint at_vertex(const unsigned int vertex);
+    static SurfacePoint on_edge(const unsigned int edge, const double parameter);
+    static SurfacePoint in_triangle(const unsigned int triangle, const std::array<double, 3> &weights);
+
+    /// Whether it lies in a (closed) triangle.
+    bool lies_in(const SurfaceTopology &topology, const unsigned int triangle) const;
+
+    /// Its barycentric coordinates in a triangle that it lies in; in [0,1], exactly 0 and 1 at edges and
+    /// corners.
+    std::array<double, 3> weights_in(const SurfaceTopology &topology, const unsigned int triangle) const;
   };
 } // namespace Signorini
 

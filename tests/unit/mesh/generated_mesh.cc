@@ -54,7 +54,9 @@ namespace
       if (cell->is_locally_owned())
         for (const auto &face : cell->face_iterators())
           if (face->at_boundary() && ids.count(face->boundary_id()) > 0)
-            sum += .5 * cross_product_3d(face->vertex(3) - face->vertex(0), face->vertex(2) - face->vertex(1)).norm();
+            sum +=
+                .5 *
+                cross_product_3d(face->vertex(3) - face->vertex(0), face->vertex(2) - face->vertex(1)).norm();
     return Utilities::MPI::sum(sum, MPI_COMM_WORLD);
   }
 
@@ -108,16 +110,25 @@ TEST_P(GeneratedMeshes, HaveVolumesAndAreasThatConverge)
 
 INSTANTIATE_TEST_SUITE_P(
     All, GeneratedMeshes,
-    testing::Values(Shape{"block", 6., {{"left", 6.}, {"right", 6.}, {"front", 3.}, {"back", 3.}, {"bottom", 2.}, {"top", 2.}}},
-                    Shape{"ball", 32. / 3. * M_PI, {{"sphere", 16. * M_PI}}},
-                    Shape{"half ball", 16. / 3. * M_PI, {{"sphere", 8. * M_PI}, {"top", 4. * M_PI}}},
-                    Shape{"quarter of ball", 8. / 3. * M_PI, {{"sphere", 4. * M_PI}, {"symmetry x", 2. * M_PI}, {"symmetry y", 2. * M_PI}}},
-                    Shape{"quarter of half ball", 4. / 3. * M_PI, {{"sphere", 2. * M_PI}, {"top", M_PI}, {"symmetry x", M_PI}, {"symmetry y", M_PI}}},
-                    Shape{"eighth of ball", 4. / 3. * M_PI, {{"sphere", 2. * M_PI}, {"symmetry z", M_PI}}},
-                    Shape{"cylinder", 12. * M_PI, {{"side", 12. * M_PI}, {"top", 4. * M_PI}, {"bottom", 4. * M_PI}}},
-                    Shape{"quarter of cylinder", 3. * M_PI, {{"side", 3. * M_PI}, {"top", M_PI}, {"symmetry x", 6.}, {"symmetry y", 6.}}},
-                    Shape{"spherical shell", 28. / 3. * M_PI, {{"outer", 16. * M_PI}, {"inner", 4. * M_PI}}},
-                    Shape{"eighth of spherical shell", 7. / 6. * M_PI, {{"outer", 2. * M_PI}, {"inner", .5 * M_PI}}}));
+    testing::Values(
+        Shape{"block",
+              6.,
+              {{"left", 6.}, {"right", 6.}, {"front", 3.}, {"back", 3.}, {"bottom", 2.}, {"top", 2.}}},
+        Shape{"ball", 32. / 3. * M_PI, {{"sphere", 16. * M_PI}}},
+        Shape{"half ball", 16. / 3. * M_PI, {{"sphere", 8. * M_PI}, {"top", 4. * M_PI}}},
+        Shape{"quarter of ball",
+              8. / 3. * M_PI,
+              {{"sphere", 4. * M_PI}, {"symmetry x", 2. * M_PI}, {"symmetry y", 2. * M_PI}}},
+        Shape{"quarter of half ball",
+              4. / 3. * M_PI,
+              {{"sphere", 2. * M_PI}, {"top", M_PI}, {"symmetry x", M_PI}, {"symmetry y", M_PI}}},
+        Shape{"eighth of ball", 4. / 3. * M_PI, {{"sphere", 2. * M_PI}, {"symmetry z", M_PI}}},
+        Shape{"cylinder", 12. * M_PI, {{"side", 12. * M_PI}, {"top", 4. * M_PI}, {"bottom", 4. * M_PI}}},
+        Shape{"quarter of cylinder",
+              3. * M_PI,
+              {{"side", 3. * M_PI}, {"top", M_PI}, {"symmetry x", 6.}, {"symmetry y", 6.}}},
+        Shape{"spherical shell", 28. / 3. * M_PI, {{"outer", 16. * M_PI}, {"inner", 4. * M_PI}}},
+        Shape{"eighth of spherical shell", 7. / 6. * M_PI, {{"outer", 2. * M_PI}, {"inner", .5 * M_PI}}}));
 
 
 
@@ -158,8 +169,9 @@ TEST(CoarseningSequence, HasTheMeshesOfDealII)
 {
   Bodies bodies(MPI_COMM_WORLD, {body("half ball")}, ".");
   refine_near_pole(bodies);
-  const auto   ours     = create_coarsening_sequence(bodies.triangulation());
-  const auto   expected = MGTransferGlobalCoarseningTools::create_geometric_coarsening_sequence(bodies.triangulation());
+  const auto ours = create_coarsening_sequence(bodies.triangulation());
+  const auto expected =
+      MGTransferGlobalCoarseningTools::create_geometric_coarsening_sequence(bodies.triangulation());
   ASSERT_EQ(ours.size() + 1, expected.size());
   for (std::size_t l = 0; l < ours.size(); ++l)
     {
@@ -192,10 +204,10 @@ TEST(NodalSpace, NodesLieOnTheSphere)
 {
   Bodies bodies(MPI_COMM_WORLD, {body("half ball")}, ".");
   refine_near_pole(bodies);
-  const NodalSpace                           space(bodies.triangulation());
-  const std::set<types::boundary_id>         sphere = bodies.boundary_ids(0, "sphere");
-  std::array<NodeIndex, 8>                   nodes;
-  unsigned int                               n_hanging = 0;
+  const NodalSpace                   space(bodies.triangulation());
+  const std::set<types::boundary_id> sphere = bodies.boundary_ids(0, "sphere");
+  std::array<NodeIndex, 8>           nodes;
+  unsigned int                       n_hanging = 0;
   for (const auto &cell : space.dof_handler().active_cell_iterators())
     if (cell->is_locally_owned())
       {

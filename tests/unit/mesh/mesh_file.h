@@ -18,9 +18,9 @@ class TemporaryFile
 public:
   explicit TemporaryFile(const std::string &content, const std::string &ending = ".msh")
   {
-    const int id = dealii::Utilities::MPI::broadcast(MPI_COMM_WORLD, static_cast<int>(getpid()), 0);
-    static int n = 0;
-    path         = "/tmp/signorini-test-" + std::to_string(id) + "-" + std::to_string(n++) + ending;
+    const int  id = dealii::Utilities::MPI::broadcast(MPI_COMM_WORLD, static_cast<int>(getpid()), 0);
+    static int n  = 0;
+    path          = "/tmp/signorini-test-" + std::to_string(id) + "-" + std::to_string(n++) + ending;
     if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
       std::ofstream(path) << content;
     MPI_Barrier(MPI_COMM_WORLD);

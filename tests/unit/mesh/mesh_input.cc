@@ -71,7 +71,8 @@ TEST(MeshInput, TakesIdsWhereThereAreNoNames)
   const TemporaryFile file(gmsh_text(cube(), {bottom, hexahedron}));
   const auto          mesh = read_hexahedral_mesh(file.path, MPI_COMM_WORLD);
   EXPECT_EQ(mesh.volume_names, std::vector<std::string>{"7"});
-  EXPECT_NE(std::find(mesh.boundary_names.begin(), mesh.boundary_names.end(), "11"), mesh.boundary_names.end());
+  EXPECT_NE(std::find(mesh.boundary_names.begin(), mesh.boundary_names.end(), "11"),
+            mesh.boundary_names.end());
 }
 
 

@@ -17,8 +17,8 @@ namespace
   ContactSurface extract(const Bodies &bodies, const NodalSpace &space, const std::string &boundary,
                          const std::function<bool(const Point<3> &)> &region = {})
   {
-    return extract_contact_surface(space, bodies.boundary_ids(0, boundary), [](const NodeIndex) { return FixedMask(0); },
-                                   region);
+    return extract_contact_surface(
+        space, bodies.boundary_ids(0, boundary), [](const NodeIndex) { return FixedMask(0); }, region);
   }
 
   void refine_near(Bodies &bodies, const Point<3> &p, const double radius)
@@ -95,8 +95,8 @@ TEST(SurfaceExtraction, TopOfABlockWithHangingNodes)
 
 
 
-// The coarse neighbours of the hanging nodes lie outside of the region: the nodes hang all the same, and their
-// parents are there.
+// The coarse neighbours of the hanging nodes lie outside of the region: the nodes hang all the same, and
+// their parents are there.
 TEST(SurfaceExtraction, HangingNodesAtTheBorderOfARegion)
 {
   BodyParameters p;
@@ -151,9 +151,9 @@ TEST(SurfaceExtraction, SkewFacesWithAHangingNodeHaveNoFlatTriangles)
   for (const double z : {0., 1.})
     for (const auto &q : xy)
       points.emplace_back(q[0], q[1], z);
-  const TemporaryFile file(
-      gmsh_text(points, {"3 2 9 1 7 8 9 10", "3 2 9 1 10 9 11 12", "5 2 1 1 1 2 3 4 7 8 9 10", "5 2 1 1 4 3 5 6 10 9 11 12"}));
-  BodyParameters p;
+  const TemporaryFile file(gmsh_text(points, {"3 2 9 1 7 8 9 10", "3 2 9 1 10 9 11 12",
+                                              "5 2 1 1 1 2 3 4 7 8 9 10", "5 2 1 1 4 3 5 6 10 9 11 12"}));
+  BodyParameters      p;
   p.mesh = file.path;
   Bodies bodies(MPI_COMM_WORLD, {p}, ".");
   refine_near(bodies, Point<3>(.5, -.5, .5), .1);

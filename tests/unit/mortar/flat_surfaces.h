@@ -245,6 +245,12 @@ namespace FlatSurfaces
                       cell.nonmortar[c] = barycentric(non, t, *corners[c]);
                       cell.mortar[c]    = barycentric(mor, m, *corners[c]);
                     }
+                  // Surfaces seen from below come clockwise.
+                  if (cell.share() < 0.)
+                    {
+                      std::swap(cell.nonmortar[1], cell.nonmortar[2]);
+                      std::swap(cell.mortar[1], cell.mortar[2]);
+                    }
                   overlay.push_back(cell);
                 }
           }

@@ -140,6 +140,7 @@ TEST(ContactMapping, CurvedSurfaces)
     return Point<3>(x, y, 2. - std::sqrt(4. - (x - .5) * (x - .5) - (y - .5) * (y - .5)));
   };
   expect_full_cover(grid(9, wave, true), grid(7, stretched(saddle), false));
+  expect_full_cover(grid(9, saddle, true), grid(7, stretched(wave), false));
   expect_full_cover(grid(6, cap, true, .2, 3), grid(11, stretched(cap), false, .2, 4));
   expect_full_cover(grid(8, flat, true), grid(9, stretched(cap), false));
 }

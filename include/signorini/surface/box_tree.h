@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_surface_box_tree_h
+#define signorini_surface_box_tree_h
+
+#include <deal.II/base/point.h>
+
+#include <array>
+#include <memory>
+#include <vector>
+
+namespace Signorini
+{
+  /// Spatial search among boxes (of triangles, of edges): an r-tree of boost, built in O(n log n).
+  class BoxTree
+  {
+  public:
+    struct Box
+    {
+      dealii::Point<3> low, high;
+
+      void include(const dealii::Point<3> &p);
+    };
+
+    explicit BoxTree(const std::vector<Box> &boxes);
+    BoxTree(BoxTree &&) noexcept;
+    ~BoxTree();
+
+    /// The boxes that an infinite line meets, in no particular order.
+    void find_along_line(std::vector<unsigned int> &found, const dealii::Point<3> &p,
+                         const dealii::Tensor<1, 3> &direction) const;
+
+    /// The boxes that overlap another one.
+    void find_overlapping(std::vector<unsigned int> &found, const Box &box) const;
+
+    /// The `number` boxes nearest to a point.
+    void find_nearest(std::vector<unsigned int> &found, const dealii::Point<3> &p,
+                      const unsigned int number) const;
+
+  private:
+    struct Tree;
+    std::unique_ptr<Tree> tree;
+  };
+} // namespace Signorini
+
+#endif

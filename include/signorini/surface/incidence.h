@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_surface_incidence_h
+#define signorini_surface_incidence_h
+
+#include <signorini/surface/surface_mesh.h>
+
+#include <vector>
+
+namespace Signorini
+{
+  /// On which side of an edge of one surface a vertex of the other lies: left, right, or on it. A function of
+  /// that vertex and that edge alone, so that all triangles around agree.
+  ///
+  /// All sides are those of a viewer outside of the nonmortar body.
+  class Incidence
+  {
+  public:
+    struct Side
+    {
+      /// 1 on the left of the edge from its lower to its higher vertex number, -1 on the right, 0 on it.
+      int sign;
+      /// The signed distance, and the parameter of the foot on the edge (0 at the lower vertex).
+      double distance, position;
+    };
+
+    Incidence(const SurfaceMesh &nonmortar, const SurfaceMesh &mortar,
+              const SurfaceTopology &nonmortar_topology, const SurfaceTopology &mortar_topology);
+
+    /// Of a mortar vertex, seen along its normal.
+    Side of_mortar_vertex(const unsigned int vertex, const unsigned int nonmortar_edge) const;
+
+    /// Of a nonmortar vertex, with respect to the curtain that the normals along a mortar edge span.
+    Side of_nonmortar_vertex(const unsigned int vertex, const unsigned int mortar_edge) const;
+
+    /// System (10) of the paper: the parameters where the image of a mortar edge crosses a nonmortar edge
+    /// (t on the nonmortar, s on the mortar edge), between given sides of the ends. In [0,1]; false if the
+    /// lines do not cross there (then t and s are a guess).
+    bool cross(double &t, double &s, const unsigned int nonmortar_edge, const unsigned int mortar_edge,
+               const Side &low_end, const Side &high_end) const;
+
+    /// Whether a mortar vertex and a nonmortar triangle, or two triangles, face each other.
+    bool vertex_faces(const unsigned int mortar_vertex, const unsigned int nonmortar_triangle) const;
+    bool triangles_face(const unsigned int nonmortar_triangle, const unsigned int mortar_triangle) const;
+
+    const SurfaceMesh     &nonmortar, &mortar;
+    const SurfaceTopology &nonmortar_topology, &mortar_topology;
+
+  private:
+    /// Length of the shortest edge at each vertex: what the tolerance is relative to.
+    std::vector<double> nonmortar_size, mortar_size;
+  };
+} // namespace Signorini
+
+#endif

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_surface_plane_graph_h
+#define signorini_surface_plane_graph_h
+
+#include <signorini/surface/incidence.h>
+#include <signorini/surface/surface_mesh.h>
+
+#include <memory>
+#include <set>
+#include <vector>
+
+namespace Signorini
+{
+  class BoxTree;
+
+  /// Why a mortar vertex has no image on the nonmortar surface.
+  enum class Unmapped : unsigned char
+  {
+    /// It has one.
+    not_at_all,
+    /// The line along its normal misses the nonmortar surface.
+    no_hit,
+    /// The same, with a neighbour that has an image: the vertex lies just outside of the common part.
+    outside_rim,
+    /// It hits, but only triangles that do not face it.
+    wrong_side
+  };
+
+  /// A node of the plane graph with its places on both surfaces: Phi takes the first to the second.
+  struct MappingNode
+  {
+    SurfacePoint nonmortar, mortar;
+  };
+
+  /// The image of the edge graph of the mortar surface on the nonmortar surface under Phi^-1 (Krause & Sander,
+  /// section 3), by its nodes: images of mortar vertices, crossings of edges (system (10)), and the nonmortar
+  /// vertices with their images (system (9)).
+  ///
+  /// Where a vertex lies is decided once. From there the image of a mortar edge is followed through the
+  /// triangles by topology: which edge it leaves through is a matter of the side on which it passes a vertex.
+  /// Numbers only place the nodes. So the pieces always fit together, whatever the rounding.
+  class PlaneGraph
+  {
+  public:
+    explicit PlaneGraph(const Incidence &incidence);
+    ~PlaneGraph();
+
+    static constexpr unsigned int none = SurfaceTopology::none;
+
+    std::vector<MappingNode> nodes;
+    /// The node at each vertex, or none.
+    std::vector<unsigned int> nonmortar_vertex_node, mortar_vertex_node;
+    /// Nodes in the interior of nonmortar edges, from the lower to the higher vertex, and of nonmortar
+    /// triangles: edge_nodes[edge_start[e]] ... edge_nodes[edge_start[e + 1] - 1].
+    std::vector<unsigned int> edge_start, edge_nodes, triangle_start, triangle_nodes;
+
+    std::vector<Unmapped> unmapped;
+    /// Mortar edges whose image could not be followed from end to end although both ends have one.
+    std::vector<unsigned int> lost_edges;
+
+  private:
+    enum class State
+    {
+      on_the_way,
+      reached,
+      left,
+      lost
+    };
+
+    /// The image of a mortar edge on its way.
+    struct Walk;
+
+    void map_mortar_vertices();
+    bool is_hit(SurfacePoint &place, double &eta, const unsigned int vertex,
+                const unsigned int triangle) const;
+
+    void  trace_mortar_edges();
+    State trace_from_node(const unsigned int edge, const int direction, const unsigned int start,
+                          const unsigned int target);
+    State leave_node(Walk &walk, const SurfacePoint &start);
+    State pass_triangle(Walk &walk);
+    State pass_vertex(Walk &walk);
+    State leave_through(Walk &walk, const unsigned int local_edge, const Incidence::Side &begin,
+                        const Incidence::Side &end);
+    State walk_to_end(Walk &walk, State state);
+    bool  is_reached(const Walk &walk, const unsigned int triangle) const;
+
+    void enter_at_borders();
+    void enter_at(const unsigned int border_edge, const unsigned int mortar_edge);
+
+    State go_to_vertex(Walk &walk, const unsigned int vertex, const double position);
+    bool  add_crossing(Walk &walk, const unsigned int edge, const Incidence::Side &low,
+                       const Incidence::Side &high);
+
+    /// As Incidence, but a nonmortar vertex with a node lies on the mortar edge of that node and no other.
+    Incidence::Side side(const unsigned int vertex, const unsigned int mortar_edge) const;
+
+    void         map_nonmortar_vertices();
+    unsigned int triangle_beside(const unsigned int vertex, const MappingNode &node) const;
+    unsigned int search_triangle(const unsigned int vertex);
+
+    const Incidence       &incidence;
+    const SurfaceTopology &nonmortar, &mortar;
+    /// The longest way from a mortar vertex to its image.
+    double reach = 0.;
+    /// Mortar edges that were not followed from end to end, and where they are known to cross border edges.
+    std::vector<unsigned int>                       unfinished;
+    std::set<std::pair<unsigned int, unsigned int>> border_crossings;
+    std::unique_ptr<BoxTree>                        mortar_tree;
+  };
+} // namespace Signorini
+
+#endif

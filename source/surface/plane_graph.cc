@@ -1,0 +1,319 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/surface/box_tree.h>
+#include <signorini/surface/normal_projection.h>
+#include <signorini/surface/plane_graph.h>
+
+#include <queue>
+
+namespace Signorini
+{
+  using namespace dealii;
+  using On = SurfacePoint::On;
+
+  namespace
+  {
+    BoxTree tree_of_triangles(const SurfaceMesh &mesh)
+    {
+      std::vector<BoxTree::Box> boxes;
+      boxes.reserve(mesh.triangles.size());
+      for (const auto &t : mesh.triangles)
+        {
+          BoxTree::Box box{mesh.vertices[t[0]], mesh.vertices[t[0]]};
+          box.include(mesh.vertices[t[1]]);
+          box.include(mesh.vertices[t[2]]);
+          boxes.push_back(box);
+        }
+      return BoxTree(boxes);
+    }
+
+    std::array<Point<3>, 3> corners_of(const SurfaceMesh &mesh, const unsigned int triangle)
+    {
+      const auto &t = mesh.triangles[triangle];
+      return {{mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]}};
+    }
+
+    std::array<Tensor<1, 3>, 3> normals_of(const SurfaceMesh &mesh, const unsigned int triangle)
+    {
+      const auto &t = mesh.triangles[triangle];
+      return {{mesh.vertex_normals[t[0]], mesh.vertex_normals[t[1]], mesh.vertex_normals[t[2]]}};
+    }
+
+    /// Lists of the nodes on each entity of one kind.
+    void group(std::vector<unsigned int> &start, std::vector<unsigned int> &list,
+               const std::vector<MappingNode> &nodes, const On kind, const std::size_t n_entities)
+    {
+      start.assign(n_entities + 1, 0);
+      for (const MappingNode &node : nodes)
+        if (node.nonmortar.on == kind)
+          ++start[node.nonmortar.index + 1];
+      std::partial_sum(start.begin(), start.end(), start.begin());
+      list.resize(start.back());
+      std::vector<unsigned int> next(start.begin(), start.end() - 1);
+      for (unsigned int i = 0; i < nodes.size(); ++i)
+        if (nodes[i].nonmortar.on == kind)
+          list[next[nodes[i].nonmortar.index]++] = i;
+    }
+  } // namespace
+
+
+
+  PlaneGraph::PlaneGraph(const Incidence &incidence)
+    : nonmortar_vertex_node(incidence.nonmortar.vertices.size(), none)
+    , mortar_vertex_node(incidence.mortar.vertices.size(), none)
+    , unmapped(incidence.mortar.vertices.size(), Unmapped::not_at_all)
+    , incidence(incidence)
+    , nonmortar(incidence.nonmortar_topology)
+    , mortar(incidence.mortar_topology)
+  {
+    nodes.reserve(4 * (nonmortar_vertex_node.size() + mortar_vertex_node.size()));
+    if (!nonmortar.triangles.empty() && !mortar.triangles.empty())
+      {
+        map_mortar_vertices();
+        trace_mortar_edges();
+      }
+    group(edge_start, edge_nodes, nodes, On::edge, nonmortar.edges.size());
+    group(triangle_start, triangle_nodes, nodes, On::triangle, nonmortar.triangles.size());
+    for (unsigned int e = 0; e < nonmortar.edges.size(); ++e)
+      if (edge_start[e + 1] - edge_start[e] > 1)
+        std::sort(edge_nodes.begin() + edge_start[e], edge_nodes.begin() + edge_start[e + 1],
+                  [&](const unsigned int a, const unsigned int b) {
+                    const double ta = nodes[a].nonmortar.x[0], tb = nodes[b].nonmortar.x[0];
+                    return ta != tb ? ta < tb : a < b;
+                  });
+    if (!nonmortar.triangles.empty() && !mortar.triangles.empty())
+      map_nonmortar_vertices();
+  }
+
+
+
+  PlaneGraph::~PlaneGraph() = default;
+
+
+
+  bool PlaneGraph::is_hit(SurfacePoint &place, double &eta, const unsigned int vertex,
+                          const unsigned int triangle) const
+  {
+    const auto &edges = nonmortar.triangle_edges[triangle];
+    const auto &t     = nonmortar.triangles[triangle];
+    int         zero[3], on_one = -1, on_two = -1;
+    double      position = 0.;
+    for (unsigned int e = 0; e < 3; ++e)
+      {
+        const Incidence::Side s     = incidence.of_mortar_vertex(vertex, edges[e]);
+        const bool            along = t[e] == nonmortar.edges[edges[e]][0];
+        if ((along ? s.sign : -s.sign) < 0)
+          return false;
+        zero[e] = s.sign == 0;
+        if (zero[e])
+          {
+            on_one   = static_cast<int>(e);
+            position = s.position;
+          }
+      }
+    for (int e = 0; e < 3; ++e)
+      if (zero[e] && zero[(e + 2) % 3])
+        on_two = e;
+    std::array<double, 3> w;
+    if (!NormalProjection::intersect_line(w, eta, incidence.mortar.vertices[vertex],
+                                          incidence.mortar.vertex_normals[vertex],
+                                          corners_of(incidence.nonmortar, triangle)))
+      return false;
+    if (on_two >= 0)
+      place = SurfacePoint::at_vertex(t[on_two]);
+    else if (on_one >= 0)
+      {
+        if (position < 0. || position > 1.)
+          return false;
+        place = SurfacePoint::on_edge(edges[on_one], position);
+      }
+    else
+      place = SurfacePoint::in_triangle(triangle, w);
+    return true;
+  }
+
+
+
+  void PlaneGraph::map_mortar_vertices()
+  {
+    const BoxTree             tree = tree_of_triangles(incidence.nonmortar);
+    std::vector<unsigned int> candidates;
+    for (unsigned int v = 0; v < incidence.mortar.vertices.size(); ++v)
+      {
+        if (mortar.fan_start[v] == mortar.fan_start[v + 1])
+          continue;
+        tree.find_along_line(candidates, incidence.mortar.vertices[v], incidence.mortar.vertex_normals[v]);
+        double       nearest = std::numeric_limits<double>::max();
+        SurfacePoint best;
+        bool         turned_away = false;
+        for (const unsigned int t : candidates)
+          {
+            // Turned triangles have all sides reversed: they are no hit by themselves.
+            SurfacePoint place;
+            double       eta;
+            if (!incidence.vertex_faces(v, t))
+              turned_away = true;
+            else if (is_hit(place, eta, v, t) && std::abs(eta) < nearest)
+              {
+                nearest = std::abs(eta);
+                best    = place;
+              }
+          }
+        if (best.on == On::nothing)
+          {
+            unmapped[v] = turned_away ? Unmapped::wrong_side : Unmapped::no_hit;
+            continue;
+          }
+        reach                 = std::max(reach, nearest);
+        mortar_vertex_node[v] = static_cast<unsigned int>(nodes.size());
+        if (best.on == On::vertex && nonmortar_vertex_node[best.index] == none)
+          nonmortar_vertex_node[best.index] = mortar_vertex_node[v];
+        nodes.push_back({best, SurfacePoint::at_vertex(v)});
+      }
+    for (const auto &e : mortar.edges)
+      for (unsigned int i = 0; i < 2; ++i)
+        if (mortar_vertex_node[e[i]] == none && mortar_vertex_node[e[1 - i]] != none &&
+            unmapped[e[i]] == Unmapped::no_hit)
+          unmapped[e[i]] = Unmapped::outside_rim;
+  }
+
+
+
+  unsigned int PlaneGraph::triangle_beside(const unsigned int vertex, const MappingNode &node) const
+  {
+    const SurfacePoint &place = node.mortar;
+    if (place.on == On::triangle)
+      return place.index;
+    if (place.on == On::edge)
+      {
+        // Left for the nonmortar viewer is right for the mortar viewer.
+        const bool left = incidence.of_nonmortar_vertex(vertex, place.index).distance > 0.;
+        return mortar.edge_triangles[place.index][left ? 1 : 0];
+      }
+    // The triangle around a mortar vertex whose two edges there have the vertex between them.
+    for (unsigned int k = mortar.fan_start[place.index]; k < mortar.fan_start[place.index + 1]; ++k)
+      {
+        const unsigned int t = mortar.fan[k], corner = mortar.local_corner(t, place.index);
+        bool               between = true;
+        for (const unsigned int i : {corner, (corner + 2) % 3})
+          {
+            const unsigned int edge  = mortar.triangle_edges[t][i];
+            const bool         along = mortar.triangles[t][i] == mortar.edges[edge][0];
+            const double       d     = incidence.of_nonmortar_vertex(vertex, edge).distance;
+            between                  = between && (along ? -d : d) > 0.;
+          }
+        if (between)
+          return t;
+      }
+    return none;
+  }
+
+
+
+  unsigned int PlaneGraph::search_triangle(const unsigned int vertex)
+  {
+    if (!mortar_tree)
+      mortar_tree = std::make_unique<BoxTree>(tree_of_triangles(incidence.mortar));
+    std::vector<unsigned int> candidates;
+    mortar_tree->find_nearest(candidates, incidence.nonmortar.vertices[vertex], 16);
+    unsigned int best    = none;
+    double       nearest = std::numeric_limits<double>::max();
+    for (const unsigned int t : candidates)
+      {
+        std::array<double, 3> w;
+        double                eta;
+        bool                  faces = false;
+        for (unsigned int k = nonmortar.fan_start[vertex]; k < nonmortar.fan_start[vertex + 1]; ++k)
+          faces = faces || incidence.triangles_face(nonmortar.fan[k], t);
+        if (faces &&
+            NormalProjection::inverse_project(w, eta, incidence.nonmortar.vertices[vertex],
+                                              corners_of(incidence.mortar, t),
+                                              normals_of(incidence.mortar, t)) &&
+            *std::min_element(w.begin(), w.end()) >= 0. && std::abs(eta) < nearest)
+          {
+            nearest = std::abs(eta);
+            best    = t;
+          }
+      }
+    return best;
+  }
+
+
+
+  void PlaneGraph::map_nonmortar_vertices()
+  {
+    constexpr unsigned int    unknown = none - 1;
+    const std::size_t         n       = nonmortar_vertex_node.size();
+    std::vector<unsigned int> image(n, unknown);
+    const auto                is_open = [&](const unsigned int v) {
+      return nonmortar_vertex_node[v] == none && image[v] == unknown;
+    };
+    // Beside the first node on an edge of its own, else beside a node at the other end of an edge.
+    for (unsigned int e = 0; e < nonmortar.edges.size(); ++e)
+      if (edge_start[e] < edge_start[e + 1])
+        {
+          const auto [low, high] = nonmortar.edges[e];
+          if (is_open(low))
+            image[low] = triangle_beside(low, nodes[edge_nodes[edge_start[e]]]);
+          if (is_open(high))
+            image[high] = triangle_beside(high, nodes[edge_nodes[edge_start[e + 1] - 1]]);
+        }
+    for (unsigned int e = 0; e < nonmortar.edges.size(); ++e)
+      if (edge_start[e] == edge_start[e + 1])
+        for (unsigned int i = 0; i < 2; ++i)
+          {
+            const unsigned int v = nonmortar.edges[e][i], other = nonmortar.edges[e][1 - i];
+            if (is_open(v) && nonmortar_vertex_node[other] != none)
+              image[v] = triangle_beside(v, nodes[nonmortar_vertex_node[other]]);
+          }
+
+    // What no node separates has the same image triangle.
+    std::queue<unsigned int> front;
+    const auto               flood = [&]() {
+      while (!front.empty())
+        {
+          const unsigned int v = front.front();
+          front.pop();
+          for (unsigned int k = nonmortar.fan_start[v]; k < nonmortar.fan_start[v + 1]; ++k)
+            {
+              const unsigned int t = nonmortar.fan[k], i = nonmortar.local_corner(t, v);
+              for (const unsigned int j : {i, (i + 2) % 3})
+                {
+                  const unsigned int e     = nonmortar.triangle_edges[t][j];
+                  const unsigned int other = nonmortar.edges[e][nonmortar.edges[e][0] == v ? 1 : 0];
+                  if (edge_start[e] == edge_start[e + 1] && is_open(other))
+                    {
+                      image[other] = image[v];
+                      front.push(other);
+                    }
+                }
+            }
+        }
+    };
+    for (unsigned int v = 0; v < n; ++v)
+      if (nonmortar_vertex_node[v] == none && image[v] != unknown)
+        front.push(v);
+    flood();
+    for (unsigned int v = 0; v < n; ++v)
+      if (is_open(v) && nonmortar.fan_start[v] < nonmortar.fan_start[v + 1])
+        {
+          image[v] = search_triangle(v);
+          front.push(v);
+          flood();
+        }
+
+    for (unsigned int v = 0; v < n; ++v)
+      if (nonmortar_vertex_node[v] == none && image[v] < unknown)
+        {
+          std::array<double, 3> w;
+          double                eta;
+          if (!NormalProjection::inverse_project(w, eta, incidence.nonmortar.vertices[v],
+                                                 corners_of(incidence.mortar, image[v]),
+                                                 normals_of(incidence.mortar, image[v])))
+            w = {{1. / 3., 1. / 3., 1. / 3.}};
+          nonmortar_vertex_node[v] = static_cast<unsigned int>(nodes.size());
+          nodes.push_back({SurfacePoint::at_vertex(v), SurfacePoint::in_triangle(image[v], w)});
+        }
+  }
+} // namespace Signorini

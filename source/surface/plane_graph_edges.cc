@@ -1,0 +1,342 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/surface/box_tree.h>
+#include <signorini/surface/plane_graph.h>
+
+namespace Signorini
+{
+  using namespace dealii;
+  using On = SurfacePoint::On;
+
+  struct PlaneGraph::Walk
+  {
+    unsigned int edge;
+    /// 1 from its lower to its higher vertex, -1 the other way.
+    int direction;
+    /// The node where it ends, or none.
+    unsigned int target;
+
+    /// Where it is: at a vertex, or in a triangle that it has entered through a local edge (with the sides of
+    /// the corners at the beginning and the end of that edge).
+    unsigned int                   vertex = none, triangle = none, entry = none;
+    std::array<Incidence::Side, 2> entry_sides;
+    /// How far it has come, in its direction.
+    double position = 0.;
+
+    double forward(const double parameter) const
+    {
+      return direction > 0 ? parameter : 1. - parameter;
+    }
+  };
+
+
+
+  Incidence::Side PlaneGraph::side(const unsigned int vertex, const unsigned int mortar_edge) const
+  {
+    Incidence::Side    result = incidence.of_nonmortar_vertex(vertex, mortar_edge);
+    const unsigned int node   = nonmortar_vertex_node[vertex];
+    if (result.sign == 0 && node != none &&
+        !(nodes[node].mortar.on == On::edge && nodes[node].mortar.index == mortar_edge))
+      result.sign = result.distance > 0. ? 1 : -1;
+    return result;
+  }
+
+
+
+  bool PlaneGraph::is_reached(const Walk &walk, const unsigned int triangle) const
+  {
+    return walk.target != none && nodes[walk.target].nonmortar.lies_in(nonmortar, triangle);
+  }
+
+
+
+  PlaneGraph::State PlaneGraph::go_to_vertex(Walk &walk, const unsigned int vertex, const double position)
+  {
+    walk.vertex   = vertex;
+    walk.triangle = walk.entry = none;
+    walk.position              = std::max(walk.position, walk.forward(std::min(1., std::max(0., position))));
+    if (nonmortar_vertex_node[vertex] == none)
+      {
+        nonmortar_vertex_node[vertex] = static_cast<unsigned int>(nodes.size());
+        nodes.push_back({SurfacePoint::at_vertex(vertex),
+                         SurfacePoint::on_edge(walk.edge, walk.forward(walk.position))});
+      }
+    return State::on_the_way;
+  }
+
+
+
+  bool PlaneGraph::add_crossing(Walk &walk, const unsigned int edge, const Incidence::Side &low,
+                                const Incidence::Side &high)
+  {
+    if (nonmortar.is_border(edge) && !border_crossings.insert({walk.edge, edge}).second)
+      return false;
+    double t, s;
+    incidence.cross(t, s, edge, walk.edge, low, high);
+    // Nodes follow each other along the edge, rounding or not.
+    walk.position = std::max(walk.position, walk.forward(s));
+    nodes.push_back(
+        {SurfacePoint::on_edge(edge, t), SurfacePoint::on_edge(walk.edge, walk.forward(walk.position))});
+    return true;
+  }
+
+
+
+  PlaneGraph::State PlaneGraph::leave_through(Walk &walk, const unsigned int local,
+                                              const Incidence::Side &begin, const Incidence::Side &end)
+  {
+    const unsigned int edge  = nonmortar.triangle_edges[walk.triangle][local];
+    const bool         along = nonmortar.triangles[walk.triangle][local] == nonmortar.edges[edge][0];
+    if (!add_crossing(walk, edge, along ? begin : end, along ? end : begin))
+      return State::left;
+    const auto &beside = nonmortar.edge_triangles[edge];
+    walk.triangle      = beside[0] == walk.triangle ? beside[1] : beside[0];
+    walk.vertex        = none;
+    if (walk.triangle == none)
+      return State::left;
+    walk.entry       = nonmortar.local_edge(walk.triangle, edge);
+    walk.entry_sides = {{end, begin}};
+    return State::on_the_way;
+  }
+
+
+
+  // Seen along the walk an edge through which it enters runs (counterclockwise) from the left to the right, an
+  // edge through which it leaves from the right to the left.
+  PlaneGraph::State PlaneGraph::pass_triangle(Walk &walk)
+  {
+    if (is_reached(walk, walk.triangle))
+      return State::reached;
+    const unsigned int    k        = (walk.entry + 2) % 3;
+    const unsigned int    opposite = nonmortar.triangles[walk.triangle][k];
+    const Incidence::Side s        = side(opposite, walk.edge);
+    if (s.sign == 0)
+      return go_to_vertex(walk, opposite, s.position);
+    return walk.direction * s.sign > 0 ? leave_through(walk, (k + 2) % 3, walk.entry_sides[1], s) :
+                                         leave_through(walk, k, s, walk.entry_sides[0]);
+  }
+
+
+
+  PlaneGraph::State PlaneGraph::pass_vertex(Walk &walk)
+  {
+    const unsigned int first = nonmortar.fan_start[walk.vertex], last = nonmortar.fan_start[walk.vertex + 1];
+    for (unsigned int k = first; k < last; ++k)
+      if (is_reached(walk, nonmortar.fan[k]))
+        return State::reached;
+    unsigned int    ahead = none;
+    Incidence::Side ahead_sides[2];
+    bool            at_border = false;
+    for (unsigned int k = first; k < last; ++k)
+      {
+        const unsigned int t = nonmortar.fan[k], corner = nonmortar.local_corner(t, walk.vertex);
+        Incidence::Side    s[2];
+        for (unsigned int i = 0; i < 2; ++i)
+          {
+            const unsigned int v = nonmortar.triangles[t][(corner + 1 + i) % 3];
+            s[i]                 = side(v, walk.edge);
+            if (s[i].sign == 0 && walk.forward(s[i].position) > walk.position)
+              return go_to_vertex(walk, v, s[i].position);
+            at_border = at_border || nonmortar.is_border(nonmortar.triangle_edges[t][(corner + 2 * i) % 3]);
+          }
+        if (walk.direction * s[0].sign < 0 && walk.direction * s[1].sign > 0)
+          {
+            ahead = t;
+            std::copy(s, s + 2, ahead_sides);
+          }
+      }
+    if (ahead == none)
+      return at_border ? State::left : State::lost;
+    walk.triangle = ahead;
+    return leave_through(walk, (nonmortar.local_corner(ahead, walk.vertex) + 1) % 3, ahead_sides[0],
+                         ahead_sides[1]);
+  }
+
+
+
+  PlaneGraph::State PlaneGraph::leave_node(Walk &walk, const SurfacePoint &start)
+  {
+    if (start.on == On::vertex)
+      {
+        walk.vertex = start.index;
+        return State::on_the_way;
+      }
+    if (start.on == On::triangle)
+      {
+        walk.triangle = start.index;
+        if (is_reached(walk, walk.triangle))
+          return State::reached;
+        Incidence::Side s[3];
+        for (unsigned int i = 0; i < 3; ++i)
+          s[i] = side(nonmortar.triangles[walk.triangle][i], walk.edge);
+        for (unsigned int i = 0; i < 3; ++i)
+          if (walk.direction * s[i].sign < 0 && walk.direction * s[(i + 1) % 3].sign > 0)
+            return leave_through(walk, i, s[i], s[(i + 1) % 3]);
+        for (unsigned int i = 0; i < 3; ++i)
+          if (walk.direction * s[i].sign < 0 && s[(i + 1) % 3].sign == 0 &&
+              walk.direction * s[(i + 2) % 3].sign > 0)
+            return go_to_vertex(walk, nonmortar.triangles[walk.triangle][(i + 1) % 3],
+                                s[(i + 1) % 3].position);
+        return State::lost;
+      }
+
+    const auto &beside = nonmortar.edge_triangles[start.index];
+    for (const unsigned int t : beside)
+      if (t != none && is_reached(walk, t))
+        return State::reached;
+    const auto     &ends = nonmortar.edges[start.index];
+    Incidence::Side s[2] = {side(ends[0], walk.edge), side(ends[1], walk.edge)};
+    for (unsigned int i = 0; i < 2; ++i)
+      if (s[i].sign == 0 && walk.forward(s[i].position) > 0.)
+        return go_to_vertex(walk, ends[i], s[i].position);
+    for (unsigned int i = 0; i < 2; ++i)
+      if (s[i].sign == 0)
+        s[i].sign = -s[1 - i].sign;
+    if (s[0].sign * s[1].sign >= 0)
+      return State::lost;
+    const unsigned int beside_left = walk.direction * s[0].sign > 0 ? 0 : 1;
+    walk.triangle                  = beside[beside_left];
+    if (walk.triangle == none)
+      return State::left;
+    walk.entry       = nonmortar.local_edge(walk.triangle, start.index);
+    walk.entry_sides = {{s[beside_left], s[1 - beside_left]}};
+    return State::on_the_way;
+  }
+
+
+
+  PlaneGraph::State PlaneGraph::walk_to_end(Walk &walk, State state)
+  {
+    // No straight way passes a triangle twice.
+    for (std::size_t step = 0; state == State::on_the_way; ++step)
+      if (step > 2 * nonmortar.triangles.size())
+        return State::lost;
+      else
+        state = walk.vertex != none ? pass_vertex(walk) : pass_triangle(walk);
+    return state;
+  }
+
+
+
+  PlaneGraph::State PlaneGraph::trace_from_node(const unsigned int edge, const int direction,
+                                                const unsigned int start, const unsigned int target)
+  {
+    Walk               walk{edge, direction, target};
+    const SurfacePoint place = nodes[start].nonmortar;
+    return walk_to_end(walk, leave_node(walk, place));
+  }
+
+
+
+  void PlaneGraph::trace_mortar_edges()
+  {
+    for (unsigned int f = 0; f < mortar.edges.size(); ++f)
+      {
+        const unsigned int p = mortar_vertex_node[mortar.edges[f][0]],
+                           q = mortar_vertex_node[mortar.edges[f][1]];
+        State state          = State::left;
+        if (p != none)
+          state = trace_from_node(f, 1, p, q);
+        if (q != none && state == State::left)
+          state = trace_from_node(f, -1, q, none);
+        if (state == State::lost)
+          lost_edges.push_back(f);
+        if (state == State::left)
+          unfinished.push_back(f);
+      }
+    enter_at_borders();
+  }
+
+
+
+  // What comes in over the border of the nonmortar surface from outside: both ends without an image, or in
+  // again after having left over a hole or a bay.
+  void PlaneGraph::enter_at_borders()
+  {
+    if (unfinished.empty())
+      return;
+    const SurfaceMesh &non = incidence.nonmortar, &mor = incidence.mortar;
+    // How far along the normals: twice as far as the images of vertices are, or, if there are none, anywhere.
+    double far = 2. * reach;
+    for (const auto &e : nonmortar.edges)
+      far = std::max(far, non.vertices[e[0]].distance(non.vertices[e[1]]));
+    if (reach == 0.)
+      {
+        BoxTree::Box all{non.vertices[0], non.vertices[0]};
+        for (const auto &v : non.vertices)
+          all.include(v);
+        for (const auto &v : mor.vertices)
+          all.include(v);
+        far = std::max(far, all.low.distance(all.high));
+      }
+    std::vector<BoxTree::Box> boxes;
+    for (const unsigned int f : unfinished)
+      {
+        BoxTree::Box box{mor.vertices[mortar.edges[f][0]], mor.vertices[mortar.edges[f][0]]};
+        for (const unsigned int v : mortar.edges[f])
+          for (const double eta : {-far, far})
+            box.include(mor.vertices[v] + eta * mor.vertex_normals[v]);
+        boxes.push_back(box);
+      }
+    const BoxTree             tree(boxes);
+    std::vector<unsigned int> candidates;
+    for (unsigned int e = 0; e < nonmortar.edges.size(); ++e)
+      if (nonmortar.is_border(e))
+        {
+          BoxTree::Box box{non.vertices[nonmortar.edges[e][0]], non.vertices[nonmortar.edges[e][0]]};
+          box.include(non.vertices[nonmortar.edges[e][1]]);
+          tree.find_overlapping(candidates, box);
+          std::sort(candidates.begin(), candidates.end());
+          for (const unsigned int i : candidates)
+            enter_at(e, unfinished[i]);
+        }
+  }
+
+
+
+  void PlaneGraph::enter_at(const unsigned int e, const unsigned int f)
+  {
+    const auto        &ends = nonmortar.edges[e];
+    const unsigned int p    = mortar.edges[f][0], q = mortar.edges[f][1];
+    const unsigned int only = nonmortar.edge_triangles[e][0] != none ? 0 : 1;
+    const unsigned int t    = nonmortar.edge_triangles[e][only];
+    if (!incidence.vertex_faces(p, t) || !incidence.vertex_faces(q, t) || border_crossings.count({f, e}) > 0)
+      return;
+    const Incidence::Side s[2] = {side(ends[0], f), side(ends[1], f)};
+    for (unsigned int i = 0; i < 2; ++i)
+      if (s[i].sign == 0)
+        {
+          // Over a corner of the border.
+          if (s[i].position > 0. && s[i].position < 1. && nonmortar_vertex_node[ends[i]] == none)
+            for (const int direction : {1, -1})
+              {
+                Walk walk{f, direction, mortar_vertex_node[direction > 0 ? q : p]};
+                walk.position = walk.forward(s[i].position);
+                if (walk_to_end(walk, go_to_vertex(walk, ends[i], s[i].position)) == State::lost)
+                  lost_edges.push_back(f);
+              }
+          return;
+        }
+    if (s[0].sign == s[1].sign)
+      return;
+    // Inwards.
+    const int          direction = (only == 0 ? s[0].sign : s[1].sign) > 0 ? 1 : -1;
+    double             at_e, at_f;
+    const bool         crosses = incidence.cross(at_e, at_f, e, f, s[0], s[1]);
+    Walk               walk{f, direction, mortar_vertex_node[direction > 0 ? q : p]};
+    // Right at an end: inwards only from an end outside. An end inside has been followed already.
+    constexpr double   at_end = 1e-6;
+    const double       come   = walk.forward(at_f);
+    if (!crosses || come > 1. - at_end ||
+        (come < at_end && mortar_vertex_node[direction > 0 ? p : q] != none))
+      return;
+    walk.position    = come;
+    walk.triangle    = t;
+    walk.entry       = nonmortar.local_edge(t, e);
+    walk.entry_sides = {{s[only], s[1 - only]}};
+    add_crossing(walk, e, s[0], s[1]);
+    if (walk_to_end(walk, State::on_the_way) == State::lost)
+      lost_edges.push_back(f);
+  }
+} // namespace Signorini
