@@ -49,14 +49,7 @@ namespace Signorini
             const auto [body, boundary] = split_side(*sides[i], where);
             definition.body[i]          = bodies.body_index(body, where);
             definition.boundary[i]      = boundary;
-            try
-              {
-                bodies.boundary_ids(definition.body[i], boundary);
-              }
-            catch (const InputError &e)
-              {
-                throw InputError(where + ": " + e.what());
-              }
+            bodies.boundary_ids(definition.body[i], boundary, where);
             definition.has_region[i] = !Utilities::trim(*regions[i]).empty();
             if (definition.has_region[i])
               definition.region[i] = Expression(*regions[i], where + " region");

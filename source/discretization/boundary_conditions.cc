@@ -35,7 +35,7 @@ namespace Signorini
     for (const auto &[name, text] : split_named_entries(parameters.dirichlet, section + "Dirichlet"))
       {
         const std::string  where = section + "Dirichlet, boundary \"" + name + "\"";
-        DirichletCondition condition{body, name, bodies.boundary_ids(body, name), {}};
+        DirichletCondition condition{body, name, bodies.boundary_ids(body, name, section + "Dirichlet"), {}};
         const auto         entries = split_vector(text, where);
         for (unsigned int c = 0; c < dim; ++c)
           if (entries[c] != "*")
@@ -46,14 +46,14 @@ namespace Signorini
       {
         const std::string where   = section + "Tractions, boundary \"" + name + "\"";
         const auto        entries = split_vector(text, where);
-        Traction          traction{bodies.boundary_ids(body, name), false, {}};
+        Traction          traction{bodies.boundary_ids(body, name, section + "Tractions"), false, {}};
         for (unsigned int c = 0; c < dim; ++c)
           traction.values[c] = Expression(entries[c], where);
         tractions.push_back(traction);
       }
     for (const auto &[name, text] : split_named_entries(parameters.pressures, section + "Pressures"))
       {
-        Traction traction{bodies.boundary_ids(body, name), true, {}};
+        Traction traction{bodies.boundary_ids(body, name, section + "Pressures"), true, {}};
         traction.values[0] = Expression(text, section + "Pressures, boundary \"" + name + "\"");
         tractions.push_back(traction);
       }

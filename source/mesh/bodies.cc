@@ -359,11 +359,12 @@ namespace Signorini
 
 
 
-  std::set<types::boundary_id> Bodies::boundary_ids(const unsigned int body, const std::string &name) const
+  std::set<types::boundary_id> Bodies::boundary_ids(const unsigned int body, const std::string &name,
+                                                    const std::string &where) const
   {
     const auto it = std::find(boundaries[body].begin(), boundaries[body].end(), name);
     if (it == boundaries[body].end())
-      throw InputError("Body " + names[body] + " has no boundary \"" + name + "\"; it has " +
+      throw InputError((where.empty() ? "Body " : where + ": body ") + names[body] + " has no boundary \"" + name + "\"; it has " +
                        listed(boundaries[body]) + ".");
     return {static_cast<types::boundary_id>(first_boundary[body] + (it - boundaries[body].begin()))};
   }

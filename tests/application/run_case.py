@@ -283,15 +283,16 @@ def errors(p):
         out = os.path.join(folder, 'out')
         cases = [(['missing.prm'], 'missing.prm'),
                  ([prm, '--set', 'Body upper/Colour=red'], 'Colour'),
-                 ([prm, '--set', 'Body upper/Dirichlet=lid: (0, 0, 0)'], 'lid'),
+                 ([prm, '--set', 'Body upper/Dirichlet=lid: (0, 0, 0)'], 'Body upper/Dirichlet: body upper has no boundary "lid"'),
                  ([prm, '--set', 'Body upper/Poisson ratio=0.5'], 'Poisson ratio'),
                  ([prm, '--set', 'Body upper/Young modulus=0'], 'Young modulus'),
                  ([prm, '--set', 'Body upper/Dirichlet=top: (*, *, -0.01)'], 'rigid motion'),
                  ([prm, '--set', 'Body lower/Translation=5, 0, 0'], 'overlay cell'),
                  ([prm, '--set', 'Body upper/Mesh=missing.msh'], 'missing.msh'),
-                 ([prm, '--set', 'Pair interface/First=upper: lid'], 'lid'),
+                 ([prm, '--set', 'Pair interface/First=upper: lid'], 'Pair interface/First: body upper has no boundary "lid"'),
                  ([prm, '--set', 'Body upper/Dirichlet=top: (0, 0, bla(x))'], 'bla'),
                  ([prm, '--set', 'Body upper/Dirichlet=top: (1/(x-1), 0, 0)'], 'finite'),
+                 ([prm, '--set', 'Body upper/Tractions=lid: (0, 0, 1)'], 'Body upper/Tractions: body upper has no boundary'),
                  ([prm, '--wrong'], '--wrong')]
         for arguments, word in cases:
             run = p.call(*arguments, '--output', out)

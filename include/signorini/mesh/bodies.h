@@ -94,8 +94,10 @@ namespace Signorini
       return first_boundary[body] + i;
     }
 
-    /// Boundary ids of a named boundary. Errors: InputError listing the names the body has.
-    std::set<dealii::types::boundary_id> boundary_ids(const unsigned int body, const std::string &name) const;
+    /// Boundary ids of a named boundary. Errors: InputError listing the names the body has, for the parameter
+    /// `where`.
+    std::set<dealii::types::boundary_id> boundary_ids(const unsigned int body, const std::string &name,
+                                                      const std::string &where = "") const;
 
     /// Remarks from reading the meshes.
     const std::vector<std::string> &notes() const
