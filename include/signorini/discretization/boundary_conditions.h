@@ -50,7 +50,7 @@ namespace Signorini
   {
     std::vector<DirichletCondition> dirichlet;
     std::vector<Traction>           tractions;
-    /// Force per volume of each body.
+    /// Force per volume of each body; an entry for all of them is needed, so add() every body.
     std::vector<std::array<Expression, 3>> volume_forces;
 
     /// Reads the parameters of one body. Errors: InputError for unknown boundaries and bad expressions.

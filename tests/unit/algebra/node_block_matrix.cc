@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include "random_matrix.h"
+
+#include <signorini/algebra/nodal_transfer.h>
+
+#include <gtest/gtest.h>
+
+using namespace Signorini;
+
+namespace
+{
+  double entry(const unsigned int i)
+  {
+    return std::sin(1. + 7. * i);
+  }
+
+  /// Random interpolation from n_coarse to n nodes: up to three parents a node, some rows with 3x3 blocks.
+  struct RandomTransfer
+  {
+    NodalTransfer   transfer;
+    Eigen::MatrixXd dense;
+
+    RandomTransfer(const NodePartition &fine, const NodeIndex n_coarse, const unsigned int seed)
+      : dense(Eigen::MatrixXd::Zero(3 * fine.n_global(), 3 * n_coarse))
+    {
+      std::mt19937                             random(seed);
+      std::uniform_real_distribution<double>   value(-1., 1.);
+      std::uniform_int_distribution<NodeIndex> node(0, n_coarse - 1);
+      std::vector<std::map<NodeIndex, double>> rows(fine.n_global());
+      std::map<NodeIndex, std::vector<Block>>  blocks;
+      for (NodeIndex i = 0; i < fine.n_global(); ++i)
+        {
+          for (unsigned int k = 0; k < 3; ++k)
+            rows[i][node(random)] = value(random);
+          for (const auto &[j, weight] : rows[i])
+            {
+              Block block;
+              for (unsigned int c = 0; c < 3; ++c)
+                for (unsigned int d = 0; d < 3; ++d)
+                  block[c][d] = i % 4 == 0 ? value(random) : (c == d ? weight : 0.);
+              if (i % 4 == 0)
+                blocks[i].push_back(block);
+              for (unsigned int c = 0; c < 9; ++c)
+                dense(3 * i + c / 3, 3 * j + c % 3) = block[c / 3][c % 3];
+            }
+        }
+      NodeRows                             local;
+      std::vector<NodalTransfer::BlockRow> block_rows;
+      for (unsigned int i = 0; i < fine.n_local(); ++i)
+        {
+          const NodeIndex         global = fine.to_global(i);
+          NodalTransfer::BlockRow block_row{i, {}, {}};
+          for (const auto &[j, weight] : rows[global])
+            {
+              local.add(j, weight);
+              block_row.columns.push_back(j);
+            }
+          local.finish_row();
+          if (blocks.count(global) > 0)
+            {
+              block_row.blocks = blocks[global];
+              block_rows.push_back(block_row);
+            }
+        }
+      transfer.reinit(local, block_rows, fine.n_owned());
+    }
+  };
+} // namespace
+
+TEST(NodeBlockMatrix, AddsTheContributionsOfAllRanks)
+{
+  const auto c = RandomMatrix::make(23, 1);
+  EXPECT_LT(RandomMatrix::difference(c.matrix, c.dense), 1e-13);
+  for (unsigned int row = 0; row < c.matrix.n_rows(); ++row)
+    EXPECT_EQ(c.matrix.column(c.matrix.row_begin(row)), row) << "the diagonal block comes first";
+}
+
+TEST(NodeBlockMatrix, MultipliesLikeTheDenseMatrix)
+{
+  const auto           c     = RandomMatrix::make(23, 2);
+  const NodePartition &nodes = c.matrix.partition();
+  Eigen::VectorXd      x(3 * 23);
+  for (unsigned int i = 0; i < x.size(); ++i)
+    x[i] = entry(i);
+  Vector src, dst;
+  nodes.reinit(src);
+  nodes.reinit(dst);
+  for (unsigned int i = 0; i < 3 * nodes.n_owned(); ++i)
+    src.local_element(i) = x[3 * nodes.first_owned() + i];
+  c.matrix.vmult(dst, src);
+  const Eigen::VectorXd y = c.dense * x;
+  for (unsigned int i = 0; i < 3 * nodes.n_owned(); ++i)
+    EXPECT_NEAR(dst.local_element(i), y[3 * nodes.first_owned() + i], 1e-13);
+}
+
+TEST(NodalTransfer, ProlongatesAndRestrictsLikeTheDenseMatrix)
+{
+  auto                   c = RandomMatrix::make(23, 3);
+  RandomTransfer         p(c.matrix.partition(), 9, 4);
+  NodeBlockMatrix        coarse;
+  const dealii::IndexSet owned = RandomMatrix::owned_nodes(9);
+  reinit_galerkin(coarse, c.matrix, p.transfer, owned);
+  const NodePartition &fine_nodes = c.matrix.partition(), &coarse_nodes = coarse.partition();
+  Vector               fine, small;
+  fine_nodes.reinit(fine);
+  coarse_nodes.reinit(small);
+  Eigen::VectorXd x(27);
+  for (unsigned int i = 0; i < x.size(); ++i)
+    x[i] = entry(i);
+  for (unsigned int i = 0; i < 3 * coarse_nodes.n_owned(); ++i)
+    small.local_element(i) = x[3 * coarse_nodes.first_owned() + i];
+  p.transfer.prolongate(fine, small);
+  const Eigen::VectorXd y = p.dense * x, z = p.dense.transpose() * y + x;
+  for (unsigned int i = 0; i < 3 * fine_nodes.n_owned(); ++i)
+    EXPECT_NEAR(fine.local_element(i), y[3 * fine_nodes.first_owned() + i], 1e-13);
+  p.transfer.restrict_and_add(small, fine);
+  for (unsigned int i = 0; i < 3 * coarse_nodes.n_owned(); ++i)
+    EXPECT_NEAR(small.local_element(i), z[3 * coarse_nodes.first_owned() + i], 1e-13);
+}
+
+TEST(NodalTransfer, GalerkinProductIsThatOfTheDenseMatrices)
+{
+  auto            c = RandomMatrix::make(23, 5);
+  RandomTransfer  p(c.matrix.partition(), 9, 6);
+  NodeBlockMatrix coarse;
+  reinit_galerkin(coarse, c.matrix, p.transfer, RandomMatrix::owned_nodes(9));
+  compute_galerkin(coarse, c.matrix, p.transfer);
+  EXPECT_LT(RandomMatrix::difference(coarse, p.dense.transpose() * c.dense * p.dense), 1e-12);
+}
+
+// After a change of one row of P the marked coarse rows are all that have to be computed again.
+TEST(NodalTransfer, MarkedRowsAreAllThatDependOnAFineRow)
+{
+  auto                 c = RandomMatrix::make(23, 7);
+  RandomTransfer       p(c.matrix.partition(), 9, 8);
+  NodeBlockMatrix      coarse;
+  const NodePartition &nodes = c.matrix.partition();
+  reinit_galerkin(coarse, c.matrix, p.transfer, RandomMatrix::owned_nodes(9));
+  compute_galerkin(coarse, c.matrix, p.transfer);
+  const NodeIndex           changed = 8;
+  std::vector<unsigned int> rows;
+  if (const unsigned int local = nodes.to_local(changed); local != dealii::numbers::invalid_unsigned_int)
+    {
+      const auto        &t = p.transfer;
+      std::vector<Block> blocks(t.row_end(local) - t.row_begin(local));
+      for (std::size_t k = 0; k < blocks.size(); ++k)
+        blocks[k] = .5 * t.row_blocks(local)[k];
+      p.transfer.set_block_row(local, blocks);
+    }
+  for (unsigned int i = 0; i < c.matrix.n_rows(); ++i)
+    for (std::size_t k = c.matrix.row_begin(i); k < c.matrix.row_end(i); ++k)
+      if (nodes.to_global(c.matrix.column(k)) == changed)
+        rows.push_back(i);
+  p.dense.middleRows(3 * changed, 3) *= .5;
+  compute_galerkin(coarse, c.matrix, p.transfer, mark_coarse_nodes(p.transfer, rows));
+  const Eigen::MatrixXd expected = p.dense.transpose() * c.dense * p.dense;
+  EXPECT_LT(RandomMatrix::difference(coarse, expected), 1e-12);
+}

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/algebra/input_error.h>
+#include <signorini/discretization/boundary_conditions.h>
+#include <signorini/discretization/elasticity.h>
+#include <signorini/mesh/bodies.h>
+#include <signorini/mesh/nodal_space.h>
+
+#include <gtest/gtest.h>
+
+using namespace Signorini;
+using dealii::Point;
+namespace Utilities = dealii::Utilities;
+
+namespace
+{
+  /// A block of 1 x 2 x 3 with a refined corner, so that there are hanging nodes.
+  struct Block123
+  {
+    Bodies bodies;
+
+    Block123()
+      : bodies(MPI_COMM_WORLD, {parameters()}, ".")
+    {
+      for (const auto &cell : bodies.triangulation().active_cell_iterators())
+        if (cell->is_locally_owned() && cell->center().norm() < 1.5)
+          cell->set_refine_flag();
+      bodies.triangulation().execute_coarsening_and_refinement();
+    }
+
+    static BodyParameters parameters()
+    {
+      BodyParameters p;
+      p.name         = "body";
+      p.mesh         = "block";
+      p.upper_corner = "1, 2, 3";
+      p.divisions    = "2, 3, 4";
+      p.young        = 7.;
+      p.poisson      = .3;
+      return p;
+    }
+  };
+
+  NodePartition partition_of(const NodalSpace &space)
+  {
+    return NodePartition(space.owned(), space.relevant(), MPI_COMM_WORLD);
+  }
+
+  Vector3 total(const Vector &forces, const NodePartition &partition)
+  {
+    Vector3 sum;
+    for (unsigned int i = 0; i < partition.n_owned(); ++i)
+      for (unsigned int c = 0; c < dim; ++c)
+        sum[c] += forces.local_element(3 * i + c);
+    for (unsigned int c = 0; c < dim; ++c)
+      sum[c] = Utilities::MPI::sum(sum[c], MPI_COMM_WORLD);
+    return sum;
+  }
+} // namespace
+
+// With no displacement what is left are the loads, with the opposite sign.
+TEST(Elasticity, LoadsAddUpToForces)
+{
+  Block123         block;
+  const NodalSpace space(block.bodies.triangulation());
+  const auto       partition = partition_of(space);
+  Vector           u;
+  partition.reinit(u);
+  const auto force_of = [&](const LoadParameters &parameters) {
+    Loads loads;
+    loads.add(block.bodies, 0, parameters);
+    return -1. * total(physical_residual(block.bodies, space, partition, loads, u), partition);
+  };
+  LoadParameters p;
+  p.tractions = "top: (1, 0, 2)";
+  EXPECT_LT((force_of(p) - Point<3>(2., 0., 4.)).norm(), 1e-13);
+  p           = {};
+  p.pressures = "right: 3";
+  EXPECT_LT((force_of(p) - Point<3>(-18., 0., 0.)).norm(), 1e-13);
+  p              = {};
+  p.volume_force = "(0, x, -2)";
+  EXPECT_LT((force_of(p) - Point<3>(0., 3., -12.)).norm(), 1e-12);
+}
+
+// A linear displacement prescribed on the whole border is a solution without loads: no force inside.
+TEST(Elasticity, PatchTestWithHangingNodes)
+{
+  Block123         block;
+  const NodalSpace space(block.bodies.triangulation());
+  const auto       partition = partition_of(space);
+  EXPECT_LT(space.n_conforming_nodes(), space.n_nodes());
+  Vector u;
+  partition.reinit(u);
+  std::set<NodeIndex> inner;
+  for (const NodeIndex node : space.owned())
+    {
+      const Point<3> x         = space.position(node);
+      const Vector3  value     = Point<3>(.1 * x[0] - .2 * x[1], .3 * x[2], .4 * x[0] + .5 * x[2]);
+      bool           at_border = false;
+      for (unsigned int c = 0; c < dim; ++c)
+        {
+          u.local_element(3 * partition.to_local(node) + c) = value[c];
+          at_border = at_border || x[c] < 1e-9 || x[c] > c + 1 - 1e-9;
+        }
+      if (!at_border)
+        inner.insert(node);
+    }
+  u.update_ghost_values();
+  Loads no_loads;
+  no_loads.add(block.bodies, 0, {});
+  const Vector forces = physical_residual(block.bodies, space, partition, no_loads, u);
+  for (const NodeIndex node : inner)
+    for (unsigned int c = 0; c < dim; ++c)
+      EXPECT_NEAR(forces.local_element(3 * partition.to_local(node) + c), 0., 1e-13);
+  EXPECT_LT(total(forces, partition).norm(), 1e-12);
+}
+
+TEST(Elasticity, RigidMotionsMustBeExcluded)
+{
+  Block123         block;
+  const NodalSpace space(block.bodies.triangulation());
+  const auto       check = [&](const std::string &conditions) {
+    Loads          loads;
+    LoadParameters p;
+    p.dirichlet = conditions;
+    loads.add(block.bodies, 0, p);
+    check_rigid_motions(block.bodies, space, evaluate_dirichlet(space, loads, false));
+  };
+  EXPECT_NO_THROW(check("bottom: (0, 0, 0)"));
+  EXPECT_NO_THROW(check("bottom: (*, *, 0); left: (0, *, *); front: (*, 0, *)"));
+  EXPECT_THROW(check("bottom: (*, *, 0); left: (0, *, *)"), InputError);
+  EXPECT_THROW(check("bottom: (*, *, 0)"), InputError);
+}
