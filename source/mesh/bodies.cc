@@ -364,8 +364,8 @@ namespace Signorini
   {
     const auto it = std::find(boundaries[body].begin(), boundaries[body].end(), name);
     if (it == boundaries[body].end())
-      throw InputError((where.empty() ? "Body " : where + ": body ") + names[body] + " has no boundary \"" + name + "\"; it has " +
-                       listed(boundaries[body]) + ".");
+      throw InputError((where.empty() ? "Body " : where + ": body ") + names[body] + " has no boundary \"" +
+                       name + "\"; it has " + listed(boundaries[body]) + ".");
     return {static_cast<types::boundary_id>(first_boundary[body] + (it - boundaries[body].begin()))};
   }
 } // namespace Signorini

@@ -99,7 +99,7 @@ namespace Signorini
 
 
   BoxTree::BoxTree(BoxTree &&) noexcept = default;
-  BoxTree::~BoxTree() = default;
+  BoxTree::~BoxTree()                   = default;
 
 
 
@@ -110,8 +110,8 @@ namespace Signorini
     if (tree->values.empty())
       return;
     // A segment as long as the boxes reach.
-    const auto  bounds = tree->values.bounds();
-    const auto &low = bounds.min_corner(), &high = bounds.max_corner();
+    const auto   bounds = tree->values.bounds();
+    const auto  &low = bounds.min_corner(), &high = bounds.max_corner();
     const double reach = std::max(std::abs(low.get<0>() - p[0]), std::abs(high.get<0>() - p[0])) +
                          std::max(std::abs(low.get<1>() - p[1]), std::abs(high.get<1>() - p[1])) +
                          std::max(std::abs(low.get<2>() - p[2]), std::abs(high.get<2>() - p[2]));
@@ -125,7 +125,8 @@ namespace Signorini
   void BoxTree::find_overlapping(std::vector<unsigned int> &found, const Box &box) const
   {
     found.clear();
-    tree->values.query(bgi::intersects(TreeBox(tree_point(box.low), tree_point(box.high))), Collector{&found});
+    tree->values.query(bgi::intersects(TreeBox(tree_point(box.low), tree_point(box.high))),
+                       Collector{&found});
   }
 
 

@@ -12,7 +12,8 @@ namespace Signorini
       return a.feature != b.feature ? a.feature < b.feature : a.along < b.along;
     }
 
-    double turn(const std::array<double, 2> &a, const std::array<double, 2> &b, const std::array<double, 2> &c)
+    double turn(const std::array<double, 2> &a, const std::array<double, 2> &b,
+                const std::array<double, 2> &c)
     {
       return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
     }
@@ -79,7 +80,7 @@ namespace Signorini
 
 
 
-  void triangulate_polygon(std::vector<std::array<unsigned int, 3>>  &triangles,
+  void triangulate_polygon(std::vector<std::array<unsigned int, 3>> &triangles,
                            const std::vector<std::array<double, 2>> &x)
   {
     const auto n = static_cast<unsigned int>(x.size());
@@ -109,8 +110,8 @@ namespace Signorini
     std::iota(rest.begin(), rest.end(), 0u);
     while (rest.size() > 3)
       {
-        const std::size_t m    = rest.size();
-        std::size_t       best = 0;
+        const std::size_t m       = rest.size();
+        std::size_t       best    = 0;
         double            largest = -std::numeric_limits<double>::max();
         for (std::size_t i = 0; i < m; ++i)
           {

@@ -93,6 +93,121 @@ namespace Signorini
             (x[i][0] - x[0][0]) * (x[i + 1][1] - x[0][1]) - (x[i][1] - x[0][1]) * (x[i + 1][0] - x[0][0]);
       return share;
     }
+
+    /// The polygons in one nonmortar triangle.
+    class TrianglePolygons
+    {
+    public:
+      struct Polygon
+      {
+        unsigned int   mortar_triangle;
+        double         share;
+        std::ptrdiff_t first, last;
+      };
+
+      TrianglePolygons(const Incidence &incidence, const PlaneGraph &graph,
+                       const std::vector<bool> &mortar_border)
+        : incidence(incidence)
+        , nonmortar(incidence.nonmortar_topology)
+        , mortar(incidence.mortar_topology)
+        , graph(graph)
+        , mortar_border(mortar_border)
+      {
+      }
+
+      void compute(const unsigned int t, const std::array<unsigned int, 3> &corner_nodes)
+      {
+        list.clear();
+        corners.clear();
+        incident.clear();
+        covered        = 0.;
+        n_broken       = 0;
+        is_covered_all = true;
+        for (unsigned int i = 0; i < 3; ++i)
+          {
+            if (corner_nodes[i] != SurfaceTopology::none)
+              add(corner_nodes[i]);
+            else
+              is_covered_all = false;
+            const unsigned int e = nonmortar.triangle_edges[t][i];
+            for (unsigned int k = graph.edge_start[e]; k < graph.edge_start[e + 1]; ++k)
+              add(graph.edge_nodes[k]);
+          }
+        for (unsigned int k = graph.triangle_start[t]; k < graph.triangle_start[t + 1]; ++k)
+          add(graph.triangle_nodes[k]);
+        std::sort(incident.begin(), incident.end());
+        for (std::size_t first = 0, last; first < incident.size(); first = last)
+          {
+            const unsigned int m = incident[first].mortar_triangle;
+            for (last = first + 1; last < incident.size() && incident[last].mortar_triangle == m;)
+              ++last;
+            if (last - first >= 3 && incidence.triangles_face(t, m))
+              add_polygon(t, m, first, last);
+          }
+      }
+
+      /// How far the pieces are from covering a triangle that no border of the mortar surface runs through.
+      double defect() const
+      {
+        return is_covered_all && !list.empty() ? std::abs(covered - 1.) : 0.;
+      }
+
+      std::vector<Polygon>      list;
+      std::vector<unsigned int> corners;
+      double                    covered;
+      unsigned int              n_broken;
+
+    private:
+      void add(const unsigned int node)
+      {
+        const SurfacePoint &p = graph.nodes[node].mortar;
+        if ((p.on == On::edge && mortar.is_border(p.index)) || (p.on == On::vertex && mortar_border[p.index]))
+          is_covered_all = false;
+        add_incident(incident, mortar, graph.nodes[node], node);
+      }
+
+      void add_polygon(const unsigned int t, const unsigned int m, const std::size_t first,
+                       const std::size_t last)
+      {
+        unsorted.clear();
+        for (std::size_t k = first; k < last; ++k)
+          {
+            const MappingNode &node = graph.nodes[incident[k].node];
+            unsorted.push_back({incident[k].node, position_on(nonmortar, t, node.nonmortar),
+                                turned(position_on(mortar, m, node.mortar))});
+          }
+        if (!sorter.sort(unsorted))
+          {
+            ++n_broken;
+            return;
+          }
+        flat.clear();
+        for (const auto &corner : unsorted)
+          {
+            const auto w = graph.nodes[corner.node].nonmortar.weights_in(nonmortar, t);
+            flat.push_back({{w[1], w[2]}});
+          }
+        // Triangles that only touch have no area in common.
+        const double share = share_of(flat);
+        if (std::abs(share) < 1e-15)
+          return;
+        covered += share;
+        const auto begin = static_cast<std::ptrdiff_t>(corners.size());
+        for (const auto &corner : unsorted)
+          corners.push_back(corner.node);
+        list.push_back({m, share, begin, static_cast<std::ptrdiff_t>(corners.size())});
+      }
+
+      const Incidence                   &incidence;
+      const SurfaceTopology             &nonmortar, &mortar;
+      const PlaneGraph                  &graph;
+      const std::vector<bool>           &mortar_border;
+      std::vector<Incident>              incident;
+      std::vector<CommonPolygon::Corner> unsorted;
+      std::vector<std::array<double, 2>> flat;
+      CommonPolygon                      sorter;
+      bool                               is_covered_all;
+    };
   } // namespace
 
 
@@ -103,84 +218,45 @@ namespace Signorini
     , nonmortar(nonmortar_mesh.triangles, nonmortar_mesh.vertices.size())
     , mortar(mortar_mesh.triangles, mortar_mesh.vertices.size())
   {
-    const Incidence incidence(nonmortar_mesh, mortar_mesh, nonmortar, mortar);
-    PlaneGraph      graph(incidence);
-    graph_nodes          = std::move(graph.nodes);
+    Incidence  incidence(nonmortar_mesh, mortar_mesh, nonmortar, mortar);
+    PlaneGraph graph(incidence);
     summary.n_lost_edges = graph.lost_edges.size();
     for (unsigned int v = 0; v < graph.unmapped.size(); ++v)
       if (graph.unmapped[v] != Unmapped::not_at_all)
         summary.unmapped.emplace_back(v, graph.unmapped[v]);
 
-    std::vector<Incident>              incident;
-    std::vector<CommonPolygon::Corner> corners;
-    std::vector<std::array<double, 2>> flat;
-    CommonPolygon                      polygon;
+    std::vector<bool> mortar_border(mortar_mesh.vertices.size(), false);
+    for (unsigned int f = 0; f < mortar.edges.size(); ++f)
+      if (mortar.is_border(f))
+        for (const unsigned int v : mortar.edges[f])
+          mortar_border[v] = true;
+
+    TrianglePolygons polygons(incidence, graph, mortar_border);
     for (unsigned int t = 0; t < nonmortar.triangles.size(); ++t)
       {
         if (is_selected && !is_selected(t))
           continue;
-        incident.clear();
+        std::array<unsigned int, 3> corner_nodes;
         for (unsigned int i = 0; i < 3; ++i)
-          {
-            if (const unsigned int node = graph.nonmortar_vertex_node[nonmortar.triangles[t][i]];
-                node != SurfaceTopology::none)
-              add_incident(incident, mortar, graph_nodes[node], node);
-            const unsigned int e = nonmortar.triangle_edges[t][i];
-            for (unsigned int k = graph.edge_start[e]; k < graph.edge_start[e + 1]; ++k)
-              add_incident(incident, mortar, graph_nodes[graph.edge_nodes[k]], graph.edge_nodes[k]);
-          }
-        for (unsigned int k = graph.triangle_start[t]; k < graph.triangle_start[t + 1]; ++k)
-          add_incident(incident, mortar, graph_nodes[graph.triangle_nodes[k]], graph.triangle_nodes[k]);
-        std::sort(incident.begin(), incident.end());
-
-        const double area      = triangle_area(nonmortar_mesh, t);
-        double       sum       = 0.;
-        bool         at_border = false;
+          corner_nodes[i] = graph.nonmortar_vertex_node[nonmortar.triangles[t][i]];
+        polygons.compute(t, corner_nodes);
+        const double area = triangle_area(nonmortar_mesh, t);
         summary.area_nonmortar += area;
-        for (std::size_t first = 0, last; first < incident.size(); first = last)
+        summary.area_covered += polygons.covered * area;
+        summary.n_broken += polygons.n_broken;
+        summary.worst_tiling_defect = std::max(summary.worst_tiling_defect, polygons.defect());
+        for (const auto &polygon : polygons.list)
           {
-            const unsigned int m = incident[first].mortar_triangle;
-            for (last = first + 1; last < incident.size() && incident[last].mortar_triangle == m;)
-              ++last;
-            if (last - first < 3 || !incidence.triangles_face(t, m))
-              continue;
-            corners.clear();
-            for (std::size_t k = first; k < last; ++k)
-              {
-                const MappingNode &node = graph_nodes[incident[k].node];
-                corners.push_back({incident[k].node, position_on(nonmortar, t, node.nonmortar),
-                                   turned(position_on(mortar, m, node.mortar))});
-              }
-            if (!polygon.sort(corners))
-              {
-                ++summary.n_broken;
-                continue;
-              }
-            flat.clear();
-            for (const auto &corner : corners)
-              {
-                const auto w = graph_nodes[corner.node].nonmortar.weights_in(nonmortar, t);
-                flat.push_back({{w[1], w[2]}});
-              }
-            const double share = share_of(flat);
-            // Triangles that only touch.
-            if (std::abs(share) < 1e-15)
-              continue;
             ++summary.n_pairs;
-            summary.n_flips += share < -1e-12;
-            sum += share * area;
-            summary.n_cells += corners.size() - 2;
-            polygon_triangles.emplace_back(t, m);
-            for (const auto &corner : corners)
-              polygon_corners.push_back(corner.node);
+            summary.n_flips += polygon.share < -1e-12;
+            summary.n_cells += polygon.last - polygon.first - 2;
+            polygon_triangles.emplace_back(t, polygon.mortar_triangle);
+            polygon_corners.insert(polygon_corners.end(), polygons.corners.begin() + polygon.first,
+                                   polygons.corners.begin() + polygon.last);
             polygon_start.push_back(static_cast<unsigned int>(polygon_corners.size()));
-            for (const unsigned int e : mortar.triangle_edges[m])
-              at_border = at_border || mortar.is_border(e);
           }
-        summary.area_covered += sum;
-        if (sum != 0. && !at_border)
-          summary.worst_tiling_defect = std::max(summary.worst_tiling_defect, std::abs(sum - area) / area);
       }
+    graph_nodes = std::move(graph.nodes);
   }
 
 

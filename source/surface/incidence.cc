@@ -69,12 +69,43 @@ namespace Signorini
 
 
 
+  bool Incidence::is_at(const unsigned int mortar_vertex, const unsigned int vertex) const
+  {
+    const Tensor<1, 3> way    = nonmortar.vertices[vertex] - mortar.vertices[mortar_vertex];
+    const Tensor<1, 3> across = cross_product_3d(way, mortar.vertex_normals[mortar_vertex]);
+    return across.norm() <=
+           NormalProjection::vertex_tolerance * std::min(mortar_size[mortar_vertex], nonmortar_size[vertex]);
+  }
+
+
+
+  void Incidence::move_mortar_vertex(const unsigned int vertex, const Point<3> &image)
+  {
+    const Tensor<1, 3> &n   = mortar.vertex_normals[vertex];
+    const Tensor<1, 3>  way = image - mortar.vertices[vertex];
+    mortar.vertices[vertex] += way - (way * n) * n;
+  }
+
+
+
+  void Incidence::move_nonmortar_vertex(const unsigned int vertex, const unsigned int mortar_edge,
+                                        const double s)
+  {
+    const auto        &e   = mortar_topology.edges[mortar_edge];
+    const Point<3>     x   = mortar.vertices[e[0]] + s * (mortar.vertices[e[1]] - mortar.vertices[e[0]]);
+    const Tensor<1, 3> n   = (1. - s) * mortar.vertex_normals[e[0]] + s * mortar.vertex_normals[e[1]];
+    const Tensor<1, 3> way = nonmortar.vertices[vertex] - x;
+    nonmortar.vertices[vertex] -= way - ((way * n) / n.norm_square()) * n;
+  }
+
+
+
   Incidence::Side Incidence::of_mortar_vertex(const unsigned int vertex, const unsigned int edge) const
   {
     const OrientedEdge e = edge_of(nonmortar, nonmortar_topology.edges[edge]);
     double             position;
-    const double distance = NormalProjection::distance_from_edge(mortar.vertices[vertex],
-                                                                 mortar.vertex_normals[vertex], e, position);
+    const double       distance = NormalProjection::distance_from_edge(mortar.vertices[vertex],
+                                                                       mortar.vertex_normals[vertex], e, position);
     return decide(distance, position, std::min(mortar_size[vertex], e.a.distance(e.b)));
   }
 
@@ -84,8 +115,7 @@ namespace Signorini
   {
     const OrientedEdge e = edge_of(mortar, mortar_topology.edges[edge]);
     double             position;
-    const double       distance =
-        NormalProjection::distance_from_curtain(nonmortar.vertices[vertex], e, position);
+    const double distance = NormalProjection::distance_from_curtain(nonmortar.vertices[vertex], e, position);
     return decide(distance, position, std::min(nonmortar_size[vertex], e.a.distance(e.b)));
   }
 
@@ -94,26 +124,62 @@ namespace Signorini
   bool Incidence::cross(double &t, double &s, const unsigned int nonmortar_edge,
                         const unsigned int mortar_edge, const Side &low, const Side &high) const
   {
-    const double share   = low.distance - high.distance;
-    const double t_guess = share != 0. ? low.distance / share : .5;
-    const double s_guess = (1. - t_guess) * low.position + t_guess * high.position;
-    t                    = t_guess;
-    s                    = s_guess;
-    // A little outside is rounding; far outside Newton has run away, or there is no crossing.
+    const double share = low.distance - high.distance;
+    t                  = share != 0. ? low.distance / share : .5;
+    s                  = (1. - t) * low.position + t * high.position;
+    // A little outside is rounding.
     constexpr double outside = 1e-6;
-    const bool       inside =
-        NormalProjection::intersect_edges(edge_of(mortar, mortar_topology.edges[mortar_edge]),
-                                          edge_of(nonmortar, nonmortar_topology.edges[nonmortar_edge]), s,
-                                          t) &&
-        s >= -outside && s <= 1. + outside && t >= -outside && t <= 1. + outside;
-    if (!inside)
-      {
-        t = t_guess;
-        s = s_guess;
-      }
+    const bool       inside  = NormalProjection::intersect_edges(
+                                   edge_of(mortar, mortar_topology.edges[mortar_edge]),
+                                   edge_of(nonmortar, nonmortar_topology.edges[nonmortar_edge]), s, t) &&
+                        s >= -outside && s <= 1. + outside && t >= -outside && t <= 1. + outside;
     t = std::min(1., std::max(0., t));
     s = std::min(1., std::max(0., s));
     return inside;
+  }
+
+
+
+  // The line through x(s) along n(s) meets the line of the edge e from a: (a - x(s)) . (n(s) x e) = 0, which
+  // is quadratic in s.
+  std::vector<Incidence::Crossing> Incidence::all_crossings(const unsigned int nonmortar_edge,
+                                                            const unsigned int mortar_edge) const
+  {
+    const OrientedEdge e     = edge_of(nonmortar, nonmortar_topology.edges[nonmortar_edge]),
+                       f     = edge_of(mortar, mortar_topology.edges[mortar_edge]);
+    const Tensor<1, 3> along = e.b - e.a, d = f.b - f.a, r = e.a - f.a, slope = f.normal_b - f.normal_a;
+    const Tensor<1, 3> n0 = cross_product_3d(f.normal_a, along), n1 = cross_product_3d(slope, along);
+    const double       c0 = r * n0, c1 = r * n1 - d * n0, c2 = -(d * n1);
+    double             roots[2];
+    unsigned int       n_roots = 0;
+    if (std::abs(c2) <= 1e-14 * std::abs(c1))
+      roots[n_roots++] = -c0 / c1;
+    else if (const double discriminant = c1 * c1 - 4. * c2 * c0; discriminant >= 0.)
+      {
+        const double q   = -.5 * (c1 + std::copysign(std::sqrt(discriminant), c1));
+        roots[n_roots++] = q / c2;
+        roots[n_roots++] = c0 / q;
+        if (roots[1] < roots[0])
+          std::swap(roots[0], roots[1]);
+      }
+    constexpr double      outside = 1e-9;
+    std::vector<Crossing> result;
+    for (unsigned int i = 0; i < n_roots; ++i)
+      {
+        const double s = roots[i];
+        if (!(s >= -outside && s <= 1. + outside))
+          continue;
+        const Tensor<1, 3> n = f.normal_a + s * slope, across = cross_product_3d(along, n),
+                           way = f.a + s * d - e.a;
+        const double t         = (cross_product_3d(way, n) * across) / across.norm_square();
+        if (!(t >= -outside && t <= 1. + outside))
+          continue;
+        const double       eta     = ((e.a + t * along - f.a - s * d) * n) / n.norm_square();
+        const Tensor<1, 3> tangent = d + eta * slope;
+        result.push_back({std::min(1., std::max(0., t)), std::min(1., std::max(0., s)),
+                          cross_product_3d(tangent, along) * n > 0. ? 1 : -1});
+      }
+    return result;
   }
 
 

@@ -59,7 +59,7 @@ namespace Signorini
 
 
 
-  PlaneGraph::PlaneGraph(const Incidence &incidence)
+  PlaneGraph::PlaneGraph(Incidence &incidence)
     : nonmortar_vertex_node(incidence.nonmortar.vertices.size(), none)
     , mortar_vertex_node(incidence.mortar.vertices.size(), none)
     , unmapped(incidence.mortar.vertices.size(), Unmapped::not_at_all)
@@ -73,6 +73,7 @@ namespace Signorini
         map_mortar_vertices();
         trace_mortar_edges();
       }
+    low_side.resize(nodes.size(), 0);
     group(edge_start, edge_nodes, nodes, On::edge, nonmortar.edges.size());
     group(triangle_start, triangle_nodes, nodes, On::triangle, nonmortar.triangles.size());
     for (unsigned int e = 0; e < nonmortar.edges.size(); ++e)
@@ -95,38 +96,38 @@ namespace Signorini
   bool PlaneGraph::is_hit(SurfacePoint &place, double &eta, const unsigned int vertex,
                           const unsigned int triangle) const
   {
-    const auto &edges = nonmortar.triangle_edges[triangle];
-    const auto &t     = nonmortar.triangles[triangle];
-    int         zero[3], on_one = -1, on_two = -1;
-    double      position = 0.;
+    const auto           &edges = nonmortar.triangle_edges[triangle];
+    const auto           &t     = nonmortar.triangles[triangle];
+    std::array<double, 3> w;
+    if (!NormalProjection::intersect_line(w, eta, incidence.mortar.vertices[vertex],
+                                          incidence.mortar.vertex_normals[vertex],
+                                          corners_of(incidence.nonmortar, triangle)))
+      return false;
+    for (const unsigned int corner : t)
+      if (incidence.is_at(vertex, corner))
+        {
+          place = SurfacePoint::at_vertex(corner);
+          return true;
+        }
+    int    on_edge  = -1;
+    double position = 0.;
     for (unsigned int e = 0; e < 3; ++e)
       {
         const Incidence::Side s     = incidence.of_mortar_vertex(vertex, edges[e]);
         const bool            along = t[e] == nonmortar.edges[edges[e]][0];
         if ((along ? s.sign : -s.sign) < 0)
           return false;
-        zero[e] = s.sign == 0;
-        if (zero[e])
+        if (s.sign == 0)
           {
-            on_one   = static_cast<int>(e);
+            on_edge  = static_cast<int>(e);
             position = s.position;
           }
       }
-    for (int e = 0; e < 3; ++e)
-      if (zero[e] && zero[(e + 2) % 3])
-        on_two = e;
-    std::array<double, 3> w;
-    if (!NormalProjection::intersect_line(w, eta, incidence.mortar.vertices[vertex],
-                                          incidence.mortar.vertex_normals[vertex],
-                                          corners_of(incidence.nonmortar, triangle)))
-      return false;
-    if (on_two >= 0)
-      place = SurfacePoint::at_vertex(t[on_two]);
-    else if (on_one >= 0)
+    if (on_edge >= 0)
       {
         if (position < 0. || position > 1.)
           return false;
-        place = SurfacePoint::on_edge(edges[on_one], position);
+        place = SurfacePoint::on_edge(edges[on_edge], position);
       }
     else
       place = SurfacePoint::in_triangle(triangle, w);
@@ -167,8 +168,18 @@ namespace Signorini
           }
         reach                 = std::max(reach, nearest);
         mortar_vertex_node[v] = static_cast<unsigned int>(nodes.size());
-        if (best.on == On::vertex && nonmortar_vertex_node[best.index] == none)
-          nonmortar_vertex_node[best.index] = mortar_vertex_node[v];
+        if (best.on == On::vertex)
+          {
+            if (nonmortar_vertex_node[best.index] == none)
+              nonmortar_vertex_node[best.index] = mortar_vertex_node[v];
+            incidence.move_mortar_vertex(v, incidence.nonmortar.vertices[best.index]);
+          }
+        else if (best.on == On::edge)
+          {
+            const auto     &e = nonmortar.edges[best.index];
+            const Point<3> &a = incidence.nonmortar.vertices[e[0]], &b = incidence.nonmortar.vertices[e[1]];
+            incidence.move_mortar_vertex(v, a + best.x[0] * (b - a));
+          }
         nodes.push_back({best, SurfacePoint::at_vertex(v)});
       }
     for (const auto &e : mortar.edges)
@@ -187,6 +198,12 @@ namespace Signorini
       return place.index;
     if (place.on == On::edge)
       {
+        const auto index = static_cast<std::size_t>(&node - nodes.data());
+        if (node.nonmortar.on == On::edge && index < low_side.size() && low_side[index] != 0)
+          {
+            const bool is_low = nonmortar.edges[node.nonmortar.index][0] == vertex;
+            return mortar.edge_triangles[place.index][(low_side[index] > 0) == is_low ? 1 : 0];
+          }
         // Left for the nonmortar viewer is right for the mortar viewer.
         const bool left = incidence.of_nonmortar_vertex(vertex, place.index).distance > 0.;
         return mortar.edge_triangles[place.index][left ? 1 : 0];
@@ -237,6 +254,20 @@ namespace Signorini
           }
       }
     return best;
+  }
+
+
+
+  SurfacePoint PlaneGraph::image_in(const unsigned int vertex, const unsigned int triangle) const
+  {
+    std::array<double, 3> w;
+    double                eta;
+    if (!NormalProjection::inverse_project(w, eta, incidence.nonmortar.vertices[vertex],
+                                           corners_of(incidence.mortar, triangle),
+                                           normals_of(incidence.mortar, triangle)) ||
+        *std::max_element(w.begin(), w.end()) <= 0.)
+      w = {{1. / 3., 1. / 3., 1. / 3.}};
+    return SurfacePoint::in_triangle(triangle, w);
   }
 
 
@@ -306,14 +337,8 @@ namespace Signorini
     for (unsigned int v = 0; v < n; ++v)
       if (nonmortar_vertex_node[v] == none && image[v] < unknown)
         {
-          std::array<double, 3> w;
-          double                eta;
-          if (!NormalProjection::inverse_project(w, eta, incidence.nonmortar.vertices[v],
-                                                 corners_of(incidence.mortar, image[v]),
-                                                 normals_of(incidence.mortar, image[v])))
-            w = {{1. / 3., 1. / 3., 1. / 3.}};
           nonmortar_vertex_node[v] = static_cast<unsigned int>(nodes.size());
-          nodes.push_back({SurfacePoint::at_vertex(v), SurfacePoint::in_triangle(image[v], w)});
+          nodes.push_back({SurfacePoint::at_vertex(v), image_in(v, image[v])});
         }
   }
 } // namespace Signorini

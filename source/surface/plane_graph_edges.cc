@@ -36,9 +36,14 @@ namespace Signorini
   {
     Incidence::Side    result = incidence.of_nonmortar_vertex(vertex, mortar_edge);
     const unsigned int node   = nonmortar_vertex_node[vertex];
-    if (result.sign == 0 && node != none &&
-        !(nodes[node].mortar.on == On::edge && nodes[node].mortar.index == mortar_edge))
-      result.sign = result.distance > 0. ? 1 : -1;
+    if (node != none)
+      {
+        const SurfacePoint &place = nodes[node].mortar;
+        if (place.on == On::edge && place.index == mortar_edge)
+          result.sign = 0;
+        else if (result.sign == 0)
+          result.sign = result.distance > 0. ? 1 : -1;
+      }
     return result;
   }
 
@@ -59,26 +64,30 @@ namespace Signorini
     if (nonmortar_vertex_node[vertex] == none)
       {
         nonmortar_vertex_node[vertex] = static_cast<unsigned int>(nodes.size());
-        nodes.push_back({SurfacePoint::at_vertex(vertex),
-                         SurfacePoint::on_edge(walk.edge, walk.forward(walk.position))});
+        const double s                = walk.forward(walk.position);
+        nodes.push_back({SurfacePoint::at_vertex(vertex), SurfacePoint::on_edge(walk.edge, s)});
+        incidence.move_nonmortar_vertex(vertex, walk.edge, s);
       }
     return State::on_the_way;
   }
 
 
 
-  bool PlaneGraph::add_crossing(Walk &walk, const unsigned int edge, const Incidence::Side &low,
-                                const Incidence::Side &high)
+  PlaneGraph::State PlaneGraph::add_crossing(Walk &walk, const unsigned int edge, const Incidence::Side &low,
+                                             const Incidence::Side &high)
   {
-    if (nonmortar.is_border(edge) && !border_crossings.insert({walk.edge, edge}).second)
-      return false;
     double t, s;
-    incidence.cross(t, s, edge, walk.edge, low, high);
+    if (!incidence.cross(t, s, edge, walk.edge, low, high))
+      return State::lost;
+    if (nonmortar.is_border(edge) && !border_crossings.insert({walk.edge, edge}).second)
+      return State::left;
     // Nodes follow each other along the edge, rounding or not.
     walk.position = std::max(walk.position, walk.forward(s));
     nodes.push_back(
         {SurfacePoint::on_edge(edge, t), SurfacePoint::on_edge(walk.edge, walk.forward(walk.position))});
-    return true;
+    low_side.resize(nodes.size(), 0);
+    low_side.back() = static_cast<signed char>(low.sign);
+    return State::on_the_way;
   }
 
 
@@ -88,8 +97,9 @@ namespace Signorini
   {
     const unsigned int edge  = nonmortar.triangle_edges[walk.triangle][local];
     const bool         along = nonmortar.triangles[walk.triangle][local] == nonmortar.edges[edge][0];
-    if (!add_crossing(walk, edge, along ? begin : end, along ? end : begin))
-      return State::left;
+    if (const State state = add_crossing(walk, edge, along ? begin : end, along ? end : begin);
+        state != State::on_the_way)
+      return state;
     const auto &beside = nonmortar.edge_triangles[edge];
     walk.triangle      = beside[0] == walk.triangle ? beside[1] : beside[0];
     walk.vertex        = none;
@@ -102,8 +112,8 @@ namespace Signorini
 
 
 
-  // Seen along the walk an edge through which it enters runs (counterclockwise) from the left to the right, an
-  // edge through which it leaves from the right to the left.
+  // Seen along the walk an edge through which it enters runs (counterclockwise) from the left to the right,
+  // an edge through which it leaves from the right to the left.
   PlaneGraph::State PlaneGraph::pass_triangle(Walk &walk)
   {
     if (is_reached(walk, walk.triangle))
@@ -113,8 +123,8 @@ namespace Signorini
     const Incidence::Side s        = side(opposite, walk.edge);
     if (s.sign == 0)
       return go_to_vertex(walk, opposite, s.position);
-    return walk.direction * s.sign > 0 ? leave_through(walk, (k + 2) % 3, walk.entry_sides[1], s) :
-                                         leave_through(walk, k, s, walk.entry_sides[0]);
+    return walk.direction * s.sign > 0 ? leave_through(walk, (k + 2) % 3, walk.entry_sides[1], s)
+                                       : leave_through(walk, k, s, walk.entry_sides[0]);
   }
 
 
@@ -222,9 +232,100 @@ namespace Signorini
   PlaneGraph::State PlaneGraph::trace_from_node(const unsigned int edge, const int direction,
                                                 const unsigned int start, const unsigned int target)
   {
+    const std::size_t  n_nodes = nodes.size();
+    const SurfacePoint place   = nodes[start].nonmortar;
     Walk               walk{edge, direction, target};
-    const SurfacePoint place = nodes[start].nonmortar;
-    return walk_to_end(walk, leave_node(walk, place));
+    const State        state = walk_to_end(walk, leave_node(walk, place));
+    if (state == State::reached || (state == State::left && target == none))
+      return state;
+    // Strongly bent cells: the sides of vertices far from the edge mislead, the crossings themselves do not.
+    Walk again{edge, direction, target};
+    take_back(again, n_nodes);
+    const State second = trace_by_roots(again, place);
+    if (second == State::reached || state == State::lost)
+      return second;
+    take_back(again, n_nodes);
+    Walk as_before{edge, direction, target};
+    return walk_to_end(as_before, leave_node(as_before, place));
+  }
+
+
+
+  void PlaneGraph::take_back(const Walk &walk, const std::size_t n_nodes)
+  {
+    for (; nodes.size() > n_nodes; nodes.pop_back())
+      {
+        const SurfacePoint &place = nodes.back().nonmortar;
+        if (place.on == On::vertex)
+          nonmortar_vertex_node[place.index] = none;
+        else
+          border_crossings.erase({walk.edge, place.index});
+      }
+    low_side.resize(std::min(low_side.size(), n_nodes));
+  }
+
+
+
+  PlaneGraph::State PlaneGraph::trace_by_roots(Walk &walk, const SurfacePoint &start)
+  {
+    std::vector<unsigned int> triangles, passed;
+    if (start.on == On::triangle)
+      triangles.push_back(start.index);
+    else if (start.on == On::edge)
+      {
+        passed.push_back(start.index);
+        for (const unsigned int t : nonmortar.edge_triangles[start.index])
+          if (t != none)
+            triangles.push_back(t);
+      }
+    else
+      for (unsigned int k = nonmortar.fan_start[start.index]; k < nonmortar.fan_start[start.index + 1]; ++k)
+        {
+          triangles.push_back(nonmortar.fan[k]);
+          const unsigned int corner = nonmortar.local_corner(nonmortar.fan[k], start.index);
+          for (const unsigned int i : {corner, (corner + 2) % 3})
+            passed.push_back(nonmortar.triangle_edges[nonmortar.fan[k]][i]);
+        }
+    constexpr double rounding = 1e-9;
+    for (std::size_t step = 0; step < 2 * nonmortar.triangles.size(); ++step)
+      {
+        for (const unsigned int t : triangles)
+          if (is_reached(walk, t))
+            return State::reached;
+        // The next crossing of a border edge of these triangles.
+        unsigned int        out = none;
+        Incidence::Crossing next{0., 0., 0};
+        double              nearest = 2.;
+        for (const unsigned int t : triangles)
+          for (const unsigned int e : nonmortar.triangle_edges[t])
+            for (const auto &crossing : incidence.all_crossings(e, walk.edge))
+              {
+                const double position = walk.forward(crossing.s);
+                const bool   was_here = std::find(passed.begin(), passed.end(), e) != passed.end();
+                if (position >= walk.position + (was_here ? 1e3 : -1.) * rounding && position < nearest)
+                  {
+                    nearest = position;
+                    next    = crossing;
+                    out     = e;
+                  }
+              }
+        if (out == none)
+          return State::lost;
+        if (nonmortar.is_border(out) && !border_crossings.insert({walk.edge, out}).second)
+          return State::left;
+        walk.position = std::max(walk.position, nearest);
+        nodes.push_back({SurfacePoint::on_edge(out, next.t),
+                         SurfacePoint::on_edge(walk.edge, walk.forward(walk.position))});
+        low_side.resize(nodes.size(), 0);
+        low_side.back()            = static_cast<signed char>(next.low_side);
+        const auto        &beside  = nonmortar.edge_triangles[out];
+        const unsigned int through = beside[walk.direction * next.low_side > 0 ? 0 : 1];
+        if (through == none)
+          return State::left;
+        triangles = {through};
+        passed    = {out};
+      }
+    return State::lost;
   }
 
 
@@ -298,7 +399,7 @@ namespace Signorini
   void PlaneGraph::enter_at(const unsigned int e, const unsigned int f)
   {
     const auto        &ends = nonmortar.edges[e];
-    const unsigned int p    = mortar.edges[f][0], q = mortar.edges[f][1];
+    const unsigned int p = mortar.edges[f][0], q = mortar.edges[f][1];
     const unsigned int only = nonmortar.edge_triangles[e][0] != none ? 0 : 1;
     const unsigned int t    = nonmortar.edge_triangles[e][only];
     if (!incidence.vertex_faces(p, t) || !incidence.vertex_faces(q, t) || border_crossings.count({f, e}) > 0)
@@ -321,13 +422,13 @@ namespace Signorini
     if (s[0].sign == s[1].sign)
       return;
     // Inwards.
-    const int          direction = (only == 0 ? s[0].sign : s[1].sign) > 0 ? 1 : -1;
-    double             at_e, at_f;
-    const bool         crosses = incidence.cross(at_e, at_f, e, f, s[0], s[1]);
-    Walk               walk{f, direction, mortar_vertex_node[direction > 0 ? q : p]};
+    const int  direction = (only == 0 ? s[0].sign : s[1].sign) > 0 ? 1 : -1;
+    double     at_e, at_f;
+    const bool crosses = incidence.cross(at_e, at_f, e, f, s[0], s[1]);
+    Walk       walk{f, direction, mortar_vertex_node[direction > 0 ? q : p]};
     // Right at an end: inwards only from an end outside. An end inside has been followed already.
-    constexpr double   at_end = 1e-6;
-    const double       come   = walk.forward(at_f);
+    constexpr double at_end = 1e-6;
+    const double     come   = walk.forward(at_f);
     if (!crosses || come > 1. - at_end ||
         (come < at_end && mortar_vertex_node[direction > 0 ? p : q] != none))
       return;
@@ -335,8 +436,7 @@ namespace Signorini
     walk.triangle    = t;
     walk.entry       = nonmortar.local_edge(t, e);
     walk.entry_sides = {{s[only], s[1 - only]}};
-    add_crossing(walk, e, s[0], s[1]);
-    if (walk_to_end(walk, State::on_the_way) == State::lost)
+    if (walk_to_end(walk, add_crossing(walk, e, s[0], s[1])) == State::lost)
       lost_edges.push_back(f);
   }
 } // namespace Signorini

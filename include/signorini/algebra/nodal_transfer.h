@@ -116,8 +116,8 @@ namespace Signorini
                         const NodalTransfer              &transfer,
                         const std::vector<unsigned char> &marked_coarse_nodes = {});
 
-  /// Collective. Marks the local coarse nodes whose rows of P^T A P change with the given owned fine rows of A.
-  /// If rows of P change, the rows of A that couple to them are to be given as well.
+  /// Collective. Marks the local coarse nodes whose rows of P^T A P change with the given owned fine rows of
+  /// A. If rows of P change, the rows of A that couple to them are to be given as well.
   std::vector<unsigned char> mark_coarse_nodes(const NodalTransfer             &transfer,
                                                const std::vector<unsigned int> &fine_rows);
 } // namespace Signorini

@@ -14,8 +14,8 @@ namespace Signorini
   class CommonPolygon
   {
   public:
-    /// A position on the border of a triangle: 2c at corner c, 2c + 1 on the edge from corner c to c + 1, with
-    /// the way along it; feature -1 inside.
+    /// A position on the border of a triangle: 2c at corner c, 2c + 1 on the edge from corner c to c + 1,
+    /// with the way along it; feature -1 inside.
     struct Position
     {
       int    feature = -1;
@@ -25,7 +25,8 @@ namespace Signorini
     struct Corner
     {
       unsigned int node;
-      /// Counterclockwise on the nonmortar triangle, and on the mortar triangle as seen from the nonmortar side.
+      /// Counterclockwise on the nonmortar triangle, and on the mortar triangle as seen from the nonmortar
+      /// side.
       Position nonmortar, mortar;
     };
 
@@ -37,9 +38,9 @@ namespace Signorini
     std::vector<Corner>       sorted;
   };
 
-  /// Cuts a polygon in the plane into triangles with the same orientation where that is possible, whatever its
-  /// shape. Appends three corner numbers per triangle.
-  void triangulate_polygon(std::vector<std::array<unsigned int, 3>>  &triangles,
+  /// Cuts a polygon in the plane into triangles with the same orientation where that is possible, whatever
+  /// its shape. Appends three corner numbers per triangle.
+  void triangulate_polygon(std::vector<std::array<unsigned int, 3>> &triangles,
                            const std::vector<std::array<double, 2>> &corners);
 } // namespace Signorini
 

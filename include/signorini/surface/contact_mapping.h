@@ -18,8 +18,8 @@ namespace Signorini
   {
     /// Area of the selected nonmortar triangles, and of the overlay on them.
     double area_nonmortar = 0., area_covered = 0.;
-    /// Largest |sum of overlay areas - area| / area over selected triangles that are covered entirely: those
-    /// that no border of the mortar surface runs through.
+    /// Largest |sum of overlay areas - area| / area over selected triangles that no border of the mortar
+    /// surface runs through.
     double worst_tiling_defect = 0.;
     /// Overlay triangles (some may have no area, to rounding, and are left out of the overlay), and pairs of
     /// triangles that meet.

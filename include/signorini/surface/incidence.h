@@ -13,6 +13,10 @@ namespace Signorini
   /// On which side of an edge of one surface a vertex of the other lies: left, right, or on it. A function of
   /// that vertex and that edge alone, so that all triangles around agree.
   ///
+  /// What is found to lie at a vertex or on an edge is moved there, by less than the tolerance, and counts
+  /// with its new position from then on: later decisions agree with earlier ones to rounding, which is far
+  /// below the tolerance.
+  ///
   /// All sides are those of a viewer outside of the nonmortar body.
   class Incidence
   {
@@ -36,15 +40,37 @@ namespace Signorini
 
     /// System (10) of the paper: the parameters where the image of a mortar edge crosses a nonmortar edge
     /// (t on the nonmortar, s on the mortar edge), between given sides of the ends. In [0,1]; false if the
-    /// lines do not cross there (then t and s are a guess).
+    /// edges do not cross.
     bool cross(double &t, double &s, const unsigned int nonmortar_edge, const unsigned int mortar_edge,
                const Side &low_end, const Side &high_end) const;
+
+    /// A solution of system (10).
+    struct Crossing
+    {
+      double t, s;
+      /// Whether the lower vertex of the nonmortar edge lies left (1) or right (-1) of the mortar edge there.
+      int low_side;
+    };
+
+    /// All solutions of system (10) with t and s in [0,1], by ascending s: at most two. In closed form.
+    std::vector<Crossing> all_crossings(const unsigned int nonmortar_edge,
+                                        const unsigned int mortar_edge) const;
 
     /// Whether a mortar vertex and a nonmortar triangle, or two triangles, face each other.
     bool vertex_faces(const unsigned int mortar_vertex, const unsigned int nonmortar_triangle) const;
     bool triangles_face(const unsigned int nonmortar_triangle, const unsigned int mortar_triangle) const;
 
-    const SurfaceMesh     &nonmortar, &mortar;
+    /// Whether the line of a mortar vertex passes a nonmortar vertex within the tolerance.
+    bool is_at(const unsigned int mortar_vertex, const unsigned int nonmortar_vertex) const;
+
+    /// Moves a mortar vertex so that its line meets a point of the nonmortar surface.
+    void move_mortar_vertex(const unsigned int vertex, const dealii::Point<3> &image);
+
+    /// Moves a nonmortar vertex onto the curtain of a mortar edge, at a parameter.
+    void move_nonmortar_vertex(const unsigned int vertex, const unsigned int mortar_edge, const double s);
+
+    /// The surfaces, with the positions as moved.
+    SurfaceMesh            nonmortar, mortar;
     const SurfaceTopology &nonmortar_topology, &mortar_topology;
 
   private:

@@ -14,9 +14,11 @@ namespace Signorini
   /// cannot be computed is a returned status. Distances have the unit of the coordinates.
   namespace NormalProjection
   {
-    /// The one tolerance of the surface module: a point closer to an edge than this part of the edge's length
-    /// lies on it. Far above rounding (1e-16), far below what anybody meshes.
-    constexpr double incidence_tolerance = 1e-10;
+    /// The one tolerance of the surface module, relative to the local edge length: what is closer to an edge
+    /// lies on it, what is less than ten times as far from a vertex lies at it (so that what is not at a
+    /// vertex sees it and its edges under definite angles). Far above rounding (1e-16), far below what
+    /// anybody meshes.
+    constexpr double incidence_tolerance = 1e-11, vertex_tolerance = 1e-10;
 
     struct OrientedEdge
     {

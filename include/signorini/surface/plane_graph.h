@@ -34,9 +34,9 @@ namespace Signorini
     SurfacePoint nonmortar, mortar;
   };
 
-  /// The image of the edge graph of the mortar surface on the nonmortar surface under Phi^-1 (Krause & Sander,
-  /// section 3), by its nodes: images of mortar vertices, crossings of edges (system (10)), and the nonmortar
-  /// vertices with their images (system (9)).
+  /// The image of the edge graph of the mortar surface on the nonmortar surface under Phi^-1 (Krause &
+  /// Sander, section 3), by its nodes: images of mortar vertices, crossings of edges (system (10)), and the
+  /// nonmortar vertices with their images (system (9)).
   ///
   /// Where a vertex lies is decided once. From there the image of a mortar edge is followed through the
   /// triangles by topology: which edge it leaves through is a matter of the side on which it passes a vertex.
@@ -44,7 +44,8 @@ namespace Signorini
   class PlaneGraph
   {
   public:
-    explicit PlaneGraph(const Incidence &incidence);
+    /// Moves vertices as it finds them incident.
+    explicit PlaneGraph(Incidence &incidence);
     ~PlaneGraph();
 
     static constexpr unsigned int none = SurfaceTopology::none;
@@ -85,13 +86,15 @@ namespace Signorini
     State leave_through(Walk &walk, const unsigned int local_edge, const Incidence::Side &begin,
                         const Incidence::Side &end);
     State walk_to_end(Walk &walk, State state);
+    State trace_by_roots(Walk &walk, const SurfacePoint &start);
+    void  take_back(const Walk &walk, const std::size_t n_nodes);
     bool  is_reached(const Walk &walk, const unsigned int triangle) const;
 
     void enter_at_borders();
     void enter_at(const unsigned int border_edge, const unsigned int mortar_edge);
 
     State go_to_vertex(Walk &walk, const unsigned int vertex, const double position);
-    bool  add_crossing(Walk &walk, const unsigned int edge, const Incidence::Side &low,
+    State add_crossing(Walk &walk, const unsigned int edge, const Incidence::Side &low,
                        const Incidence::Side &high);
 
     /// As Incidence, but a nonmortar vertex with a node lies on the mortar edge of that node and no other.
@@ -99,10 +102,14 @@ namespace Signorini
 
     void         map_nonmortar_vertices();
     unsigned int triangle_beside(const unsigned int vertex, const MappingNode &node) const;
+    SurfacePoint image_in(const unsigned int vertex, const unsigned int triangle) const;
     unsigned int search_triangle(const unsigned int vertex);
 
-    const Incidence       &incidence;
+    Incidence             &incidence;
     const SurfaceTopology &nonmortar, &mortar;
+    /// For nodes where edges cross: the side of the mortar edge on which the lower end of the nonmortar edge
+    /// lies.
+    std::vector<signed char> low_side;
     /// The longest way from a mortar vertex to its image.
     double reach = 0.;
     /// Mortar edges that were not followed from end to end, and where they are known to cross border edges.

@@ -32,9 +32,9 @@ namespace RandomMatrix
                          m = n_ranks() > 2 ? n_ranks() - 1 : n_ranks();
       return rank == n_ranks() ? n : (n_ranks() > 2 && rank == 1 ? n / m : n * r / m);
     };
-    dealii::IndexSet       owned(n);
-    const NodeIndex        begin = begin_of(this_rank()),
-                    end = n_ranks() > 2 && this_rank() == 0 ? begin_of(1) : begin_of(this_rank() + 1);
+    dealii::IndexSet owned(n);
+    const NodeIndex  begin = begin_of(this_rank()),
+                    end    = n_ranks() > 2 && this_rank() == 0 ? begin_of(1) : begin_of(this_rank() + 1);
     if (!(n_ranks() > 2 && this_rank() == 1))
       owned.add_range(begin, end);
     return owned;
@@ -100,8 +100,8 @@ namespace RandomMatrix
     const NodePartition &nodes = result.matrix.partition();
     for (const Contribution &x : mine)
       {
-        double *block =
-            result.matrix.block(result.matrix.find(result.matrix.row_of(nodes.to_local(x.i)), nodes.to_local(x.j)));
+        double *block = result.matrix.block(
+            result.matrix.find(result.matrix.row_of(nodes.to_local(x.i)), nodes.to_local(x.j)));
         for (unsigned int c = 0; c < 9; ++c)
           block[c] += x.block[c];
       }

@@ -101,7 +101,7 @@ TEST(Elasticity, PatchTestWithHangingNodes)
       for (unsigned int c = 0; c < dim; ++c)
         {
           u.local_element(3 * partition.to_local(node) + c) = value[c];
-          at_border = at_border || x[c] < 1e-9 || x[c] > c + 1 - 1e-9;
+          at_border                                         = at_border || x[c] < 1e-9 || x[c] > c + 1 - 1e-9;
         }
       if (!at_border)
         inner.insert(node);

@@ -60,9 +60,9 @@ TEST(Hexahedron, RigidMotionsCauseNoForces)
 // A linear displacement: the energy is that of the constant stress.
 TEST(Hexahedron, EnergyOfAConstantStrain)
 {
-  const double            young = 7., nu = .3, mu = young / (2. * (1. + nu)),
-               lambda = young * nu / ((1. + nu) * (1. - 2. * nu));
-  const auto              x   = skew_cell();
+  const double young = 7., nu = .3, mu = young / (2. * (1. + nu)),
+               lambda       = young * nu / ((1. + nu) * (1. - 2. * nu));
+  const auto              x = skew_cell();
   std::array<double, 576> blocks;
   ASSERT_TRUE(Hexahedron::stiffness(blocks, x, young, nu));
   const double gradient[3][3] = {{.1, .2, -.3}, {.4, -.5, .6}, {-.7, .8, .9}};

@@ -23,8 +23,8 @@ namespace
   protected:
     OutputFolders()
       : base((fs::temp_directory_path() /
-              ("signorini-test-" +
-               std::to_string(dealii::Utilities::MPI::broadcast(MPI_COMM_WORLD, static_cast<long>(getpid()), 0))))
+              ("signorini-test-" + std::to_string(dealii::Utilities::MPI::broadcast(
+                                       MPI_COMM_WORLD, static_cast<long>(getpid()), 0))))
                  .string())
     {
       if (is_root())

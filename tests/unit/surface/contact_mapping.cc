@@ -1,97 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
-#include <signorini/surface/contact_mapping.h>
+#include "surfaces.h"
 
-#include <gtest/gtest.h>
-
-#include <random>
-
-using namespace Signorini;
-using dealii::Point;
-
-namespace
-{
-  using Shape = std::function<Point<3>(double, double)>;
-
-  /// n x n squares of the unit square, split in alternating directions, mapped by a shape. `up`: normals to
-  /// +z.
-  SurfaceMesh grid(const unsigned int n, const Shape &shape, const bool up, const double jitter = 0.,
-                   const unsigned int seed = 0)
-  {
-    std::mt19937                           random(seed);
-    std::uniform_real_distribution<double> noise(-jitter / n, jitter / n);
-    SurfaceMesh                            mesh;
-    for (unsigned int j = 0; j <= n; ++j)
-      for (unsigned int i = 0; i <= n; ++i)
-        {
-          const bool inner = i > 0 && i < n && j > 0 && j < n;
-          mesh.vertices.push_back(shape(double(i) / n + (inner ? noise(random) : 0.),
-                                        double(j) / n + (inner ? noise(random) : 0.)));
-        }
-    for (unsigned int j = 0; j < n; ++j)
-      for (unsigned int i = 0; i < n; ++i)
-        {
-          const unsigned int a = j * (n + 1) + i, b = a + 1, c = b + n + 1, d = a + n + 1;
-          if ((i + j) % 2)
-            for (const auto &t :
-                 {std::array<unsigned int, 3>{{a, b, c}}, std::array<unsigned int, 3>{{a, c, d}}})
-              mesh.triangles.push_back(t);
-          else
-            for (const auto &t :
-                 {std::array<unsigned int, 3>{{a, b, d}}, std::array<unsigned int, 3>{{b, c, d}}})
-              mesh.triangles.push_back(t);
-        }
-    if (!up)
-      for (auto &t : mesh.triangles)
-        std::swap(t[1], t[2]);
-    mesh.compute_vertex_normals();
-    return mesh;
-  }
-
-  Point<3> flat(const double x, const double y)
-  {
-    return Point<3>(x, y, 0.);
-  }
-
-  double area_of(const SurfaceMesh &mesh)
-  {
-    double area = 0.;
-    for (unsigned int t = 0; t < mesh.triangles.size(); ++t)
-      area += triangle_area(mesh, t);
-    return area;
-  }
-
-  /// Cells lie in one triangle of both sides, coordinates in [0,1] with sum 1.
-  void check_cells(const ContactMapping &mapping)
-  {
-    for (const OverlayTriangle &cell : mapping.overlay())
-      for (unsigned int c = 0; c < 3; ++c)
-        for (const auto &w : {cell.nonmortar[c], cell.mortar[c]})
-          {
-            EXPECT_NEAR(w[0] + w[1] + w[2], 1., 1e-12);
-            for (const double x : w)
-              {
-                EXPECT_GE(x, -1e-12);
-                EXPECT_LE(x, 1. + 1e-12);
-              }
-          }
-  }
-
-  void expect_full_cover(const SurfaceMesh &nonmortar, const SurfaceMesh &mortar)
-  {
-    const ContactMapping mapping(nonmortar, mortar);
-    EXPECT_NEAR(mapping.report().area_covered / area_of(nonmortar), 1., 1e-12);
-    EXPECT_LE(mapping.report().worst_tiling_defect, 1e-12);
-    check_cells(mapping);
-  }
-
-  /// A larger square, so that everything is covered.
-  Shape stretched(const Shape &shape)
-  {
-    return [shape](const double x, const double y) { return shape(1.4 * x - .2, 1.4 * y - .2); };
-  }
-} // namespace
+using namespace TestSurfaces;
 
 
 
@@ -130,15 +42,6 @@ TEST(ContactMapping, JitteredGrids)
 
 TEST(ContactMapping, CurvedSurfaces)
 {
-  const Shape saddle = [](const double x, const double y) {
-    return Point<3>(x, y, .2 * (x - .5) * (y - .5));
-  };
-  const Shape wave = [](const double x, const double y) {
-    return Point<3>(x, y, .05 + .03 * std::sin(6. * x) * std::cos(5. * y));
-  };
-  const Shape cap = [](const double x, const double y) {
-    return Point<3>(x, y, 2. - std::sqrt(4. - (x - .5) * (x - .5) - (y - .5) * (y - .5)));
-  };
   expect_full_cover(grid(9, wave, true), grid(7, stretched(saddle), false));
   expect_full_cover(grid(9, saddle, true), grid(7, stretched(wave), false));
   expect_full_cover(grid(6, cap, true, .2, 3), grid(11, stretched(cap), false, .2, 4));
@@ -196,7 +99,7 @@ TEST(ContactMapping, PartialCover)
             const SurfaceMesh    square = grid(n, flat, true), small = grid(m, patch, false);
             const ContactMapping mapping(square, small);
             EXPECT_NEAR(mapping.report().area_covered, .64 * .43, 1e-12) << n << ' ' << m << ' ' << angle;
-            check_cells(mapping);
+            EXPECT_EQ(violated_invariant(square, small, mapping, false), "");
             const SurfaceMesh square_mortar = grid(n, flat, false), small_nonmortar = grid(m, patch, true);
             expect_full_cover(small_nonmortar, square_mortar);
           }

@@ -1,1 +1,6 @@
-signorini_add_unit_tests(surface contact_mapping.cc)
+signorini_add_unit_tests(surface
+  contact_mapping.cc
+  degenerate_pairs.cc
+  oracle.cc
+  random_pairs.cc
+)

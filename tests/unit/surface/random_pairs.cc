@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include "surfaces.h"
+
+#include <cstdlib>
+
+using namespace TestSurfaces;
+using dealii::Tensor;
+
+namespace
+{
+  /// A random pair; every third has its vertices on a raster, so that vertices and edges coincide by chance.
+  struct RandomPair
+  {
+    SurfaceMesh nonmortar, mortar;
+    bool        is_covered;
+
+    explicit RandomPair(const unsigned int seed)
+      : random(seed)
+    {
+      const bool         on_raster = seed % 3 == 0;
+      // Cells that are not bent more than they are wide: five across a wave and more.
+      const unsigned int n = number(5, 12), m = number(5, 12);
+      const auto         choose = [&]() -> Shape {
+        switch (number(0, 4))
+          {
+            case 0:
+              return saddle;
+            case 1:
+              return wave;
+            case 2:
+              return cap;
+            default:
+              return flat;
+          }
+      };
+      auto non = flat_grid(n, number(5, 12), on_raster ? 0. : .24, seed, diagonals()),
+           mor = flat_grid(m, number(5, 12), on_raster ? 0. : .24, seed + 1, diagonals());
+      if (on_raster)
+        for (auto *grid : {&non, &mor})
+          for (auto &v : grid->vertices)
+            for (double &x : v)
+              x = std::round(x * 24.) / 24.;
+      is_covered = number(0, 2) > 0;
+      Shape upper = choose();
+      if (is_covered)
+        upper = stretched(upper);
+      else
+        {
+          // Anywhere, turned by anything, partly outside.
+          const double angle = 7. * uniform(), dx = uniform() - .5, dy = uniform() - .5, size = .3 + uniform();
+          upper = [=](const double x, const double y) {
+            const double u = size * (x - .5), v = size * (y - .5);
+            return cap(.5 + dx + std::cos(angle) * u - std::sin(angle) * v,
+                       .5 + dy + std::sin(angle) * u + std::cos(angle) * v);
+          };
+        }
+      nonmortar = in_space(non, choose(), true);
+      mortar    = in_space(mor, upper, false);
+      const double gap = .2 * (uniform() - .5);
+      for (Point<3> &p : mortar.vertices)
+        p[2] += gap;
+    }
+
+    double uniform()
+    {
+      return std::uniform_real_distribution<double>(0., 1.)(random);
+    }
+
+    unsigned int number(const unsigned int low, const unsigned int high)
+    {
+      return std::uniform_int_distribution<unsigned int>(low, high)(random);
+    }
+
+    Diagonals diagonals()
+    {
+      return number(0, 1) ? Diagonals::parallel : Diagonals::alternating;
+    }
+
+    std::mt19937 random;
+  };
+
+  /// Turns, moves and scales a surface.
+  SurfaceMesh moved(SurfaceMesh mesh, const Tensor<2, 3> &rotation, const Tensor<1, 3> &shift, const double scale)
+  {
+    for (Point<3> &p : mesh.vertices)
+      p = Point<3>(scale * (rotation * p + shift));
+    mesh.compute_vertex_normals();
+    return mesh;
+  }
+
+  /// New numbers for vertices and triangles.
+  SurfaceMesh renumbered(const SurfaceMesh &mesh, std::mt19937 &random)
+  {
+    std::vector<unsigned int> number(mesh.vertices.size());
+    std::iota(number.begin(), number.end(), 0u);
+    std::shuffle(number.begin(), number.end(), random);
+    SurfaceMesh result = mesh;
+    for (std::size_t v = 0; v < number.size(); ++v)
+      {
+        result.vertices[number[v]]       = mesh.vertices[v];
+        result.vertex_normals[number[v]] = mesh.vertex_normals[v];
+      }
+    for (auto &t : result.triangles)
+      {
+        for (unsigned int &v : t)
+          v = number[v];
+        std::rotate(t.begin(), t.begin() + random() % 3, t.end());
+      }
+    std::shuffle(result.triangles.begin(), result.triangles.end(), random);
+    return result;
+  }
+
+  Tensor<2, 3> random_rotation(RandomPair &pair)
+  {
+    Tensor<1, 3> a, b;
+    for (unsigned int c = 0; c < 3; ++c)
+      {
+        a[c] = pair.uniform() - .5;
+        b[c] = pair.uniform() - .5;
+      }
+    a /= a.norm();
+    b -= (a * b) * a;
+    b /= b.norm();
+    const Tensor<1, 3> c = cross_product_3d(a, b);
+    Tensor<2, 3>       rotation;
+    for (unsigned int i = 0; i < 3; ++i)
+      {
+        rotation[i][0] = a[i];
+        rotation[i][1] = b[i];
+        rotation[i][2] = c[i];
+      }
+    return rotation;
+  }
+
+  std::string check(const SurfaceMesh &nonmortar, const SurfaceMesh &mortar, const bool is_covered,
+                    MappingReport &report)
+  {
+    const ContactMapping mapping(nonmortar, mortar);
+    report = mapping.report();
+    return violated_invariant(nonmortar, mortar, mapping, is_covered);
+  }
+
+  std::string differing(const MappingReport &a, const MappingReport &b, const double scale)
+  {
+    if (a.n_pairs != b.n_pairs || a.n_cells != b.n_cells)
+      return std::to_string(b.n_pairs) + " pairs and " + std::to_string(b.n_cells) + " cells instead of " +
+             std::to_string(a.n_pairs) + " and " + std::to_string(a.n_cells);
+    if (std::abs(b.area_covered / (scale * scale) - a.area_covered) > 1e-9 * a.area_nonmortar)
+      return "another area";
+    return "";
+  }
+} // namespace
+
+
+
+// SIGNORINI_RANDOM_PAIRS=10000 for the long run. A pair that fails is written to OFF files.
+TEST(RandomPairs, Invariants)
+{
+  const char        *wanted  = std::getenv("SIGNORINI_RANDOM_PAIRS");
+  const unsigned int n_pairs = wanted ? static_cast<unsigned int>(std::stoul(wanted)) : 500;
+  for (unsigned int seed = 0; seed < n_pairs; ++seed)
+    {
+      RandomPair    pair(seed);
+      MappingReport original, other;
+      std::string   error = check(pair.nonmortar, pair.mortar, pair.is_covered, original);
+      SurfaceMesh   non = pair.nonmortar, mor = pair.mortar;
+      if (error.empty())
+        {
+          non   = renumbered(pair.nonmortar, pair.random);
+          mor   = renumbered(pair.mortar, pair.random);
+          error = check(non, mor, pair.is_covered, other);
+          if (error.empty())
+            error = differing(original, other, 1.);
+          if (!error.empty())
+            error = "renumbered: " + error;
+        }
+      if (error.empty())
+        {
+          const Tensor<2, 3> rotation = random_rotation(pair);
+          const Tensor<1, 3> shift    = Point<3>(pair.uniform(), pair.uniform(), pair.uniform());
+          const double       scale    = std::pow(10., 18. * pair.uniform() - 9.);
+          non                         = moved(pair.nonmortar, rotation, shift, scale);
+          mor                         = moved(pair.mortar, rotation, shift, scale);
+          error                       = check(non, mor, pair.is_covered, other);
+          if (error.empty())
+            error = differing(original, other, scale);
+          if (!error.empty())
+            error = "moved: " + error;
+        }
+      if (!error.empty())
+        {
+          const std::string name = testing::TempDir() + "pair_" + std::to_string(seed);
+          write_off(name + "_non.off", non);
+          write_off(name + "_mor.off", mor);
+          ADD_FAILURE() << "pair " << seed << ": " << error << "; written to " << name << "_{non,mor}.off";
+        }
+    }
+}
