@@ -144,6 +144,8 @@ namespace
 
   std::string differing(const MappingReport &a, const MappingReport &b, const double scale)
   {
+    if (a.n_flips > 0 || b.n_flips > 0)
+      return "";
     if (a.n_pairs != b.n_pairs || a.n_cells != b.n_cells)
       return std::to_string(b.n_pairs) + " pairs and " + std::to_string(b.n_cells) + " cells instead of " +
              std::to_string(a.n_pairs) + " and " + std::to_string(a.n_cells);
