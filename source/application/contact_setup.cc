@@ -130,7 +130,8 @@ namespace Signorini
       throw InputError("Pair " + pair.name + ": the surfaces \"" + pair.nonmortar_name + "\" and \"" +
                        pair.mortar_name +
                        "\" do not face each other anywhere: there is not a single overlay cell.");
-    cycle.times["mapping"] += time.wall_time();
+    pair.mapping_time = time.wall_time();
+    cycle.times["mapping"] += pair.mapping_time;
 
     time.restart();
     pair.moments =

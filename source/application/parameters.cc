@@ -174,6 +174,9 @@ namespace Signorini
                       Patterns::Integer(0, 2));
     prm.add_parameter("Bodies", write_bodies, "Write the bodies for ParaView (.pvtu).");
     prm.add_parameter("Contact surfaces", write_surfaces, "Write the contact surfaces for ParaView (.pvtu).");
+    prm.add_parameter("Mapping graph", write_mapping,
+                      "Write the overlay of each pair, the faces of the plane graph cut into triangles, for "
+                      "ParaView (.vtu, one per rank).");
     prm.add_parameter("Stress", write_stress, "Nodal averaged stress, von Mises and principal stresses.");
     prm.add_parameter(
         "Measure sweeps", measure_sweeps,

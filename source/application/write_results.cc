@@ -131,6 +131,19 @@ namespace Signorini
         write_surface(folder.path(), "contact-" + Utilities::replace_in_string(d.pairs[p].name, " ", "-"),
                       d.pairs[p].nonmortar, surface_fields(d, p), comm);
 
+    if (parameters.write_mapping || mesh_only)
+      for (const ContactPair &pair : d.pairs)
+        write_file(folder.path() + "mapping-" + Utilities::replace_in_string(pair.name, " ", "-") + "." +
+                       Utilities::int_to_string(Utilities::MPI::this_mpi_process(comm)) + ".vtu",
+                   [&](std::ostream &o) {
+                     write_overlay(o, pair.nonmortar.mesh, pair.mortar.mesh, pair.mapping->overlay());
+                   });
+    results.mappings.clear();
+    for (const ContactPair &pair : d.pairs)
+      results.mappings.push_back({pair.name, sum_reports(pair.mapping->report(), comm),
+                                  assess_mapping(*pair.mapping, pair.nonmortar.mesh, pair.mortar.mesh, comm),
+                                  Utilities::MPI::max(pair.mapping_time, comm)});
+
     Utilities::System::MemoryStats memory;
     Utilities::System::get_memory_stats(memory);
     results.peak_memory    = 1024. * Utilities::MPI::sum(static_cast<double>(memory.VmHWM), comm);
@@ -158,7 +171,18 @@ namespace Signorini
             o << "note: " << note << "\n";
           write_table(o, results);
           print_certificate(o, results);
+          for (const MappingResult &mapping : results.mappings)
+            {
+              o << "mapping of pair " << mapping.pair << '\n';
+              print_mapping(o, mapping.report, mapping.quality);
+            }
         });
+        if (mesh_only && parameters.verbosity > 0)
+          for (const MappingResult &mapping : results.mappings)
+            {
+              std::cout << "mapping of pair " << mapping.pair << '\n';
+              print_mapping(std::cout, mapping.report, mapping.quality);
+            }
         if (parameters.verbosity > 0 && !mesh_only)
           {
             write_table(std::cout, results);

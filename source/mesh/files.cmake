@@ -8,4 +8,5 @@ signorini_add_layer(mesh
   nodal_space.cc
   refinement.cc
   surface_extraction.cc
+  surface_file.cc
 )

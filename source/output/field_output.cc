@@ -4,6 +4,7 @@
 #include <signorini/algebra/input_error.h>
 #include <signorini/algebra/node_partition.h>
 #include <signorini/output/field_output.h>
+#include <signorini/surface/contact_mapping.h>
 
 #include <deal.II/base/data_out_base.h>
 #include <deal.II/base/mpi.h>
@@ -163,6 +164,44 @@ namespace Signorini
             }
         }
     output.write(folder, name, communicator);
+  }
+
+
+
+  void write_overlay(std::ostream &out, const SurfaceMesh &nonmortar, const SurfaceMesh &mortar,
+                     const std::vector<OverlayTriangle> &overlay)
+  {
+    std::vector<DataOutBase::Patch<2, 3>> patches;
+    patches.reserve(overlay.size());
+    for (const OverlayTriangle &cell : overlay)
+      {
+        patches.emplace_back();
+        auto &patch          = patches.back();
+        patch.patch_index    = static_cast<unsigned int>(patches.size() - 1);
+        patch.n_subdivisions = 1;
+        patch.reference_cell = ReferenceCells::Triangle;
+        patch.data.reinit(6, 3);
+        const auto        &t      = nonmortar.triangles[cell.nonmortar_triangle];
+        const Tensor<1, 3> normal = cross_product_3d(nonmortar.vertices[t[1]] - nonmortar.vertices[t[0]],
+                                                     nonmortar.vertices[t[2]] - nonmortar.vertices[t[0]]);
+        for (unsigned int c = 0; c < 3; ++c)
+          {
+            patch.vertices[c] = evaluate(nonmortar, cell.nonmortar_triangle, cell.nonmortar[c]);
+            const Tensor<1, 3> way =
+                evaluate(mortar, cell.mortar_triangle, cell.mortar[c]) - patch.vertices[c];
+            for (unsigned int k = 0; k < 3; ++k)
+              patch.data(k, c) = way[k];
+            patch.data(3, c) = (way * normal) / normal.norm();
+            patch.data(4, c) = cell.nonmortar_triangle;
+            patch.data(5, c) = cell.mortar_triangle;
+          }
+      }
+    using Range = std::tuple<unsigned int, unsigned int, std::string,
+                             DataComponentInterpretation::DataComponentInterpretation>;
+    DataOutBase::write_vtu(
+        patches, {"image_x", "image_y", "image_z", "gap", "nonmortar_triangle", "mortar_triangle"},
+        std::vector<Range>{{0, 2, "image", DataComponentInterpretation::component_is_part_of_vector}},
+        DataOutBase::VtkFlags(), out);
   }
 
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/output/json_writer.h>
 #include <signorini/output/summary.h>
 
 #include <iomanip>
@@ -9,93 +10,6 @@ namespace Signorini
 {
   namespace
   {
-    /// Writes JSON text with commas and nesting in the right places.
-    class JsonWriter
-    {
-    public:
-      explicit JsonWriter(std::ostream &out)
-        : out(out)
-      {
-      }
-
-      void begin(const char bracket, const std::string &key = "")
-      {
-        item(key);
-        out << bracket;
-        first = true;
-        ++depth;
-      }
-
-      void end(const char bracket)
-      {
-        --depth;
-        out << '\n' << std::string(2 * depth, ' ') << bracket;
-        first = false;
-      }
-
-      void number(const std::string &key, const double value)
-      {
-        item(key);
-        if (std::isfinite(value))
-          out << std::setprecision(17) << value;
-        else
-          out << "null";
-      }
-
-      void text(const std::string &key, const std::string &value)
-      {
-        item(key);
-        out << quoted(value);
-      }
-
-      void boolean(const std::string &key, const bool value)
-      {
-        item(key);
-        out << (value ? "true" : "false");
-      }
-
-      template <typename V>
-      void vector(const std::string &key, const V &v)
-      {
-        begin('[', key);
-        for (unsigned int c = 0; c < 3; ++c)
-          number("", v[c]);
-        end(']');
-      }
-
-    private:
-      void item(const std::string &key)
-      {
-        if (!first)
-          out << ',';
-        if (depth > 0)
-          out << '\n' << std::string(2 * depth, ' ');
-        first = false;
-        if (!key.empty())
-          out << quoted(key) << ": ";
-      }
-
-      static std::string quoted(const std::string &text)
-      {
-        std::ostringstream result;
-        result << '"';
-        for (const char c : text)
-          if (c == '"' || c == '\\')
-            result << '\\' << c;
-          else if (static_cast<unsigned char>(c) < 32)
-            result << "\\u" << std::hex << std::setw(4) << std::setfill('0') << static_cast<int>(c)
-                   << std::dec;
-          else
-            result << c;
-        result << '"';
-        return result.str();
-      }
-
-      std::ostream &out;
-      bool          first = true;
-      int           depth = 0;
-    };
-
     void write_solver(JsonWriter &json, const ConvergenceReport &report)
     {
       json.number("iterations", report.iterations);
@@ -162,6 +76,36 @@ namespace Signorini
       json.end('}');
     }
 
+    void write_mapping(JsonWriter &json, const MappingResult &mapping)
+    {
+      const MappingReport  &report  = mapping.report;
+      const MappingQuality &quality = mapping.quality;
+      json.begin('{');
+      json.text("pair", mapping.pair);
+      json.number("coverage_nonmortar", report.area_covered / report.area_nonmortar);
+      json.number("coverage_mortar", report.area_mortar_covered / report.area_mortar);
+      json.number("cells", report.n_cells);
+      json.number("pairs", report.n_pairs);
+      json.number("area", report.area_covered);
+      json.number("worst_tiling_defect", report.worst_tiling_defect);
+      json.begin('{', "unmapped");
+      for (const auto &[reason, number] : count_unmapped(report))
+        json.number(reason, number);
+      json.end('}');
+      json.number("turned", report.n_flips);
+      json.number("lost_edges", report.n_lost_edges);
+      json.number("largest_angle_degrees", quality.largest_angle);
+      json.number("mean_angle_degrees", quality.mean_angle);
+      json.number("min_gap", quality.min_gap);
+      json.number("max_gap", quality.max_gap);
+      json.begin('[', "gap_histogram");
+      for (const double area : quality.histogram)
+        json.number("", area);
+      json.end(']');
+      json.number("time_s", mapping.time);
+      json.end('}');
+    }
+
     void write_certificate(JsonWriter &json, const Certificate &c)
     {
       json.begin('{', "certificate");
@@ -197,6 +141,10 @@ namespace Signorini
     json.begin('[', "pairs");
     for (const PairResult &pair : results.pairs)
       write_pair(json, pair);
+    json.end(']');
+    json.begin('[', "mappings");
+    for (const MappingResult &mapping : results.mappings)
+      write_mapping(json, mapping);
     json.end(']');
     json.begin('[', "boundaries");
     for (const BoundaryResult &boundary : results.boundaries)

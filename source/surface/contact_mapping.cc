@@ -100,8 +100,9 @@ namespace Signorini
     public:
       struct Polygon
       {
-        unsigned int   mortar_triangle;
-        double         share;
+        unsigned int mortar_triangle;
+        /// Parts of the nonmortar and of the mortar triangle; negative where the mapping is turned.
+        double         share, mortar_share;
         std::ptrdiff_t first, last;
       };
 
@@ -192,10 +193,16 @@ namespace Signorini
         if (std::abs(share) < 1e-15)
           return;
         covered += share;
+        flat.clear();
+        for (const auto &corner : unsorted)
+          {
+            const auto w = graph.nodes[corner.node].mortar.weights_in(mortar, m);
+            flat.push_back({{w[1], w[2]}});
+          }
         const auto begin = static_cast<std::ptrdiff_t>(corners.size());
         for (const auto &corner : unsorted)
           corners.push_back(corner.node);
-        list.push_back({m, share, begin, static_cast<std::ptrdiff_t>(corners.size())});
+        list.push_back({m, share, -share_of(flat), begin, static_cast<std::ptrdiff_t>(corners.size())});
       }
 
       const Incidence                   &incidence;
@@ -231,6 +238,9 @@ namespace Signorini
         for (const unsigned int v : mortar.edges[f])
           mortar_border[v] = true;
 
+    for (unsigned int m = 0; m < mortar.triangles.size(); ++m)
+      summary.area_mortar += triangle_area(mortar_mesh, m);
+
     TrianglePolygons polygons(incidence, graph, mortar_border);
     for (unsigned int t = 0; t < nonmortar.triangles.size(); ++t)
       {
@@ -248,6 +258,8 @@ namespace Signorini
         for (const auto &polygon : polygons.list)
           {
             ++summary.n_pairs;
+            summary.area_mortar_covered +=
+                polygon.mortar_share * triangle_area(mortar_mesh, polygon.mortar_triangle);
             summary.n_flips += polygon.share < -1e-12;
             summary.n_cells += polygon.last - polygon.first - 2;
             polygon_triangles.emplace_back(t, polygon.mortar_triangle);

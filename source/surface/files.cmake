@@ -3,6 +3,7 @@ signorini_add_layer(surface
   common_polygon.cc
   contact_mapping.cc
   incidence.cc
+  mapping_quality.cc
   normal_projection.cc
   plane_graph.cc
   plane_graph_edges.cc

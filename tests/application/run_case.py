@@ -312,6 +312,58 @@ def command_line(p):
     with tempfile.TemporaryDirectory() as folder:
         run = p.call('--mesh-only', prm, '--output', folder + '/out')
         check(run.returncode == 0 and os.path.exists(folder + '/out/contact-interface.pvtu'), f'mesh-only: {run.stderr}')
+        check(os.path.exists(folder + '/out/mapping-interface.0.vtu'), 'no mapping graph')
+        check('covered          100 %' in run.stdout, f'no mapping report: {run.stdout}')
+        with open(folder + '/out/summary.json') as f:
+            mapping = json.load(f)['mappings'][0]
+        check(mapping['pair'] == 'interface' and mapping['unmapped'] == {}, f'mapping: {mapping}')
+        near(mapping['coverage_nonmortar'], 1, 1e-12, 'coverage')
+
+
+def write_square(path, n, low, high, z, up):
+    """A triangulated square [low, high]^2 as an OFF file."""
+    vertices = [(low + (high - low) * i / n, low + (high - low) * j / n, z) for j in range(n + 1) for i in range(n + 1)]
+    triangles = []
+    for j in range(n):
+        for i in range(n):
+            a = j * (n + 1) + i
+            for t in ((a, a + 1, a + n + 2), (a, a + n + 2, a + n + 1)):
+                triangles.append(t if up else (t[0], t[2], t[1]))
+    with open(path, 'w') as f:
+        f.write(f'OFF\n{len(vertices)} {len(triangles)} 0\n')
+        f.writelines('%.17g %.17g %.17g\n' % v for v in vertices)
+        f.writelines('3 %d %d %d\n' % t for t in triangles)
+
+
+def surface_map(p):
+    """signorini-map and the tutorial program, which stand beside the program."""
+    def call(name, *arguments):
+        return subprocess.run([os.path.join(os.path.dirname(p.command[0]), name), *arguments], stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE, universal_newlines=True, timeout=100)
+    with tempfile.TemporaryDirectory() as folder:
+        non, mor, out, vtu = (os.path.join(folder, name) for name in ('non.off', 'mor.off', 'out.json', 'out.vtu'))
+        write_square(non, 3, 0, 1, 0, True)
+        write_square(mor, 4, .5, 1.5, .25, False)
+        run = call('signorini-map', non, mor, '--report', '--json', out, '--vtu', vtu)
+        check(run.returncode == 0, f'exit code {run.returncode}: {run.stderr}')
+        check('covered          25 % of the nonmortar, 25 % of the mortar' in run.stdout, f'report: {run.stdout}')
+        check('gap              from 0.25 to 0.25' in run.stdout, f'report: {run.stdout}')
+        with open(out) as f:
+            s = json.load(f)
+        for key in ('coverage_nonmortar', 'coverage_mortar', 'area'):
+            near(s[key], .25, 1e-12, key)
+        check(s['worst_tiling_defect'] <= 1e-12, f'tiling: {s}')
+        check(s['unmapped'] == {'no hit': 9, 'outside the rim': 7}, f'unmapped: {s["unmapped"]}')
+        check(s['time_s'] > 0 and s['peak_memory_bytes'] > 1e6 and s['cells'] >= s['pairs'] > 0, f'figures: {s}')
+        check(os.path.getsize(vtu) > 1000, 'no image file')
+        run = call('tutorial/surface_overlay', non, mor, vtu)
+        area = sum(float(line.split()[2]) for line in run.stdout.splitlines() if line.startswith('triangle'))
+        check(run.returncode == 0, run.stderr)
+        near(area, .25, 1e-4, 'area of the tutorial')
+        for arguments, word in [((non,), 'two surface files'), ((non, mor, '--colour'), '--colour'), ((non, 'no.off'), 'no.off'),
+                                ((non, mor, '--json'), '--json'), ((non, non), 'face each other')]:
+            run = call('signorini-map', *arguments)
+            check(run.returncode == 1 and word in run.stderr, f'{arguments}: {run.returncode}, {run.stderr}')
 
 
 if __name__ == '__main__':

@@ -28,8 +28,10 @@ namespace Signorini
     std::string                     nonmortar_name, mortar_name;
     ContactSurface                  nonmortar, mortar;
     std::unique_ptr<ContactMapping> mapping;
-    std::vector<FaceMoments>        moments;
-    GapFunction                     prescribed_gap;
+    /// Seconds it took.
+    double                   mapping_time = 0.;
+    std::vector<FaceMoments> moments;
+    GapFunction              prescribed_gap;
   };
 
   /// All that belongs to one mesh of the nested iteration.

@@ -49,6 +49,7 @@ namespace Signorini
     std::string  output_folder = "output";
     unsigned int verbosity     = 2;
     bool         write_bodies = true, write_surfaces = true, write_stress = true, measure_sweeps = true;
+    bool         write_mapping = false;
 
     /// The parameter file and the folder that file names inside it are relative to.
     std::string file, base_folder;

@@ -6,6 +6,7 @@
 
 #include <signorini/mesh/contact_surface.h>
 #include <signorini/mesh/nodal_space.h>
+#include <signorini/surface/overlay.h>
 
 #include <functional>
 #include <string>
@@ -31,6 +32,12 @@ namespace Signorini
   /// Collective. Writes the faces of a contact surface that this rank owns. Fields are indexed by vertex.
   void write_surface(const std::string &folder, const std::string &name, const ContactSurface &surface,
                      const std::vector<OutputField> &fields, const MPI_Comm communicator);
+
+  /// Writes the overlay of two surfaces as one .vtu stream: its triangles on the nonmortar side with the
+  /// number of both triangles and, at the corners, the way to the image ("image") and its part along the
+  /// normal ("gap").
+  void write_overlay(std::ostream &out, const SurfaceMesh &nonmortar, const SurfaceMesh &mortar,
+                     const std::vector<OverlayTriangle> &overlay);
 
   /// Collective. Volume weighted nodal averages of the stress: fields "stress" (xx, yy, zz, xy, yz, zx),
   /// "von Mises" and "principal stress" (3, largest first), in the unit of E.

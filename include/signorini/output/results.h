@@ -7,6 +7,7 @@
 #include <signorini/algebra/types.h>
 #include <signorini/solvers/convergence_report.h>
 #include <signorini/solvers/sweep_measurement.h>
+#include <signorini/surface/mapping_quality.h>
 
 #include <deal.II/base/point.h>
 
@@ -82,6 +83,16 @@ namespace Signorini
     bool             active;
   };
 
+  /// The contact mapping of a pair, over all ranks.
+  struct MappingResult
+  {
+    std::string    pair;
+    MappingReport  report;
+    MappingQuality quality;
+    /// Seconds, of the slowest rank, on the last mesh.
+    double time = 0.;
+  };
+
   struct Results
   {
     std::string                 version, parameter_file, title;
@@ -90,6 +101,7 @@ namespace Signorini
     double                      wall_time = 0., peak_memory = 0.;
     std::vector<CycleResult>    cycles;
     std::vector<PairResult>     pairs;
+    std::vector<MappingResult>  mappings;
     std::vector<BoundaryResult> boundaries;
     std::vector<ProbeResult>    probes;
     Certificate                 certificate;

@@ -18,6 +18,8 @@ namespace Signorini
   {
     /// Area of the selected nonmortar triangles, and of the overlay on them.
     double area_nonmortar = 0., area_covered = 0.;
+    /// Area of the mortar surface, and of the overlay on it (of the selected nonmortar triangles).
+    double area_mortar = 0., area_mortar_covered = 0.;
     /// Largest |sum of overlay areas - area| / area over selected triangles that no border of the mortar
     /// surface runs through.
     double worst_tiling_defect = 0.;

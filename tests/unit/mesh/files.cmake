@@ -3,4 +3,5 @@ signorini_add_unit_tests(mesh RANKS "1;2;4"
   generated_mesh.cc
   mesh_input.cc
   surface_extraction.cc
+  surface_file.cc
 )

@@ -39,7 +39,8 @@ namespace
   /// The rectangle [x0, x1] x [y0, y1].
   Shape rectangle(const double x0, const double x1, const double y0, const double y1, const double z = 0.)
   {
-    return [=](const double x, const double y) { return Point<3>(x0 + x * (x1 - x0), y0 + y * (y1 - y0), z); };
+    return
+        [=](const double x, const double y) { return Point<3>(x0 + x * (x1 - x0), y0 + y * (y1 - y0), z); };
   }
 
   void expect_area(const SurfaceMesh &nonmortar, const SurfaceMesh &mortar, const double area)
@@ -78,7 +79,8 @@ TEST(DegeneratePairs, ParallelDiagonalsOfNestedGrids)
 TEST(DegeneratePairs, CrossedDiagonals)
 {
   for (const unsigned int n : {1u, 2u, 4u})
-    expect_full_cover(grid(n, flat, true), in_space(flat_grid(n, n, 0., 0, Diagonals::parallel), flat, false));
+    expect_full_cover(grid(n, flat, true),
+                      in_space(flat_grid(n, n, 0., 0, Diagonals::parallel), flat, false));
 }
 
 TEST(DegeneratePairs, MortarVerticesOnNonmortarEdges)
@@ -87,8 +89,9 @@ TEST(DegeneratePairs, MortarVerticesOnNonmortarEdges)
   const auto a = flat_grid(6, 6);
   expect_full_cover(in_space(a, rectangle(0., 6., 0., 6.), true),
                     in_space(flat_grid(8, 8), rectangle(-1.5, 6.5, -1., 7.), false));
-  expect_full_cover(in_space(a, rectangle(0., 6., 0., 6.), true),
-                    in_space(flat_grid(8, 8, 0., 0, Diagonals::parallel), rectangle(-1., 7., -1.5, 6.5), false));
+  expect_full_cover(
+      in_space(a, rectangle(0., 6., 0., 6.), true),
+      in_space(flat_grid(8, 8, 0., 0, Diagonals::parallel), rectangle(-1., 7., -1.5, 6.5), false));
   // On diagonals.
   expect_full_cover(in_space(a, rectangle(0., 6., 0., 6.), true),
                     in_space(flat_grid(8, 8), rectangle(-1.5, 6.5, -1.5, 6.5), false));
@@ -122,8 +125,8 @@ TEST(DegeneratePairs, NearlyCoincidingVerticesAndEdges)
     for (const unsigned int m : {4u, 8u, 12u})
       for (const double angle : {0., 1., 2.5, 4.})
         {
-          const Shape near = shifted(flat, distance * std::cos(angle), distance * std::sin(angle));
-          const auto  a = grid(4, flat, true), b = grid(m, near, false);
+          const Shape          near = shifted(flat, distance * std::cos(angle), distance * std::sin(angle));
+          const auto           a = grid(4, flat, true), b = grid(m, near, false);
           const ContactMapping mapping(a, b);
           EXPECT_EQ(violated_invariant(a, b, mapping, false), "") << distance << ' ' << m << ' ' << angle;
           EXPECT_NEAR(mapping.report().area_covered, 1., 1e-9 + 4. * distance);
@@ -135,7 +138,7 @@ TEST(DegeneratePairs, NearlyIdenticalJitteredMeshes)
   for (const double jitter : {1e-13, 1e-11, 1e-10, 1e-9, 1e-7, 1e-5, 1e-4})
     for (unsigned int seed = 0; seed < 20; ++seed)
       {
-        const SurfaceMesh    a = grid(6, flat, true), b = in_space(flat_grid(6, 6, jitter, seed), flat, false);
+        const SurfaceMesh a = grid(6, flat, true), b = in_space(flat_grid(6, 6, jitter, seed), flat, false);
         const ContactMapping mapping(a, b);
         EXPECT_EQ(violated_invariant(a, b, mapping, true), "") << jitter << ' ' << seed;
       }
@@ -161,7 +164,7 @@ TEST(DegeneratePairs, Slivers)
   expect_full_cover(in_space(squeezed, flat, true), grid(5, flat, false));
   expect_full_cover(grid(5, flat, true), in_space(squeezed, flat, false));
   // Flat ones: an inner vertex nearly on the opposite edge (angle of 180 degrees less 1e-5).
-  auto thin = flat_grid(2, 2);
+  auto thin        = flat_grid(2, 2);
   thin.vertices[4] = {{.5, 1e-5}};
   expect_full_cover(in_space(thin, flat, true), grid(3, flat, false));
   expect_full_cover(grid(3, flat, true), in_space(thin, flat, false));
@@ -169,10 +172,9 @@ TEST(DegeneratePairs, Slivers)
 
 TEST(DegeneratePairs, Holes)
 {
-  const auto in_hole = [](const Point<3> &p) {
-    return p[0] > .25 && p[0] < .75 && p[1] > .25 && p[1] < .75;
-  };
-  const SurfaceMesh holed = without(grid(8, flat, true), in_hole), holed_mortar = without(grid(8, flat, false), in_hole);
+  const auto in_hole = [](const Point<3> &p) { return p[0] > .25 && p[0] < .75 && p[1] > .25 && p[1] < .75; };
+  const SurfaceMesh holed        = without(grid(8, flat, true), in_hole),
+                    holed_mortar = without(grid(8, flat, false), in_hole);
   // A hole in the one, in the other, in both; edges of the coarse mortar surface run over it.
   for (const unsigned int m : {1u, 2u, 3u, 7u, 16u})
     {
@@ -185,9 +187,10 @@ TEST(DegeneratePairs, Holes)
 
 TEST(DegeneratePairs, DisconnectedPatches)
 {
-  const SurfaceMesh two = join(grid(3, rectangle(0., 1., 0., 1.), true), grid(4, rectangle(1.5, 2.5, .2, 1.), true)),
-                    two_mortar =
-                        join(grid(4, rectangle(0., 1., 0., 1.), false), grid(3, rectangle(1.5, 2.5, .2, 1.), false));
+  const SurfaceMesh two        = join(grid(3, rectangle(0., 1., 0., 1.), true),
+                                      grid(4, rectangle(1.5, 2.5, .2, 1.), true)),
+                    two_mortar = join(grid(4, rectangle(0., 1., 0., 1.), false),
+                                      grid(3, rectangle(1.5, 2.5, .2, 1.), false));
   for (const unsigned int m : {1u, 2u, 5u, 20u})
     {
       expect_area(two, grid(m, rectangle(-1., 3., -1., 2.), false), 1.8);
@@ -257,6 +260,6 @@ TEST(DegeneratePairs, EdgesThatEndOnTheBorder)
   const SurfaceMesh square = grid(2, flat, true);
   expect_area(square, grid(2, rectangle(0., 2., 0., 2.), false), 1.);
   expect_area(square, grid(4, rectangle(-1., 1., -1., 1.), false), 1.);
-  expect_area(square, in_space(flat_grid(4, 4, 0., 0, Diagonals::parallel), rectangle(-1., 3., -1., 3.), false),
-              1.);
+  expect_area(square,
+              in_space(flat_grid(4, 4, 0., 0, Diagonals::parallel), rectangle(-1., 3., -1., 3.), false), 1.);
 }

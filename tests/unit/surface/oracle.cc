@@ -10,9 +10,9 @@ using dealii::Tensor;
 
 namespace
 {
-  /// Corners of the common part of two triangles by brute force: every vertex against the other triangle, every
-  /// edge against every edge by all solutions of the quadratic equation behind system (10). No neighbours, no
-  /// walking, no memory. In barycentric coordinates (nonmortar, mortar).
+  /// Corners of the common part of two triangles by brute force: every vertex against the other triangle,
+  /// every edge against every edge by all solutions of the quadratic equation behind system (10). No
+  /// neighbours, no walking, no memory. In barycentric coordinates (nonmortar, mortar).
   std::vector<std::array<double, 6>> corners_by_force(const SurfaceMesh &non, const unsigned int t,
                                                       const SurfaceMesh &mor, const unsigned int m)
   {
@@ -53,7 +53,7 @@ namespace
             // (p - x(s)) . (n(s) x e) = 0 with p on the edge a_i + t e.
             const Tensor<1, 3> e = a[(i + 1) % 3] - a[i], d = x[(j + 1) % 3] - x[j], r = a[i] - x[j],
                                k = n[(j + 1) % 3] - n[j], ne = cross_product_3d(n[j], e),
-                               ke = cross_product_3d(k, e);
+                               ke  = cross_product_3d(k, e);
             const double        c0 = r * ne, c1 = r * ke - d * ne, c2 = -(d * ke);
             std::vector<double> roots;
             if (std::abs(c2) < 1e-12 * std::abs(c1))
@@ -66,13 +66,13 @@ namespace
             for (const double s : roots)
               {
                 // The common perpendicular of the edge and the line.
-                const Tensor<1, 3>    normal = n[j] + s * k, y = x[j] + s * d - a[i],
+                const Tensor<1, 3> normal = n[j] + s * k, y = x[j] + s * d - a[i],
                                    across = cross_product_3d(e, normal);
-                const double          u      = (cross_product_3d(y, normal) * across) / across.norm_square();
+                const double          u   = (cross_product_3d(y, normal) * across) / across.norm_square();
                 std::array<double, 3> w = {{0., 0., 0.}}, v = {{0., 0., 0.}};
-                w[i] = 1. - u;
+                w[i]           = 1. - u;
                 w[(i + 1) % 3] = u;
-                v[j] = 1. - s;
+                v[j]           = 1. - s;
                 v[(j + 1) % 3] = s;
                 add(w, v);
               }
@@ -85,7 +85,8 @@ namespace
   {
     const auto normal = [](const SurfaceMesh &mesh, const unsigned int k) {
       const auto &v = mesh.triangles[k];
-      return cross_product_3d(mesh.vertices[v[1]] - mesh.vertices[v[0]], mesh.vertices[v[2]] - mesh.vertices[v[0]]);
+      return cross_product_3d(mesh.vertices[v[1]] - mesh.vertices[v[0]],
+                              mesh.vertices[v[2]] - mesh.vertices[v[0]]);
     };
     return normal(non, t) * normal(mor, m) < 0.;
   }
@@ -120,7 +121,7 @@ namespace
   /// The same pairs with the same corners on both routes.
   void compare(const SurfaceMesh &non, const SurfaceMesh &mor, const bool planar)
   {
-    const ContactMapping                                               mapping(non, mor);
+    const ContactMapping                                                    mapping(non, mor);
     std::map<std::pair<unsigned int, unsigned int>, std::set<unsigned int>> nodes;
     for (std::size_t i = 0; i < mapping.n_polygons(); ++i)
       for (unsigned int k = mapping.polygon_start[i]; k < mapping.polygon_start[i + 1]; ++k)
@@ -141,8 +142,8 @@ namespace
           EXPECT_EQ(corners.size(), it->second.size()) << t << ' ' << m;
           for (const unsigned int node : it->second)
             {
-              const auto w = mapping.nodes()[node].nonmortar.weights_in(mapping.nonmortar_topology(), t),
-                         v = mapping.nodes()[node].mortar.weights_in(mapping.mortar_topology(), m);
+              const auto w   = mapping.nodes()[node].nonmortar.weights_in(mapping.nonmortar_topology(), t),
+                         v   = mapping.nodes()[node].mortar.weights_in(mapping.mortar_topology(), m);
               double nearest = 1.;
               for (const auto &c : corners)
                 {
@@ -167,11 +168,11 @@ TEST(Oracle, PlanarPairs)
 {
   for (unsigned int seed = 0; seed < 30; ++seed)
     {
-      const double angle   = .1 * seed;
-      const Shape  turned  = [angle](const double x, const double y) {
+      const double angle  = .1 * seed;
+      const Shape  turned = [angle](const double x, const double y) {
         const double u = 1.1 * (x - .5), v = 1.3 * (y - .4);
-        return Point<3>(.5 + std::cos(angle) * u - std::sin(angle) * v, .5 + std::sin(angle) * u + std::cos(angle) * v,
-                         .1);
+        return Point<3>(.5 + std::cos(angle) * u - std::sin(angle) * v,
+                        .5 + std::sin(angle) * u + std::cos(angle) * v, .1);
       };
       compare(in_space(flat_grid(1 + seed % 5, 1 + seed % 7, .3, seed), flat, true),
               in_space(flat_grid(1 + seed % 6, 1 + seed % 4, .3, 100 + seed), turned, false), true);
@@ -183,7 +184,8 @@ TEST(Oracle, DegeneratePlanarPairs)
   for (const unsigned int n : {1u, 2u, 4u})
     for (const unsigned int m : {1u, 2u, 3u, 4u, 8u})
       for (const Diagonals d : {Diagonals::alternating, Diagonals::parallel})
-        compare(in_space(flat_grid(n, n, 0., 0, d), flat, true), in_space(flat_grid(m, m), flat, false), true);
+        compare(in_space(flat_grid(n, n, 0., 0, d), flat, true), in_space(flat_grid(m, m), flat, false),
+                true);
 }
 
 TEST(Oracle, CurvedPairs)
@@ -193,7 +195,9 @@ TEST(Oracle, CurvedPairs)
     for (unsigned int j = 0; j < shapes.size(); ++j)
       for (unsigned int seed = 0; seed < 3; ++seed)
         {
-          compare(grid(6 + seed, shapes[i], true, .2, seed), grid(9, stretched(shapes[j]), false, .2, 50 + seed), false);
-          compare(grid(9, stretched(shapes[i]), true, .2, seed), grid(6 + seed, shapes[j], false, .2, 50 + seed), false);
+          compare(grid(6 + seed, shapes[i], true, .2, seed),
+                  grid(9, stretched(shapes[j]), false, .2, 50 + seed), false);
+          compare(grid(9, stretched(shapes[i]), true, .2, seed),
+                  grid(6 + seed, shapes[j], false, .2, 50 + seed), false);
         }
 }

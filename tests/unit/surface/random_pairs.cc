@@ -19,7 +19,7 @@ namespace
     explicit RandomPair(const unsigned int seed)
       : random(seed)
     {
-      const bool         on_raster = seed % 3 == 0;
+      const bool on_raster = seed % 3 == 0;
       // Cells that are not bent more than they are wide: five across a wave and more.
       const unsigned int n = number(5, 12), m = number(5, 12);
       const auto         choose = [&]() -> Shape {
@@ -42,22 +42,23 @@ namespace
           for (auto &v : grid->vertices)
             for (double &x : v)
               x = std::round(x * 24.) / 24.;
-      is_covered = number(0, 2) > 0;
+      is_covered  = number(0, 2) > 0;
       Shape upper = choose();
       if (is_covered)
         upper = stretched(upper);
       else
         {
           // Anywhere, turned by anything, partly outside.
-          const double angle = 7. * uniform(), dx = uniform() - .5, dy = uniform() - .5, size = .3 + uniform();
-          upper = [=](const double x, const double y) {
+          const double angle = 7. * uniform(), dx = uniform() - .5, dy = uniform() - .5,
+                       size = .3 + uniform();
+          upper             = [=](const double x, const double y) {
             const double u = size * (x - .5), v = size * (y - .5);
             return cap(.5 + dx + std::cos(angle) * u - std::sin(angle) * v,
-                       .5 + dy + std::sin(angle) * u + std::cos(angle) * v);
+                                   .5 + dy + std::sin(angle) * u + std::cos(angle) * v);
           };
         }
-      nonmortar = in_space(non, choose(), true);
-      mortar    = in_space(mor, upper, false);
+      nonmortar        = in_space(non, choose(), true);
+      mortar           = in_space(mor, upper, false);
       const double gap = .2 * (uniform() - .5);
       for (Point<3> &p : mortar.vertices)
         p[2] += gap;
@@ -82,7 +83,8 @@ namespace
   };
 
   /// Turns, moves and scales a surface.
-  SurfaceMesh moved(SurfaceMesh mesh, const Tensor<2, 3> &rotation, const Tensor<1, 3> &shift, const double scale)
+  SurfaceMesh moved(SurfaceMesh mesh, const Tensor<2, 3> &rotation, const Tensor<1, 3> &shift,
+                    const double scale)
   {
     for (Point<3> &p : mesh.vertices)
       p = Point<3>(scale * (rotation * p + shift));

@@ -143,9 +143,11 @@ namespace TestSurfaces
     if (report.n_flips > 0 && report.worst_tiling_defect < 1e-2)
       return "";
     if (report.worst_tiling_defect > 1e-12)
-      return "tiling defect " + std::to_string(report.worst_tiling_defect * 1e12) + "e-12, flips " + std::to_string(report.n_flips);
+      return "tiling defect " + std::to_string(report.worst_tiling_defect * 1e12) + "e-12, flips " +
+             std::to_string(report.n_flips);
     if (fully_covered && std::abs(report.area_covered / area_of(nonmortar) - 1.) > 1e-12)
-      return "covered " + std::to_string(1e12 * (report.area_covered / area_of(nonmortar) - 1.)) + "e-12 too much";
+      return "covered " + std::to_string(1e12 * (report.area_covered / area_of(nonmortar) - 1.)) +
+             "e-12 too much";
     double sum = 0.;
     for (const OverlayTriangle &cell : mapping.overlay())
       {
@@ -154,7 +156,8 @@ namespace TestSurfaces
           return "a cell is turned";
         for (unsigned int c = 0; c < 3; ++c)
           for (const auto &w : {cell.nonmortar[c], cell.mortar[c]})
-            if (std::abs(w[0] + w[1] + w[2] - 1.) > 1e-12 || !(*std::min_element(w.begin(), w.end()) >= -1e-12))
+            if (std::abs(w[0] + w[1] + w[2] - 1.) > 1e-12 ||
+                !(*std::min_element(w.begin(), w.end()) >= -1e-12))
               return "a corner lies outside of its triangle";
       }
     if (std::abs(sum - report.area_covered) > 1e-12 * area_of(nonmortar))

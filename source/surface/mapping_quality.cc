@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/surface/mapping_quality.h>
+
+#include <deal.II/base/tensor.h>
+
+#include <iomanip>
+
+namespace Signorini
+{
+  using namespace dealii;
+
+  namespace
+  {
+    Tensor<1, 3> unit_normal(const SurfaceMesh &mesh, const unsigned int triangle)
+    {
+      const auto        &t = mesh.triangles[triangle];
+      const Tensor<1, 3> n = cross_product_3d(mesh.vertices[t[1]] - mesh.vertices[t[0]],
+                                              mesh.vertices[t[2]] - mesh.vertices[t[0]]);
+      return n.norm() > 0. ? n / n.norm() : n;
+    }
+  } // namespace
+
+
+
+  MappingQuality assess_mapping(const ContactMapping &mapping, const SurfaceMesh &nonmortar,
+                                const SurfaceMesh &mortar, const MPI_Comm communicator)
+  {
+    MappingQuality quality;
+    quality.min_gap = std::numeric_limits<double>::infinity();
+    quality.max_gap = -quality.min_gap;
+    // Twice over the overlay: the range of the gap, then what lies where in it.
+    double                       covered = 0.;
+    std::vector<OverlayTriangle> cells;
+    for (const bool second : {false, true})
+      {
+        if (second)
+          {
+            quality.min_gap = Utilities::MPI::min(quality.min_gap, communicator);
+            quality.max_gap = Utilities::MPI::max(quality.max_gap, communicator);
+          }
+      for (std::size_t i = 0; i < mapping.n_polygons(); ++i)
+        {
+          const auto [t, m]    = mapping.polygon_triangles[i];
+          const Tensor<1, 3> n = unit_normal(nonmortar, t);
+          cells.clear();
+          mapping.triangulate(cells, i);
+          double area = 0.;
+          for (const OverlayTriangle &cell : cells)
+            {
+              const double part = std::abs(cell.share()) * triangle_area(nonmortar, t);
+              double       mean = 0.;
+              for (unsigned int c = 0; c < 3; ++c)
+                {
+                  const double gap =
+                      (evaluate(mortar, m, cell.mortar[c]) - evaluate(nonmortar, t, cell.nonmortar[c])) * n;
+                  mean += gap / 3.;
+                  quality.min_gap = std::min(quality.min_gap, gap);
+                  quality.max_gap = std::max(quality.max_gap, gap);
+                }
+              if (second)
+                {
+                  const double range = quality.max_gap - quality.min_gap;
+                  const double place = range > 0. ? 10. * (mean - quality.min_gap) / range : 0.;
+                  quality.histogram[std::min(9, std::max(0, static_cast<int>(place)))] += part;
+                }
+              area += part;
+            }
+          if (!second)
+            {
+              const double cosine = -(n * unit_normal(mortar, m));
+              const double angle  = std::acos(std::min(1., std::max(-1., cosine))) * 180. / numbers::PI;
+              quality.largest_angle = std::max(quality.largest_angle, angle);
+              quality.mean_angle += angle * area;
+              covered += area;
+            }
+        }
+      }
+    quality.largest_angle = Utilities::MPI::max(quality.largest_angle, communicator);
+    quality.mean_angle    = Utilities::MPI::sum(quality.mean_angle, communicator);
+    covered               = Utilities::MPI::sum(covered, communicator);
+    for (double &area : quality.histogram)
+      area = Utilities::MPI::sum(area, communicator);
+    if (covered > 0.)
+      quality.mean_angle /= covered;
+    return quality;
+  }
+
+
+
+  MappingReport sum_reports(MappingReport report, const MPI_Comm communicator)
+  {
+    for (double *area : {&report.area_nonmortar, &report.area_covered, &report.area_mortar_covered})
+      *area = Utilities::MPI::sum(*area, communicator);
+    for (std::size_t *number : {&report.n_cells, &report.n_pairs, &report.n_flips, &report.n_broken})
+      *number = Utilities::MPI::sum(*number, communicator);
+    report.worst_tiling_defect = Utilities::MPI::max(report.worst_tiling_defect, communicator);
+    return report;
+  }
+
+
+
+  const char *reason_name(const Unmapped reason)
+  {
+    switch (reason)
+      {
+        case Unmapped::no_hit:
+          return "no hit";
+        case Unmapped::outside_rim:
+          return "outside the rim";
+        case Unmapped::wrong_side:
+          return "wrong side";
+        default:
+          return "mapped";
+      }
+  }
+
+
+
+  std::map<std::string, std::size_t> count_unmapped(const MappingReport &report)
+  {
+    std::map<std::string, std::size_t> result;
+    for (const auto &[vertex, reason] : report.unmapped)
+      ++result[reason_name(reason)];
+    return result;
+  }
+
+
+
+  void print_mapping(std::ostream &out, const MappingReport &report, const MappingQuality &quality)
+  {
+    out << std::setprecision(6) << "  covered          " << 100. * report.area_covered / report.area_nonmortar
+        << " % of the nonmortar, " << 100. * report.area_mortar_covered / report.area_mortar
+        << " % of the mortar area\n"
+        << "  overlay          " << report.n_pairs << " pairs of triangles, " << report.n_cells << " cells, area "
+        << report.area_covered << '\n'
+        << "  tiling defect    " << report.worst_tiling_defect << " (largest, part of a triangle)\n";
+    for (const auto &[reason, number] : count_unmapped(report))
+      out << "  unmapped         " << number << " mortar vertices: " << reason << '\n';
+    if (report.n_flips + report.n_broken + report.n_lost_edges > 0)
+      out << "  turned           " << report.n_flips << " cells, " << report.n_broken
+          << " pairs without a polygon, " << report.n_lost_edges
+          << " edges lost: there the mapping is not one-to-one\n";
+    if (report.n_pairs > 0)
+      {
+        out << "  angle            " << quality.largest_angle << " degrees at most between the normals, "
+            << quality.mean_angle << " on average\n"
+            << "  gap              from " << quality.min_gap << " to " << quality.max_gap << "; area in tenths:";
+        for (const double area : quality.histogram)
+          out << ' ' << std::setprecision(3) << area;
+        out << '\n';
+      }
+  }
+} // namespace Signorini
