@@ -4,11 +4,11 @@
 // signorini-map: the contact mapping of two surface files, without finite elements.
 
 #include <signorini/algebra/input_error.h>
+#include <signorini/mesh/surface_file.h>
 #include <signorini/output/field_output.h>
 #include <signorini/output/json_writer.h>
 #include <signorini/surface/contact_mapping.h>
 #include <signorini/surface/mapping_quality.h>
-#include <signorini/mesh/surface_file.h>
 
 #include <chrono>
 #include <filesystem>
@@ -20,17 +20,19 @@ namespace
 {
   using namespace Signorini;
 
-  const char *const usage =
-      "usage: signorini-map NONMORTAR MORTAR [--report] [--vtu FILE] [--json FILE]\n"
-      "\n"
-      "Maps the mortar surface onto the nonmortar surface along its continuous normal field and computes the\n"
-      "overlay. The files are triangulated surfaces: OFF, STL, OBJ, PLY or gmsh; the normals of the two point\n"
-      "towards each other.\n"
-      "\n"
-      "  --report     what is covered, angles, gaps, and what could not be mapped (the default without --json)\n"
-      "  --vtu FILE   the overlay with the way to the image and the gap, for ParaView\n"
-      "  --json FILE  the figures\n"
-      "  --help, --version\n";
+  const char *const usage = "usage: signorini-map NONMORTAR MORTAR [--report] [--vtu FILE] [--json FILE]\n"
+                            "\n"
+                            "Maps the mortar surface onto the nonmortar surface along its continuous normal "
+                            "field and computes the\n"
+                            "overlay. The files are triangulated surfaces: OFF, STL, OBJ, PLY or gmsh; the "
+                            "normals of the two point\n"
+                            "towards each other.\n"
+                            "\n"
+                            "  --report     what is covered, angles, gaps, and what could not be mapped (the "
+                            "default without --json)\n"
+                            "  --vtu FILE   the overlay with the way to the image and the gap, for ParaView\n"
+                            "  --json FILE  the figures\n"
+                            "  --help, --version\n";
 
   struct CommandLine
   {
@@ -114,22 +116,25 @@ namespace
     if (!line.json.empty())
       write_file(line.json, [&](std::ostream &out) { write_json(out, mapping.report(), seconds); });
     if (!line.vtu.empty())
-      write_file(line.vtu, [&](std::ostream &out) { write_overlay(out, nonmortar, mortar, mapping.overlay()); });
+      write_file(line.vtu,
+                 [&](std::ostream &out) { write_overlay(out, nonmortar, mortar, mapping.overlay()); });
     if (line.report || line.json.empty())
       {
-        std::cout << line.files[0] << ": " << nonmortar.triangles.size() << " triangles, " << line.files[1] << ": "
-                  << mortar.triangles.size() << " triangles, mapped in " << seconds << " s\n";
+        std::cout << line.files[0] << ": " << nonmortar.triangles.size() << " triangles, " << line.files[1]
+                  << ": " << mortar.triangles.size() << " triangles, mapped in " << seconds << " s\n";
         print_mapping(std::cout, mapping.report(), assess_mapping(mapping, nonmortar, mortar));
       }
     if (mapping.report().n_pairs == 0)
-      throw InputError("the surfaces do not face each other anywhere: there is not a single overlay cell. Normals "
-                       "must point towards each other.");
+      throw InputError(
+          "the surfaces do not face each other anywhere: there is not a single overlay cell. Normals "
+          "must point towards each other.");
   }
 } // namespace
 
 
 
-int main(int argc, char **argv)
+int
+main(int argc, char **argv)
 {
   for (int i = 1; i < argc; ++i)
     if (const std::string word = argv[i]; word == "--help" || word == "--version")

@@ -21,8 +21,8 @@ namespace Signorini
     {
       for (const std::size_t v : corners)
         if (v >= mesh.vertices.size())
-          throw InputError("Surface " + file + ": a face refers to vertex " + std::to_string(v) + ", but there are only " +
-                           std::to_string(mesh.vertices.size()) + ".");
+          throw InputError("Surface " + file + ": a face refers to vertex " + std::to_string(v) +
+                           ", but there are only " + std::to_string(mesh.vertices.size()) + ".");
       for (std::size_t i = 1; i + 1 < corners.size(); ++i)
         {
           const std::array<unsigned int, 3> t = {{static_cast<unsigned int>(corners[0]),
@@ -100,7 +100,8 @@ namespace Signorini
               std::string         name;
               int                 dimension, order, n_nodes, n_primary;
               std::vector<double> local;
-              gmsh::model::mesh::getElementProperties(types[k], name, dimension, order, n_nodes, local, n_primary);
+              gmsh::model::mesh::getElementProperties(types[k], name, dimension, order, n_nodes, local,
+                                                      n_primary);
               for (std::size_t e = 0; e < elements[k].size(); ++e)
                 {
                   std::vector<std::size_t> corners;
@@ -137,7 +138,8 @@ namespace Signorini
     else if (extension == ".msh")
       mesh = read_gmsh(file);
     else
-      throw InputError("Surface " + file + ": the kind of file is known by .off, .stl, .obj, .ply or .msh, not by \"" +
+      throw InputError("Surface " + file +
+                       ": the kind of file is known by .off, .stl, .obj, .ply or .msh, not by \"" +
                        extension + "\".");
     if (mesh.triangles.empty())
       throw InputError("Surface " + file + ": there are no triangles in it.");

@@ -40,42 +40,42 @@ namespace Signorini
             quality.min_gap = Utilities::MPI::min(quality.min_gap, communicator);
             quality.max_gap = Utilities::MPI::max(quality.max_gap, communicator);
           }
-      for (std::size_t i = 0; i < mapping.n_polygons(); ++i)
-        {
-          const auto [t, m]    = mapping.polygon_triangles[i];
-          const Tensor<1, 3> n = unit_normal(nonmortar, t);
-          cells.clear();
-          mapping.triangulate(cells, i);
-          double area = 0.;
-          for (const OverlayTriangle &cell : cells)
-            {
-              const double part = std::abs(cell.share()) * triangle_area(nonmortar, t);
-              double       mean = 0.;
-              for (unsigned int c = 0; c < 3; ++c)
-                {
-                  const double gap =
-                      (evaluate(mortar, m, cell.mortar[c]) - evaluate(nonmortar, t, cell.nonmortar[c])) * n;
-                  mean += gap / 3.;
-                  quality.min_gap = std::min(quality.min_gap, gap);
-                  quality.max_gap = std::max(quality.max_gap, gap);
-                }
-              if (second)
-                {
-                  const double range = quality.max_gap - quality.min_gap;
-                  const double place = range > 0. ? 10. * (mean - quality.min_gap) / range : 0.;
-                  quality.histogram[std::min(9, std::max(0, static_cast<int>(place)))] += part;
-                }
-              area += part;
-            }
-          if (!second)
-            {
-              const double cosine = -(n * unit_normal(mortar, m));
-              const double angle  = std::acos(std::min(1., std::max(-1., cosine))) * 180. / numbers::PI;
-              quality.largest_angle = std::max(quality.largest_angle, angle);
-              quality.mean_angle += angle * area;
-              covered += area;
-            }
-        }
+        for (std::size_t i = 0; i < mapping.n_polygons(); ++i)
+          {
+            const auto [t, m]    = mapping.polygon_triangles[i];
+            const Tensor<1, 3> n = unit_normal(nonmortar, t);
+            cells.clear();
+            mapping.triangulate(cells, i);
+            double area = 0.;
+            for (const OverlayTriangle &cell : cells)
+              {
+                const double part = std::abs(cell.share()) * triangle_area(nonmortar, t);
+                double       mean = 0.;
+                for (unsigned int c = 0; c < 3; ++c)
+                  {
+                    const double gap =
+                        (evaluate(mortar, m, cell.mortar[c]) - evaluate(nonmortar, t, cell.nonmortar[c])) * n;
+                    mean += gap / 3.;
+                    quality.min_gap = std::min(quality.min_gap, gap);
+                    quality.max_gap = std::max(quality.max_gap, gap);
+                  }
+                if (second)
+                  {
+                    const double range = quality.max_gap - quality.min_gap;
+                    const double place = range > 0. ? 10. * (mean - quality.min_gap) / range : 0.;
+                    quality.histogram[std::min(9, std::max(0, static_cast<int>(place)))] += part;
+                  }
+                area += part;
+              }
+            if (!second)
+              {
+                const double cosine   = -(n * unit_normal(mortar, m));
+                const double angle    = std::acos(std::min(1., std::max(-1., cosine))) * 180. / numbers::PI;
+                quality.largest_angle = std::max(quality.largest_angle, angle);
+                quality.mean_angle += angle * area;
+                covered += area;
+              }
+          }
       }
     quality.largest_angle = Utilities::MPI::max(quality.largest_angle, communicator);
     quality.mean_angle    = Utilities::MPI::sum(quality.mean_angle, communicator);
@@ -133,8 +133,8 @@ namespace Signorini
     out << std::setprecision(6) << "  covered          " << 100. * report.area_covered / report.area_nonmortar
         << " % of the nonmortar, " << 100. * report.area_mortar_covered / report.area_mortar
         << " % of the mortar area\n"
-        << "  overlay          " << report.n_pairs << " pairs of triangles, " << report.n_cells << " cells, area "
-        << report.area_covered << '\n'
+        << "  overlay          " << report.n_pairs << " pairs of triangles, " << report.n_cells
+        << " cells, area " << report.area_covered << '\n'
         << "  tiling defect    " << report.worst_tiling_defect << " (largest, part of a triangle)\n";
     for (const auto &[reason, number] : count_unmapped(report))
       out << "  unmapped         " << number << " mortar vertices: " << reason << '\n';
@@ -146,7 +146,8 @@ namespace Signorini
       {
         out << "  angle            " << quality.largest_angle << " degrees at most between the normals, "
             << quality.mean_angle << " on average\n"
-            << "  gap              from " << quality.min_gap << " to " << quality.max_gap << "; area in tenths:";
+            << "  gap              from " << quality.min_gap << " to " << quality.max_gap
+            << "; area in tenths:";
         for (const double area : quality.histogram)
           out << ' ' << std::setprecision(3) << area;
         out << '\n';

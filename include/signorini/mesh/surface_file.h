@@ -10,10 +10,10 @@
 
 namespace Signorini
 {
-  /// Reads a triangulated surface, vertex normals included. OFF, STL, OBJ and PLY (text or binary) through CGAL,
-  /// .msh through gmsh (all surface elements of a mesh without volume elements). Polygons are split into fans;
-  /// coinciding points of an STL file, which knows no vertices, become one.
-  /// Errors: InputError for missing, unreadable and unknown files, and for surfaces without triangles.
+  /// Reads a triangulated surface, vertex normals included. OFF, STL, OBJ and PLY (text or binary) through
+  /// CGAL, .msh through gmsh (all surface elements of a mesh without volume elements). Polygons are split
+  /// into fans; coinciding points of an STL file, which knows no vertices, become one. Errors: InputError for
+  /// missing, unreadable and unknown files, and for surfaces without triangles.
   SurfaceMesh read_surface(const std::string &file);
 } // namespace Signorini
 

@@ -86,8 +86,7 @@ namespace Signorini
         if (c == '"' || c == '\\')
           result << '\\' << c;
         else if (static_cast<unsigned char>(c) < 32)
-          result << "\\u" << std::hex << std::setw(4) << std::setfill('0') << static_cast<int>(c)
-                 << std::dec;
+          result << "\\u" << std::hex << std::setw(4) << std::setfill('0') << static_cast<int>(c) << std::dec;
         else
           result << c;
       result << '"';

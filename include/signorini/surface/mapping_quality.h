@@ -17,8 +17,8 @@ namespace Signorini
   /// How the two surfaces of a mapping lie to each other, over the selected nonmortar triangles.
   struct MappingQuality
   {
-    /// Largest angle between the normal of a nonmortar triangle and the turned one of a mortar triangle that it
-    /// meets, in degrees, and the mean over the area.
+    /// Largest angle between the normal of a nonmortar triangle and the turned one of a mortar triangle that
+    /// it meets, in degrees, and the mean over the area.
     double largest_angle = 0., mean_angle = 0.;
     /// (Phi(x) - x) . n at the corners of the overlay, n the normal of the nonmortar triangle.
     double min_gap, max_gap;

@@ -24,11 +24,13 @@ namespace
       {"square.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n"},
       {"square.ply",
        "ply\nformat ascii 1.0\nelement vertex 4\nproperty double x\nproperty double y\nproperty double z\n"
-       "element face 2\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 "
+       "element face 2\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 "
+       "1 2\n3 0 2 "
        "3\n"},
-      {"square.stl",
-       "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0\nendloop\nendfacet\n"
-       "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 1 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid s\n"},
+      {"square.stl", "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1 "
+                     "0\nendloop\nendfacet\n"
+                     "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 1 0\nvertex 0 1 "
+                     "0\nendloop\nendfacet\nendsolid s\n"},
       {"square.msh",
        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n$EndNodes\n"
        "$Elements\n2\n1 2 2 1 1 1 2 3\n2 2 2 1 1 1 3 4\n$EndElements\n"}};
@@ -36,7 +38,8 @@ namespace
   std::string written(const std::string &name, const std::string &text)
   {
     const std::string file =
-        (std::filesystem::temp_directory_path() / ("signorini-" + std::to_string(getpid()) + "-" + name)).string();
+        (std::filesystem::temp_directory_path() / ("signorini-" + std::to_string(getpid()) + "-" + name))
+            .string();
     std::ofstream(file) << text;
     return file;
   }
