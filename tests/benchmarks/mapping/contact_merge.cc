@@ -24,7 +24,8 @@ namespace
 
 
 
-int main(int argc, char **argv)
+int
+main(int argc, char **argv)
 {
   Dune::MPIHelper::instance(argc, argv);
   const OffFile non(argv[1]), mor(argv[2]);
@@ -50,8 +51,8 @@ int main(int argc, char **argv)
   merge.build(x1, t1, types1, x2, t2, types2);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 
-  double covered = 0.;
-  const auto list = merge.intersectionList();
+  double     covered = 0.;
+  const auto list    = merge.intersectionList();
   for (unsigned int i = 0; i < list->size(); ++i)
     {
       const auto a = list->template corner<0>(i, 0), b = list->template corner<0>(i, 1),

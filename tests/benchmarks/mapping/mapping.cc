@@ -17,8 +17,8 @@ namespace
   SurfaceMesh wave(const unsigned int n_triangles, const double size, const double height, const bool up,
                    const unsigned int seed)
   {
-    const unsigned int                     n = std::max(1u, static_cast<unsigned int>(std::sqrt(n_triangles / 2.)));
-    std::mt19937                           random(seed);
+    const unsigned int n = std::max(1u, static_cast<unsigned int>(std::sqrt(n_triangles / 2.)));
+    std::mt19937       random(seed);
     std::uniform_real_distribution<double> noise(-.2, .2);
     SurfaceMesh                            mesh;
     for (unsigned int j = 0; j <= n; ++j)

@@ -10,12 +10,13 @@
 
 #include <chrono>
 
-int main(int, char **argv)
+int
+main(int, char **argv)
 {
-  const OffFile                                non(argv[1]), mor(argv[2]);
-  std::vector<std::tr1::array<double, 3>>      x1, x2;
-  std::vector<std::tr1::array<int, 3>>         t1, t2;
-  const auto                                   convert = [](const OffFile &file, auto &x, auto &t) {
+  const OffFile                           non(argv[1]), mor(argv[2]);
+  std::vector<std::tr1::array<double, 3>> x1, x2;
+  std::vector<std::tr1::array<int, 3>>    t1, t2;
+  const auto                              convert = [](const OffFile &file, auto &x, auto &t) {
     for (const auto &p : file.points)
       x.push_back({{p[0], p[1], p[2]}});
     for (const auto &triangle : file.triangles)
@@ -34,7 +35,8 @@ int main(int, char **argv)
   for (const auto &o : overlaps)
     {
       const auto &a = o.localCoords[0][0], &b = o.localCoords[0][1], &c = o.localCoords[0][2];
-      covered += std::abs((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])) * non.area(o.tris[0]);
+      covered +=
+          std::abs((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])) * non.area(o.tris[0]);
     }
   std::cout.precision(15);
   std::cout << seconds << ' ' << covered / non.area() << ' ' << overlaps.size() << std::endl;
