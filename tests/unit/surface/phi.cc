@@ -25,8 +25,8 @@ namespace
   {
     std::uniform_real_distribution<double> uniform(0., 1.);
     const double                           a = uniform(random), b = uniform(random);
-    return a + b < 1. ? std::array<double, 3>{{1. - a - b, a, b}} :
-                        std::array<double, 3>{{a + b - 1., 1. - a, 1. - b}};
+    return a + b < 1. ? std::array<double, 3>{{1. - a - b, a, b}}
+                      : std::array<double, 3>{{a + b - 1., 1. - a, 1. - b}};
   }
 
   Point<3> place(const SurfaceMesh &mesh, const SurfacePoint &p)
@@ -107,9 +107,9 @@ TEST(Phi, IsContinuousAcrossNonmortarEdges)
 // Beside the common part there is no image.
 TEST(Phi, EndsWhereTheSurfacesEnd)
 {
-  const SurfaceMesh    square = grid(4, flat, true), other = grid(4, [](const double x, const double y) {
-                              return Point<3>(.5 + x, y, 0.);
-                            }, false);
+  const SurfaceMesh square = grid(4, flat, true),
+                    other  = grid(
+                         4, [](const double x, const double y) { return Point<3>(.5 + x, y, 0.); }, false);
   const ContactMapping mapping(square, other);
   for (unsigned int t = 0; t < square.triangles.size(); ++t)
     {
