@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
-// Two surfaces without finite elements: reads them, builds the contact mapping, prints for each triangle of the
-// first one how much of it the second one covers, and writes the overlay as an image file for ParaView.
+// Two surfaces without finite elements: reads them, builds the contact mapping, prints for each triangle of
+// the first one how much of it the second one covers, and writes the overlay as an image file for ParaView.
 //
 //   surface_overlay NONMORTAR MORTAR IMAGE.vtu
 
@@ -16,7 +16,8 @@
 
 using namespace Signorini;
 
-int main(int argc, char **argv)
+int
+main(int argc, char **argv)
 {
   if (argc != 4)
     {
@@ -31,14 +32,15 @@ int main(int argc, char **argv)
       // Phi, from the nonmortar to the mortar surface.
       const ContactMapping mapping(nonmortar, mortar);
 
-      // Each cell of the overlay lies in one triangle of either surface and knows the barycentric coordinates of
-      // its corners in both; share() is its part of the nonmortar triangle.
+      // Each cell of the overlay lies in one triangle of either surface and knows the barycentric coordinates
+      // of its corners in both; share() is its part of the nonmortar triangle.
       std::vector<double> covered(nonmortar.triangles.size(), 0.);
       for (const OverlayTriangle &cell : mapping.overlay())
         covered[cell.nonmortar_triangle] += cell.share() * triangle_area(nonmortar, cell.nonmortar_triangle);
       for (unsigned int t = 0; t < covered.size(); ++t)
         if (covered[t] > 0.)
-          std::cout << "triangle " << t << ": " << covered[t] << " of " << triangle_area(nonmortar, t) << '\n';
+          std::cout << "triangle " << t << ": " << covered[t] << " of " << triangle_area(nonmortar, t)
+                    << '\n';
 
       // Phi at a single point: the middle of the first covered triangle.
       for (unsigned int t = 0; t < covered.size(); ++t)

@@ -239,35 +239,66 @@ namespace Signorini
           mortar_border[v] = true;
 
     for (unsigned int m = 0; m < mortar.triangles.size(); ++m)
-      summary.area_mortar += triangle_area(mortar_mesh, m);
+      summary.area_mortar += incidence.mortar_normal[m].norm();
 
+    // Visited as they lie beside each other, put in the order of the triangles afterwards.
+    struct Found
+    {
+      unsigned int mortar_triangle, first, last;
+    };
+    std::vector<Found>                                 found;
+    std::vector<unsigned int>                          found_corners;
+    std::vector<std::pair<unsigned int, unsigned int>> found_in(nonmortar.triangles.size(), {0, 0});
+    std::vector<bool>                                  is_done(nonmortar.triangles.size(), false);
+    // About as many polygons as nodes, of four to five corners.
+    found.reserve(graph.nodes.size() + graph.nodes.size() / 8);
+    found_corners.reserve(5 * found.capacity());
     TrianglePolygons polygons(incidence, graph, mortar_border);
-    for (unsigned int t = 0; t < nonmortar.triangles.size(); ++t)
-      {
-        if (is_selected && !is_selected(t))
-          continue;
-        std::array<unsigned int, 3> corner_nodes;
-        for (unsigned int i = 0; i < 3; ++i)
-          corner_nodes[i] = graph.nonmortar_vertex_node[nonmortar.triangles[t][i]];
-        polygons.compute(t, corner_nodes);
-        const double area = triangle_area(nonmortar_mesh, t);
-        summary.area_nonmortar += area;
-        summary.area_covered += polygons.covered * area;
-        summary.n_broken += polygons.n_broken;
-        summary.worst_tiling_defect = std::max(summary.worst_tiling_defect, polygons.defect());
-        for (const auto &polygon : polygons.list)
+    const auto       visit = [&](const unsigned int t) {
+      std::array<unsigned int, 3> corner_nodes;
+      for (unsigned int i = 0; i < 3; ++i)
+        corner_nodes[i] = graph.nonmortar_vertex_node[nonmortar.triangles[t][i]];
+      polygons.compute(t, corner_nodes);
+      const double area = incidence.nonmortar_normal[t].norm();
+      summary.area_nonmortar += area;
+      summary.area_covered += polygons.covered * area;
+      summary.n_broken += polygons.n_broken;
+      summary.worst_tiling_defect = std::max(summary.worst_tiling_defect, polygons.defect());
+      found_in[t].first           = static_cast<unsigned int>(found.size());
+      for (const auto &polygon : polygons.list)
+        {
+          ++summary.n_pairs;
+          summary.area_mortar_covered +=
+              polygon.mortar_share * incidence.mortar_normal[polygon.mortar_triangle].norm();
+          summary.n_flips += polygon.share < -1e-12;
+          summary.n_cells += polygon.last - polygon.first - 2;
+          const auto first = static_cast<unsigned int>(found_corners.size());
+          found_corners.insert(found_corners.end(), polygons.corners.begin() + polygon.first,
+                                     polygons.corners.begin() + polygon.last);
+          found.push_back({polygon.mortar_triangle, first, static_cast<unsigned int>(found_corners.size())});
+        }
+      found_in[t].second = static_cast<unsigned int>(found.size());
+    };
+    for (const unsigned int v : spatial_order(nonmortar_mesh))
+      for (unsigned int k = nonmortar.fan_start[v]; k < nonmortar.fan_start[v + 1]; ++k)
+        if (const unsigned int t = nonmortar.fan[k]; !is_done[t])
           {
-            ++summary.n_pairs;
-            summary.area_mortar_covered +=
-                polygon.mortar_share * triangle_area(mortar_mesh, polygon.mortar_triangle);
-            summary.n_flips += polygon.share < -1e-12;
-            summary.n_cells += polygon.last - polygon.first - 2;
-            polygon_triangles.emplace_back(t, polygon.mortar_triangle);
-            polygon_corners.insert(polygon_corners.end(), polygons.corners.begin() + polygon.first,
-                                   polygons.corners.begin() + polygon.last);
-            polygon_start.push_back(static_cast<unsigned int>(polygon_corners.size()));
+            is_done[t] = true;
+            if (!is_selected || is_selected(t))
+              visit(t);
           }
-      }
+
+    polygon_triangles.reserve(found.size());
+    polygon_start.reserve(found.size() + 1);
+    polygon_corners.reserve(found_corners.size());
+    for (unsigned int t = 0; t < nonmortar.triangles.size(); ++t)
+      for (unsigned int i = found_in[t].first; i < found_in[t].second; ++i)
+        {
+          polygon_triangles.emplace_back(t, found[i].mortar_triangle);
+          polygon_corners.insert(polygon_corners.end(), found_corners.begin() + found[i].first,
+                                 found_corners.begin() + found[i].last);
+          polygon_start.push_back(static_cast<unsigned int>(polygon_corners.size()));
+        }
     graph_nodes = std::move(graph.nodes);
   }
 

@@ -23,11 +23,14 @@ namespace Signorini
              product * product > facing_cosine * facing_cosine * a.norm_square() * b.norm_square();
     }
 
-    Tensor<1, 3> normal_of(const SurfaceMesh &mesh, const unsigned int triangle)
+    std::vector<Tensor<1, 3>> area_normals(const SurfaceMesh &mesh)
     {
-      const auto &t = mesh.triangles[triangle];
-      return cross_product_3d(mesh.vertices[t[1]] - mesh.vertices[t[0]],
-                              mesh.vertices[t[2]] - mesh.vertices[t[0]]);
+      std::vector<Tensor<1, 3>> normals;
+      normals.reserve(mesh.triangles.size());
+      for (const auto &t : mesh.triangles)
+        normals.push_back(.5 * cross_product_3d(mesh.vertices[t[1]] - mesh.vertices[t[0]],
+                                                mesh.vertices[t[2]] - mesh.vertices[t[0]]));
+      return normals;
     }
 
     OrientedEdge edge_of(const SurfaceMesh &mesh, const std::array<unsigned int, 2> &e)
@@ -62,6 +65,8 @@ namespace Signorini
     , mortar(mortar)
     , nonmortar_topology(nonmortar_topology)
     , mortar_topology(mortar_topology)
+    , nonmortar_normal(area_normals(nonmortar))
+    , mortar_normal(area_normals(mortar))
     , nonmortar_size(shortest_edges(nonmortar, nonmortar_topology))
     , mortar_size(shortest_edges(mortar, mortar_topology))
   {
@@ -186,13 +191,13 @@ namespace Signorini
 
   bool Incidence::vertex_faces(const unsigned int vertex, const unsigned int triangle) const
   {
-    return facing(normal_of(nonmortar, triangle), mortar.vertex_normals[vertex]);
+    return facing(nonmortar_normal[triangle], mortar.vertex_normals[vertex]);
   }
 
 
 
   bool Incidence::triangles_face(const unsigned int t, const unsigned int m) const
   {
-    return facing(normal_of(nonmortar, t), normal_of(mortar, m));
+    return facing(nonmortar_normal[t], mortar_normal[m]);
   }
 } // namespace Signorini

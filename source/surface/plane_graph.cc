@@ -67,9 +67,10 @@ namespace Signorini
     , nonmortar(incidence.nonmortar_topology)
     , mortar(incidence.mortar_topology)
   {
-    nodes.reserve(4 * (nonmortar_vertex_node.size() + mortar_vertex_node.size()));
+    nodes.reserve(5 * (nonmortar_vertex_node.size() + mortar_vertex_node.size()));
     if (!nonmortar.triangles.empty() && !mortar.triangles.empty())
       {
+        mortar_order = spatial_order(incidence.mortar);
         map_mortar_vertices();
         trace_mortar_edges();
       }
@@ -140,7 +141,7 @@ namespace Signorini
   {
     const BoxTree             tree = tree_of_triangles(incidence.nonmortar);
     std::vector<unsigned int> candidates;
-    for (unsigned int v = 0; v < incidence.mortar.vertices.size(); ++v)
+    for (const unsigned int v : mortar_order)
       {
         if (mortar.fan_start[v] == mortar.fan_start[v + 1])
           continue;

@@ -332,20 +332,25 @@ namespace Signorini
 
   void PlaneGraph::trace_mortar_edges()
   {
-    for (unsigned int f = 0; f < mortar.edges.size(); ++f)
-      {
-        const unsigned int p = mortar_vertex_node[mortar.edges[f][0]],
-                           q = mortar_vertex_node[mortar.edges[f][1]];
-        State state          = State::left;
-        if (p != none)
-          state = trace_from_node(f, 1, p, q);
-        if (q != none && state == State::left)
-          state = trace_from_node(f, -1, q, none);
-        if (state == State::lost)
-          lost_edges.push_back(f);
-        if (state == State::left)
-          unfinished.push_back(f);
-      }
+    // Edges are numbered by their lower vertex.
+    std::vector<unsigned int> first(mortar_vertex_node.size() + 1, 0);
+    for (const auto &e : mortar.edges)
+      ++first[e[0] + 1];
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    for (const unsigned int v : mortar_order)
+      for (unsigned int f = first[v]; f < first[v + 1]; ++f)
+        {
+          const unsigned int p = mortar_vertex_node[v], q = mortar_vertex_node[mortar.edges[f][1]];
+          State              state = State::left;
+          if (p != none)
+            state = trace_from_node(f, 1, p, q);
+          if (q != none && state == State::left)
+            state = trace_from_node(f, -1, q, none);
+          if (state == State::lost)
+            lost_edges.push_back(f);
+          if (state == State::left)
+            unfinished.push_back(f);
+        }
     enter_at_borders();
   }
 

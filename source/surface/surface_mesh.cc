@@ -82,6 +82,48 @@ namespace Signorini
 
 
 
+  std::vector<unsigned int> spatial_order(const SurfaceMesh &mesh)
+  {
+    if (mesh.vertices.empty())
+      return {};
+    Point<3> low = mesh.vertices[0], high = low;
+    for (const Point<3> &p : mesh.vertices)
+      for (unsigned int c = 0; c < 3; ++c)
+        {
+          low[c]  = std::min(low[c], p[c]);
+          high[c] = std::max(high[c], p[c]);
+        }
+    // The bits of the three coordinates in turn.
+    const auto spread = [](std::uint64_t x) {
+      x = (x | x << 32) & 0x1f00000000ffffULL;
+      x = (x | x << 16) & 0x1f0000ff0000ffULL;
+      x = (x | x << 8) & 0x100f00f00f00f00fULL;
+      x = (x | x << 4) & 0x10c30c30c30c30c3ULL;
+      return (x | x << 2) & 0x1249249249249249ULL;
+    };
+    const double                                        size = std::max(low.distance(high), 1e-300);
+    std::vector<std::pair<std::uint64_t, unsigned int>> codes;
+    codes.reserve(mesh.vertices.size());
+    for (unsigned int v = 0; v < mesh.vertices.size(); ++v)
+      {
+        std::uint64_t code = 0;
+        for (unsigned int c = 0; c < 3; ++c)
+          {
+            const double place = (mesh.vertices[v][c] - low[c]) / size;
+            code |= spread(place > 0. ? static_cast<std::uint64_t>(place * 0x1fffff) : 0) << c;
+          }
+        codes.emplace_back(code, v);
+      }
+    std::sort(codes.begin(), codes.end());
+    std::vector<unsigned int> order;
+    order.reserve(codes.size());
+    for (const auto &code : codes)
+      order.push_back(code.second);
+    return order;
+  }
+
+
+
   SurfacePoint SurfacePoint::at_vertex(const unsigned int vertex)
   {
     SurfacePoint p;

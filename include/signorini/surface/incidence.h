@@ -72,6 +72,8 @@ namespace Signorini
     /// The surfaces, with the positions as moved.
     SurfaceMesh            nonmortar, mortar;
     const SurfaceTopology &nonmortar_topology, &mortar_topology;
+    /// Normals of the triangles as they came, as long as their area.
+    const std::vector<dealii::Tensor<1, 3>> nonmortar_normal, mortar_normal;
 
   private:
     /// Length of the shortest edge at each vertex: what the tolerance is relative to.

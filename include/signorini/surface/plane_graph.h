@@ -107,6 +107,8 @@ namespace Signorini
 
     Incidence             &incidence;
     const SurfaceTopology &nonmortar, &mortar;
+    /// The order in which mortar vertices, and edges from them, are visited.
+    std::vector<unsigned int> mortar_order;
     /// For nodes where edges cross: the side of the mortar edge on which the lower end of the nonmortar edge
     /// lies.
     std::vector<signed char> low_side;

@@ -67,6 +67,10 @@ namespace Signorini
     std::size_t n_conflicts = 0;
   };
 
+  /// The vertices along a space-filling curve (Morton order): neighbours follow soon after each other, so
+  /// that what is visited in this order finds its data in the cache.
+  std::vector<unsigned int> spatial_order(const SurfaceMesh &mesh);
+
   /// A place on a surface: at a vertex, on an edge, or inside of a triangle. Decided once and kept, so that
   /// everything that is built on it agrees.
   struct SurfacePoint
