@@ -82,19 +82,26 @@ namespace Signorini
 
 
 
+  template <ProjectedGaussSeidel::Direction direction>
   inline void ProjectedGaussSeidel::relax(double *const v, const double *const rhs, const unsigned int row)
   {
     double                    s0 = rhs[dim * row], s1 = rhs[dim * row + 1], s2 = rhs[dim * row + 2];
     const std::size_t         begin = matrix.row_begin(row) + 1, end = matrix.row_end(row);
-    const unsigned int *const columns = matrix.column_data();
-    const double             *a       = matrix.block(begin);
-    for (std::size_t k = begin; k < end; ++k, a += 9)
-      {
-        const double *const x = v + dim * static_cast<std::size_t>(columns[k]);
-        s0 -= a[0] * x[0] + a[1] * x[1] + a[2] * x[2];
-        s1 -= a[3] * x[0] + a[4] * x[1] + a[5] * x[2];
-        s2 -= a[6] * x[0] + a[7] * x[1] + a[8] * x[2];
-      }
+    const unsigned int *const columns  = matrix.column_data();
+    const auto                subtract = [&](const std::size_t k) {
+      const double *const a = matrix.block(k);
+      const double *const x = v + dim * static_cast<std::size_t>(columns[k]);
+      s0 -= a[0] * x[0] + a[1] * x[1] + a[2] * x[2];
+      s1 -= a[3] * x[0] + a[4] * x[1] + a[5] * x[2];
+      s2 -= a[6] * x[0] + a[7] * x[1] + a[8] * x[2];
+    };
+    // Memory is read in one direction throughout, also within a row: the processor fetches ahead.
+    if (direction == forward)
+      for (std::size_t k = begin; k < end; ++k)
+        subtract(k);
+    else
+      for (std::size_t k = end; k > begin; --k)
+        subtract(k - 1);
     const double *const d = inverse_diagonal.data() + 9 * static_cast<std::size_t>(row);
     double *const       y = v + dim * static_cast<std::size_t>(row);
     y[0]                  = d[0] * s0 + d[1] * s1 + d[2] * s2;
@@ -116,10 +123,10 @@ namespace Signorini
         const auto &rows = schedule.phases()[direction == forward ? i : n_phases - 1 - i];
         if (direction == forward)
           for (auto row = rows.begin(); row != rows.end(); ++row)
-            relax(v.begin(), rhs.begin(), *row);
+            relax<forward>(v.begin(), rhs.begin(), *row);
         else
           for (auto row = rows.rbegin(); row != rows.rend(); ++row)
-            relax(v.begin(), rhs.begin(), *row);
+            relax<backward>(v.begin(), rhs.begin(), *row);
       }
   }
 

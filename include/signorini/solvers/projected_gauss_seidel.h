@@ -69,6 +69,7 @@ namespace Signorini
     double sweep_bytes() const;
 
   private:
+    template <Direction direction>
     void relax(double *v, const double *rhs, const unsigned int row);
 
     void project_row(double *v_row, const int half_space);
