@@ -100,6 +100,7 @@ namespace
       json.number(reason, number);
     json.end('}');
     json.number("turned", report.n_flips);
+    json.number("conflicting_edges", report.n_conflicts);
     json.number("lost_edges", report.n_lost_edges);
     json.number("time_s", seconds);
     json.number("peak_memory_bytes", 1024. * used.ru_maxrss);

@@ -93,6 +93,7 @@ namespace Signorini
         json.number(reason, number);
       json.end('}');
       json.number("turned", report.n_flips);
+      json.number("conflicting_edges", report.n_conflicts);
       json.number("lost_edges", report.n_lost_edges);
       json.number("largest_angle_degrees", quality.largest_angle);
       json.number("mean_angle_degrees", quality.mean_angle);

@@ -228,6 +228,7 @@ namespace Signorini
     Incidence  incidence(nonmortar_mesh, mortar_mesh, nonmortar, mortar);
     PlaneGraph graph(incidence);
     summary.n_lost_edges = graph.lost_edges.size();
+    summary.n_conflicts  = nonmortar.n_conflicts + mortar.n_conflicts;
     for (unsigned int v = 0; v < graph.unmapped.size(); ++v)
       if (graph.unmapped[v] != Unmapped::not_at_all)
         summary.unmapped.emplace_back(v, graph.unmapped[v]);

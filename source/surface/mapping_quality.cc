@@ -138,6 +138,9 @@ namespace Signorini
         << "  tiling defect    " << report.worst_tiling_defect << " (largest, part of a triangle)\n";
     for (const auto &[reason, number] : count_unmapped(report))
       out << "  unmapped         " << number << " mortar vertices: " << reason << '\n';
+    if (report.n_conflicts > 0)
+      out << "  surfaces         " << report.n_conflicts
+          << " edges where triangles turn to different sides or more than two meet (taken as borders)\n";
     if (report.n_flips + report.n_broken + report.n_lost_edges > 0)
       out << "  turned           " << report.n_flips << " cells, " << report.n_broken
           << " pairs without a polygon, " << report.n_lost_edges

@@ -29,6 +29,9 @@ namespace Signorini
     /// Polygons whose orientation is turned, because a cell of the mortar surface is bent more than it is
     /// wide (their area counts negative); and pairs of triangles whose common corners make no polygon.
     std::size_t n_flips = 0, n_broken = 0;
+    /// Edges of the two surfaces where triangles turn to different sides or more than two meet; they count as
+    /// borders.
+    std::size_t n_conflicts = 0;
     /// Mortar edges whose image could not be followed.
     std::size_t n_lost_edges = 0;
     /// Mortar vertices without an image, in ascending order, with the reason.

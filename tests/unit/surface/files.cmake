@@ -4,4 +4,5 @@ signorini_add_unit_tests(surface
   oracle.cc
   phi.cc
   random_pairs.cc
+  surface_mesh.cc
 )
