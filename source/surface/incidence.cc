@@ -196,6 +196,16 @@ namespace Signorini
 
 
 
+  bool Incidence::edge_faces(const unsigned int mortar_edge, const double s,
+                             const unsigned int triangle) const
+  {
+    const auto &e = mortar_topology.edges[mortar_edge];
+    return facing(nonmortar_normal[triangle],
+                  (1. - s) * mortar.vertex_normals[e[0]] + s * mortar.vertex_normals[e[1]]);
+  }
+
+
+
   bool Incidence::triangles_face(const unsigned int t, const unsigned int m) const
   {
     return facing(nonmortar_normal[t], mortar_normal[m]);

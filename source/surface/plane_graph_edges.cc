@@ -103,7 +103,8 @@ namespace Signorini
     const auto &beside = nonmortar.edge_triangles[edge];
     walk.triangle      = beside[0] == walk.triangle ? beside[1] : beside[0];
     walk.vertex        = none;
-    if (walk.triangle == none)
+    // What turns away is as good as a border: behind the rim of a ball the path would come back.
+    if (walk.triangle == none || !incidence.edge_faces(walk.edge, walk.forward(walk.position), walk.triangle))
       return State::left;
     walk.entry       = nonmortar.local_edge(walk.triangle, edge);
     walk.entry_sides = {{end, begin}};
@@ -320,7 +321,7 @@ namespace Signorini
         low_side.back()            = static_cast<signed char>(next.low_side);
         const auto        &beside  = nonmortar.edge_triangles[out];
         const unsigned int through = beside[walk.direction * next.low_side > 0 ? 0 : 1];
-        if (through == none)
+        if (through == none || !incidence.edge_faces(walk.edge, walk.forward(walk.position), through))
           return State::left;
         triangles = {through};
         passed    = {out};

@@ -56,8 +56,11 @@ namespace Signorini
     std::vector<Crossing> all_crossings(const unsigned int nonmortar_edge,
                                         const unsigned int mortar_edge) const;
 
-    /// Whether a mortar vertex and a nonmortar triangle, or two triangles, face each other.
+    /// Whether a mortar vertex, or a point of a mortar edge, and a nonmortar triangle, or two triangles, face
+    /// each other.
     bool vertex_faces(const unsigned int mortar_vertex, const unsigned int nonmortar_triangle) const;
+    bool edge_faces(const unsigned int mortar_edge, const double s,
+                    const unsigned int nonmortar_triangle) const;
     bool triangles_face(const unsigned int nonmortar_triangle, const unsigned int mortar_triangle) const;
 
     /// Whether the line of a mortar vertex passes a nonmortar vertex within the tolerance.

@@ -1,4 +1,5 @@
 signorini_add_unit_tests(surface
+  closed_surfaces.cc
   contact_mapping.cc
   degenerate_pairs.cc
   oracle.cc

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include "surfaces.h"
+
+#include <signorini/surface/mapping_quality.h>
+
+using namespace TestSurfaces;
+using dealii::Tensor;
+
+namespace
+{
+  /// A sphere from an octahedron with n cells on an edge, turned by an angle about (1, 2, 3).
+  SurfaceMesh sphere(const unsigned int n, const double radius, const Point<3> &centre, const bool outward,
+                     const double angle = 0.)
+  {
+    SurfaceMesh                                mesh;
+    std::map<std::array<int, 3>, unsigned int> number;
+    const Tensor<1, 3>                         axis   = Point<3>(1., 2., 3.) / std::sqrt(14.);
+    const auto                                 vertex = [&](const std::array<int, 3> &i) {
+      const auto [it, is_new] = number.emplace(i, static_cast<unsigned int>(mesh.vertices.size()));
+      if (is_new)
+        {
+          Tensor<1, 3> x = Point<3>(i[0], i[1], i[2]);
+          x *= radius / x.norm();
+          x = std::cos(angle) * x + std::sin(angle) * cross_product_3d(axis, x) +
+              (1. - std::cos(angle)) * (axis * x) * axis;
+          mesh.vertices.push_back(centre + x);
+        }
+      return it->second;
+    };
+    const int m = static_cast<int>(n);
+    for (const int sx : {-1, 1})
+      for (const int sy : {-1, 1})
+        for (const int sz : {-1, 1})
+          for (int i = 0; i < m; ++i)
+            for (int j = 0; i + j < m; ++j)
+              {
+                const auto at = [&](const int a, const int b) {
+                  return vertex({{sx * a, sy * b, sz * (m - a - b)}});
+                };
+                const bool flip = sx * sy * sz < 0;
+                const auto add  = [&](const unsigned int a, const unsigned int b, const unsigned int c) {
+                  mesh.triangles.push_back(flip == outward ? std::array<unsigned int, 3>{{a, c, b}}
+                                                            : std::array<unsigned int, 3>{{a, b, c}});
+                };
+                add(at(i, j), at(i + 1, j), at(i, j + 1));
+                if (i + j + 1 < m)
+                  add(at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
+              }
+    mesh.compute_vertex_normals();
+    return mesh;
+  }
+} // namespace
+
+
+
+// A ball in a hollow: closed surfaces without borders, every line hits twice.
+TEST(ClosedSurfaces, BallInHollow)
+{
+  const Point<3> origin;
+  for (const unsigned int n : {3u, 5u, 8u})
+    for (const unsigned int m : {4u, 5u, 9u})
+      for (const double angle : {0., .3})
+        {
+          expect_full_cover(sphere(n, 1., origin, true), sphere(m, 1.1, origin, false, angle));
+          expect_full_cover(sphere(n, 1.1, origin, false), sphere(m, 1., origin, true, angle));
+        }
+}
+
+// A whole ball over a plane: only the half that faces it is mapped, the rest is said to be turned away.
+TEST(ClosedSurfaces, BallOnPlane)
+{
+  const SurfaceMesh ball  = sphere(8, 1., Point<3>(0., 0., 1.05), true, .2),
+                    plane = grid(
+                        20,
+                        [](const double x, const double y) { return Point<3>(6. * x - 3., 6. * y - 3., 0.); },
+                        true);
+  for (const bool ball_is_mortar : {true, false})
+    {
+      const SurfaceMesh   &non = ball_is_mortar ? plane : ball, &mor = ball_is_mortar ? ball : plane;
+      const ContactMapping mapping(non, mor);
+      EXPECT_EQ(violated_invariant(non, mor, mapping, false), "") << ball_is_mortar;
+      EXPECT_EQ(mapping.report().n_flips, 0u);
+      const MappingQuality quality = assess_mapping(mapping, non, mor);
+      EXPECT_GT(quality.min_gap, .04);
+      if (ball_is_mortar)
+        {
+          EXPECT_GT(count_unmapped(mapping.report()).at("wrong side"), 50u);
+        }
+      else
+        // Straight down: the shadow of the half that faces the plane.
+        EXPECT_NEAR(mapping.report().area_mortar_covered, dealii::numbers::PI, .15);
+    }
+}
