@@ -7,6 +7,7 @@
 #include <signorini/mesh/surface_file.h>
 #include <signorini/output/field_output.h>
 #include <signorini/output/json_writer.h>
+#include <signorini/output/summary.h>
 #include <signorini/surface/contact_mapping.h>
 #include <signorini/surface/mapping_quality.h>
 
@@ -89,19 +90,7 @@ namespace
     getrusage(RUSAGE_SELF, &used);
     JsonWriter json(out);
     json.begin('{');
-    json.number("coverage_nonmortar", report.area_covered / report.area_nonmortar);
-    json.number("coverage_mortar", report.area_mortar_covered / report.area_mortar);
-    json.number("cells", report.n_cells);
-    json.number("pairs", report.n_pairs);
-    json.number("area", report.area_covered);
-    json.number("worst_tiling_defect", report.worst_tiling_defect);
-    json.begin('{', "unmapped");
-    for (const auto &[reason, number] : count_unmapped(report))
-      json.number(reason, number);
-    json.end('}');
-    json.number("turned", report.n_flips);
-    json.number("conflicting_edges", report.n_conflicts);
-    json.number("lost_edges", report.n_lost_edges);
+    write_mapping_report(json, report);
     json.number("time_s", seconds);
     json.number("peak_memory_bytes", 1024. * used.ru_maxrss);
     json.end('}');

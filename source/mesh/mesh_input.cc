@@ -2,11 +2,11 @@
 // Copyright (C) 2026 by the Signorini authors
 
 #include <signorini/algebra/input_error.h>
+#include <signorini/mesh/gmsh_session.h>
 #include <signorini/mesh/mesh_input.h>
 
 #include <deal.II/base/mpi.h>
 
-#include <gmsh.h>
 
 namespace Signorini
 {
@@ -18,27 +18,6 @@ namespace Signorini
     constexpr unsigned int gmsh_corner[8] = {0, 1, 3, 2, 4, 5, 7, 6};
 
     constexpr int gmsh_hexahedron = 5, gmsh_quadrilateral = 3;
-
-    struct GmshSession
-    {
-      explicit GmshSession(const std::string &file)
-      {
-        gmsh::initialize();
-        gmsh::option::setNumber("General.Terminal", 0);
-        gmsh::open(file);
-      }
-
-      ~GmshSession()
-      {
-        try
-          {
-            gmsh::finalize();
-          }
-        catch (...)
-          {
-          }
-      }
-    };
 
     std::string element_name(const int type)
     {

@@ -2,11 +2,11 @@
 // Copyright (C) 2026 by the Signorini authors
 
 #include <signorini/algebra/input_error.h>
+#include <signorini/mesh/gmsh_session.h>
 #include <signorini/mesh/surface_file.h>
 
 #include <CGAL/IO/polygon_soup_io.h>
 #include <CGAL/Simple_cartesian.h>
-#include <gmsh.h>
 
 #include <filesystem>
 #include <iostream>
@@ -62,27 +62,12 @@ namespace Signorini
       return mesh;
     }
 
-    /// gmsh's library is global: open for as long as this lives.
-    struct GmshSession
-    {
-      GmshSession()
-      {
-        gmsh::initialize();
-        gmsh::option::setNumber("General.Terminal", 0);
-      }
-      ~GmshSession()
-      {
-        gmsh::finalize();
-      }
-    };
-
     SurfaceMesh read_gmsh(const std::string &file)
     {
-      const GmshSession session;
-      SurfaceMesh       mesh;
+      SurfaceMesh mesh;
       try
         {
-          gmsh::open(file);
+          const GmshSession        session(file);
           std::vector<std::size_t> tags;
           std::vector<double>      coordinates, parametric;
           gmsh::model::mesh::getNodes(tags, coordinates, parametric);

@@ -78,23 +78,10 @@ namespace Signorini
 
     void write_mapping(JsonWriter &json, const MappingResult &mapping)
     {
-      const MappingReport  &report  = mapping.report;
       const MappingQuality &quality = mapping.quality;
       json.begin('{');
       json.text("pair", mapping.pair);
-      json.number("coverage_nonmortar", report.area_covered / report.area_nonmortar);
-      json.number("coverage_mortar", report.area_mortar_covered / report.area_mortar);
-      json.number("cells", report.n_cells);
-      json.number("pairs", report.n_pairs);
-      json.number("area", report.area_covered);
-      json.number("worst_tiling_defect", report.worst_tiling_defect);
-      json.begin('{', "unmapped");
-      for (const auto &[reason, number] : count_unmapped(report))
-        json.number(reason, number);
-      json.end('}');
-      json.number("turned", report.n_flips);
-      json.number("conflicting_edges", report.n_conflicts);
-      json.number("lost_edges", report.n_lost_edges);
+      write_mapping_report(json, mapping.report);
       json.number("largest_angle_degrees", quality.largest_angle);
       json.number("mean_angle_degrees", quality.mean_angle);
       json.number("min_gap", quality.min_gap);
@@ -120,6 +107,25 @@ namespace Signorini
       json.end('}');
     }
   } // namespace
+
+
+
+  void write_mapping_report(JsonWriter &json, const MappingReport &report)
+  {
+    json.number("coverage_nonmortar", report.area_covered / report.area_nonmortar);
+    json.number("coverage_mortar", report.area_mortar_covered / report.area_mortar);
+    json.number("cells", report.n_cells);
+    json.number("pairs", report.n_pairs);
+    json.number("area", report.area_covered);
+    json.number("worst_tiling_defect", report.worst_tiling_defect);
+    json.begin('{', "unmapped");
+    for (const auto &[reason, number] : count_unmapped(report))
+      json.number(reason, number);
+    json.end('}');
+    json.number("turned", report.n_flips);
+    json.number("conflicting_edges", report.n_conflicts);
+    json.number("lost_edges", report.n_lost_edges);
+  }
 
 
 

@@ -116,7 +116,7 @@ namespace Signorini
       {
       }
 
-      void compute(const unsigned int t, const std::array<unsigned int, 3> &corner_nodes)
+      void compute(const unsigned int t)
       {
         list.clear();
         corners.clear();
@@ -126,8 +126,9 @@ namespace Signorini
         is_covered_all = true;
         for (unsigned int i = 0; i < 3; ++i)
           {
-            if (corner_nodes[i] != SurfaceTopology::none)
-              add(corner_nodes[i]);
+            if (const unsigned int node = graph.nonmortar_vertex_node[nonmortar.triangles[t][i]];
+                node != SurfaceTopology::none)
+              add(node);
             else
               is_covered_all = false;
             const unsigned int e = nonmortar.triangle_edges[t][i];
@@ -256,10 +257,7 @@ namespace Signorini
     found_corners.reserve(5 * found.capacity());
     TrianglePolygons polygons(incidence, graph, mortar_border);
     const auto       visit = [&](const unsigned int t) {
-      std::array<unsigned int, 3> corner_nodes;
-      for (unsigned int i = 0; i < 3; ++i)
-        corner_nodes[i] = graph.nonmortar_vertex_node[nonmortar.triangles[t][i]];
-      polygons.compute(t, corner_nodes);
+      polygons.compute(t);
       const double area = incidence.nonmortar_normal[t].norm();
       summary.area_nonmortar += area;
       summary.area_covered += polygons.covered * area;

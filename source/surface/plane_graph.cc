@@ -200,7 +200,7 @@ namespace Signorini
     if (place.on == On::edge)
       {
         const auto index = static_cast<std::size_t>(&node - nodes.data());
-        if (node.nonmortar.on == On::edge && index < low_side.size() && low_side[index] != 0)
+        if (node.nonmortar.on == On::edge && low_side[index] != 0)
           {
             const bool is_low = nonmortar.edges[node.nonmortar.index][0] == vertex;
             return mortar.edge_triangles[place.index][(low_side[index] > 0) == is_low ? 1 : 0];

@@ -73,21 +73,29 @@ namespace Signorini
 
 
 
+  PlaneGraph::State PlaneGraph::place_crossing(Walk &walk, const unsigned int edge, const double t,
+                                               const double position, const int low)
+  {
+    if (nonmortar.is_border(edge) && !border_crossings.insert({walk.edge, edge}).second)
+      return State::left;
+    // Nodes follow each other along the edge, rounding or not.
+    walk.position = std::max(walk.position, position);
+    nodes.push_back(
+        {SurfacePoint::on_edge(edge, t), SurfacePoint::on_edge(walk.edge, walk.forward(walk.position))});
+    low_side.resize(nodes.size(), 0);
+    low_side.back() = static_cast<signed char>(low);
+    return State::on_the_way;
+  }
+
+
+
   PlaneGraph::State PlaneGraph::add_crossing(Walk &walk, const unsigned int edge, const Incidence::Side &low,
                                              const Incidence::Side &high)
   {
     double t, s;
     if (!incidence.cross(t, s, edge, walk.edge, low, high))
       return State::lost;
-    if (nonmortar.is_border(edge) && !border_crossings.insert({walk.edge, edge}).second)
-      return State::left;
-    // Nodes follow each other along the edge, rounding or not.
-    walk.position = std::max(walk.position, walk.forward(s));
-    nodes.push_back(
-        {SurfacePoint::on_edge(edge, t), SurfacePoint::on_edge(walk.edge, walk.forward(walk.position))});
-    low_side.resize(nodes.size(), 0);
-    low_side.back() = static_cast<signed char>(low.sign);
-    return State::on_the_way;
+    return place_crossing(walk, edge, t, walk.forward(s), low.sign);
   }
 
 
@@ -312,13 +320,8 @@ namespace Signorini
               }
         if (out == none)
           return State::lost;
-        if (nonmortar.is_border(out) && !border_crossings.insert({walk.edge, out}).second)
+        if (place_crossing(walk, out, next.t, nearest, next.low_side) == State::left)
           return State::left;
-        walk.position = std::max(walk.position, nearest);
-        nodes.push_back({SurfacePoint::on_edge(out, next.t),
-                         SurfacePoint::on_edge(walk.edge, walk.forward(walk.position))});
-        low_side.resize(nodes.size(), 0);
-        low_side.back()            = static_cast<signed char>(next.low_side);
         const auto        &beside  = nonmortar.edge_triangles[out];
         const unsigned int through = beside[walk.direction * next.low_side > 0 ? 0 : 1];
         if (through == none || !incidence.edge_faces(walk.edge, walk.forward(walk.position), through))

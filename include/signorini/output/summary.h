@@ -11,6 +11,11 @@
 
 namespace Signorini
 {
+  class JsonWriter;
+
+  /// The figures of a mapping as members of the open JSON object.
+  void write_mapping_report(JsonWriter &json, const MappingReport &report);
+
   /// summary.json (keys: doc/output.md). Numbers that are not finite become null.
   void write_summary(std::ostream &out, const Results &results);
 

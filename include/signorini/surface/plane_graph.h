@@ -94,6 +94,8 @@ namespace Signorini
     void enter_at(const unsigned int border_edge, const unsigned int mortar_edge);
 
     State go_to_vertex(Walk &walk, const unsigned int vertex, const double position);
+    State place_crossing(Walk &walk, const unsigned int edge, const double t, const double position,
+                         const int low);
     State add_crossing(Walk &walk, const unsigned int edge, const Incidence::Side &low,
                        const Incidence::Side &high);
 

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_mesh_gmsh_session_h
+#define signorini_mesh_gmsh_session_h
+
+#include <gmsh.h>
+
+#include <string>
+
+namespace Signorini
+{
+  /// gmsh's library is global: a file is open in it for as long as this lives. gmsh throws anything.
+  struct GmshSession
+  {
+    explicit GmshSession(const std::string &file)
+    {
+      gmsh::initialize();
+      gmsh::option::setNumber("General.Terminal", 0);
+      gmsh::open(file);
+    }
+
+    ~GmshSession()
+    {
+      try
+        {
+          gmsh::finalize();
+        }
+      catch (...)
+        {
+        }
+    }
+
+    GmshSession(const GmshSession &) = delete;
+  };
+} // namespace Signorini
+
+#endif
