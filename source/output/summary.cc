@@ -184,9 +184,22 @@ namespace Signorini
 
 
 
+  namespace
+  {
+    /// A single iteration has no rate.
+    std::string rate_text(const double rate)
+    {
+      std::ostringstream text;
+      text << std::setprecision(3) << rate;
+      return std::isfinite(rate) ? text.str() : "-";
+    }
+  } // namespace
+
+
+
   void write_table(std::ostream &out, const Results &results)
   {
-    out << "level  elements      dofs  nonlinear  linear  contact  active    rate  linear rate  solve [s]  "
+    out << "level  elements      dofs  nonlinear  linear  contact  active      rate  linear rate  solve [s]  "
            "total [s]\n";
     for (const CycleResult &c : results.cycles)
       {
@@ -197,13 +210,9 @@ namespace Signorini
         out << std::setw(5) << c.cycle << std::setw(10) << c.cells << std::setw(10) << c.dofs << std::setw(11)
             << c.nonlinear.iterations << std::setw(8)
             << (c.has_linear ? std::to_string(c.linear.iterations) : "-") << std::setw(9) << c.contact_nodes
-            << std::setw(8) << c.active_nodes << std::setw(8) << std::setprecision(3) << c.nonlinear.rate
-            << std::setw(13);
-        if (c.has_linear)
-          out << c.linear.rate;
-        else
-          out << "-";
-        out << std::setw(11) << (time == c.times.end() ? 0. : time->second) << std::setw(11) << total << '\n';
+            << std::setw(8) << c.active_nodes << std::setprecision(3) << std::setw(10)
+            << rate_text(c.nonlinear.rate) << std::setw(13) << (c.has_linear ? rate_text(c.linear.rate) : "-")
+            << std::setw(11) << (time == c.times.end() ? 0. : time->second) << std::setw(11) << total << '\n';
       }
   }
 

@@ -7,6 +7,7 @@ import csv
 import json
 import math
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -48,6 +49,9 @@ class Program:
             for name in ('table.txt', 'convergence.csv', 'pressure.csv', 'parameters.prm', 'bodies.pvtu', 'signorini.log'):
                 check(os.path.exists(os.path.join(out, name)), f'{name} is missing')
             check(sorted(os.listdir(folder)) == ['out'], 'temporary folders are left')
+            for name in ('table.txt', 'signorini.log', 'summary.json', 'convergence.csv', 'pressure.csv'):
+                with open(os.path.join(out, name)) as f:
+                    check(not re.search(r'\bnan\b', f.read()), f'{name} has a NaN')
             with open(os.path.join(out, 'summary.json')) as f:
                 summary = json.load(f)
             if keep:
