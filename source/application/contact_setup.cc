@@ -122,10 +122,12 @@ namespace Signorini
 
     time.restart();
     const unsigned int rank = Utilities::MPI::this_mpi_process(comm);
-    pair.mapping =
-        std::make_unique<ContactMapping>(pair.nonmortar.mesh, pair.mortar.mesh, [&](const unsigned int t) {
+    pair.mapping            = std::make_unique<ContactMapping>(
+        pair.nonmortar.mesh, pair.mortar.mesh,
+        [&](const unsigned int t) {
           return pair.nonmortar.faces[pair.nonmortar.triangle_face[t]].owner == rank;
-        });
+        },
+        comm);
     if (Utilities::MPI::sum(pair.mapping->report().n_cells, comm) == 0)
       throw InputError("Pair " + pair.name + ": the surfaces \"" + pair.nonmortar_name + "\" and \"" +
                        pair.mortar_name +

@@ -124,7 +124,7 @@ namespace Signorini
     json.end('}');
     json.number("turned", report.n_flips);
     json.number("conflicting_edges", report.n_conflicts);
-    json.number("lost_edges", report.n_lost_edges);
+    json.number("lost_edges", report.lost_edges.size());
   }
 
 

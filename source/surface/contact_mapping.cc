@@ -221,18 +221,18 @@ namespace Signorini
 
 
   ContactMapping::ContactMapping(const SurfaceMesh &nonmortar_mesh, const SurfaceMesh &mortar_mesh,
-                                 const std::function<bool(const unsigned int)> &is_selected)
+                                 const std::function<bool(const unsigned int)> &is_selected,
+                                 const MPI_Comm                                 communicator)
     : polygon_start(1, 0)
     , nonmortar(nonmortar_mesh.triangles, nonmortar_mesh.vertices.size())
     , mortar(mortar_mesh.triangles, mortar_mesh.vertices.size())
   {
-    Incidence  incidence(nonmortar_mesh, mortar_mesh, nonmortar, mortar);
-    PlaneGraph graph(incidence);
-    summary.n_lost_edges = graph.lost_edges.size();
-    summary.n_conflicts  = nonmortar.n_conflicts + mortar.n_conflicts;
-    for (unsigned int v = 0; v < graph.unmapped.size(); ++v)
-      if (graph.unmapped[v] != Unmapped::not_at_all)
-        summary.unmapped.emplace_back(v, graph.unmapped[v]);
+    Incidence        incidence(nonmortar_mesh, mortar_mesh, nonmortar, mortar);
+    const PartRegion region(nonmortar_mesh, is_selected);
+    PlaneGraph       graph(incidence, region, communicator);
+    summary.lost_edges  = std::move(graph.lost_edges);
+    summary.n_conflicts = nonmortar.n_conflicts + mortar.n_conflicts;
+    summary.unmapped    = std::move(graph.unmapped);
 
     std::vector<bool> mortar_border(mortar_mesh.vertices.size(), false);
     for (unsigned int f = 0; f < mortar.edges.size(); ++f)

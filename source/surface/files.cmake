@@ -5,6 +5,7 @@ signorini_add_layer(surface
   incidence.cc
   mapping_quality.cc
   normal_projection.cc
+  part_region.cc
   plane_graph.cc
   plane_graph_edges.cc
   surface_mesh.cc

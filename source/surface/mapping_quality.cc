@@ -96,6 +96,17 @@ namespace Signorini
     for (std::size_t *number : {&report.n_cells, &report.n_pairs, &report.n_flips, &report.n_broken})
       *number = Utilities::MPI::sum(*number, communicator);
     report.worst_tiling_defect = Utilities::MPI::max(report.worst_tiling_defect, communicator);
+    // An edge over several parts may be lost in each of them; a vertex is told by one.
+    const auto gather = [&](auto &list) {
+      const auto parts = Utilities::MPI::all_gather(communicator, list);
+      list.clear();
+      for (const auto &part : parts)
+        list.insert(list.end(), part.begin(), part.end());
+      std::sort(list.begin(), list.end());
+      list.erase(std::unique(list.begin(), list.end()), list.end());
+    };
+    gather(report.lost_edges);
+    gather(report.unmapped);
     return report;
   }
 
@@ -141,9 +152,9 @@ namespace Signorini
     if (report.n_conflicts > 0)
       out << "  surfaces         " << report.n_conflicts
           << " edges where triangles turn to different sides or more than two meet (taken as borders)\n";
-    if (report.n_flips + report.n_broken + report.n_lost_edges > 0)
+    if (report.n_flips + report.n_broken + report.lost_edges.size() > 0)
       out << "  turned           " << report.n_flips << " cells, " << report.n_broken
-          << " pairs without a polygon, " << report.n_lost_edges
+          << " pairs without a polygon, " << report.lost_edges.size()
           << " edges lost: there the mapping is not one-to-one\n";
     if (report.n_pairs > 0)
       {

@@ -59,19 +59,22 @@ namespace Signorini
 
 
 
-  PlaneGraph::PlaneGraph(Incidence &incidence)
+  PlaneGraph::PlaneGraph(Incidence &incidence, const PartRegion &region, const MPI_Comm communicator)
     : nonmortar_vertex_node(incidence.nonmortar.vertices.size(), none)
     , mortar_vertex_node(incidence.mortar.vertices.size(), none)
-    , unmapped(incidence.mortar.vertices.size(), Unmapped::not_at_all)
     , incidence(incidence)
+    , region(region)
     , nonmortar(incidence.nonmortar_topology)
     , mortar(incidence.mortar_topology)
   {
-    nodes.reserve(5 * (nonmortar_vertex_node.size() + mortar_vertex_node.size()));
     if (!nonmortar.triangles.empty() && !mortar.triangles.empty())
       {
         mortar_order = spatial_order(incidence.mortar);
+        select_mortar_edges(communicator);
         map_mortar_vertices();
+        // A program of one part need not have started MPI.
+        if (communicator != MPI_COMM_SELF)
+          reach = Utilities::MPI::max(reach, communicator);
         trace_mortar_edges();
       }
     low_side.resize(nodes.size(), 0);
@@ -137,13 +140,48 @@ namespace Signorini
 
 
 
+  void PlaneGraph::select_mortar_edges(const MPI_Comm communicator)
+  {
+    const std::size_t n       = mortar_order.size();
+    const bool        alone   = communicator == MPI_COMM_SELF;
+    const std::size_t rank    = alone ? 0 : Utilities::MPI::this_mpi_process(communicator),
+                      n_ranks = alone ? 1 : Utilities::MPI::n_mpi_processes(communicator);
+    vertex_is_in_share.assign(n, n_ranks == 1);
+    for (std::size_t i = rank * n / n_ranks; i < (rank + 1) * n / n_ranks; ++i)
+      vertex_is_in_share[mortar_order[i]] = true;
+
+    edge_is_needed.assign(mortar.edges.size(), region.is_everything());
+    vertex_is_needed.assign(n, region.is_everything());
+    std::size_t n_needed = region.is_everything() ? n : 0;
+    if (!region.is_everything())
+      for (unsigned int f = 0; f < mortar.edges.size(); ++f)
+        {
+          const auto [a, b] = mortar.edges[f];
+          const auto &x     = incidence.mortar.vertices;
+          const auto &n     = incidence.mortar.vertex_normals;
+          edge_is_needed[f] = region.meets_curtain(x[a], n[a], x[b], n[b]);
+          // Neighbours tell why a vertex of the share has no image.
+          if (edge_is_needed[f] || vertex_is_in_share[a] || vertex_is_in_share[b])
+            for (const unsigned int v : {a, b})
+              if (!vertex_is_needed[v])
+                {
+                  vertex_is_needed[v] = true;
+                  ++n_needed;
+                }
+        }
+    nodes.reserve(5 * (n_needed + nonmortar_vertex_node.size() * n_needed / n));
+  }
+
+
+
   void PlaneGraph::map_mortar_vertices()
   {
+    std::vector<Unmapped>     state(mortar_order.size(), Unmapped::not_at_all);
     const BoxTree             tree = tree_of_triangles(incidence.nonmortar);
     std::vector<unsigned int> candidates;
     for (const unsigned int v : mortar_order)
       {
-        if (mortar.fan_start[v] == mortar.fan_start[v + 1])
+        if (!vertex_is_needed[v] || mortar.fan_start[v] == mortar.fan_start[v + 1])
           continue;
         tree.find_along_line(candidates, incidence.mortar.vertices[v], incidence.mortar.vertex_normals[v]);
         double       nearest = std::numeric_limits<double>::max();
@@ -164,7 +202,7 @@ namespace Signorini
           }
         if (best.on == On::nothing)
           {
-            unmapped[v] = turned_away ? Unmapped::wrong_side : Unmapped::no_hit;
+            state[v] = turned_away ? Unmapped::wrong_side : Unmapped::no_hit;
             continue;
           }
         reach                 = std::max(reach, nearest);
@@ -186,8 +224,11 @@ namespace Signorini
     for (const auto &e : mortar.edges)
       for (unsigned int i = 0; i < 2; ++i)
         if (mortar_vertex_node[e[i]] == none && mortar_vertex_node[e[1 - i]] != none &&
-            unmapped[e[i]] == Unmapped::no_hit)
-          unmapped[e[i]] = Unmapped::outside_rim;
+            state[e[i]] == Unmapped::no_hit)
+          state[e[i]] = Unmapped::outside_rim;
+    for (unsigned int v = 0; v < state.size(); ++v)
+      if (vertex_is_in_share[v] && state[v] != Unmapped::not_at_all)
+        unmapped.emplace_back(v, state[v]);
   }
 
 
@@ -278,12 +319,16 @@ namespace Signorini
     constexpr unsigned int    unknown = none - 1;
     const std::size_t         n       = nonmortar_vertex_node.size();
     std::vector<unsigned int> image(n, unknown);
-    const auto                is_open = [&](const unsigned int v) {
-      return nonmortar_vertex_node[v] == none && image[v] == unknown;
+    // All nodes are known only on edges in the region.
+    const auto is_complete = [&](const unsigned int e) {
+      return region.contains(nonmortar.edges[e][0], nonmortar.edges[e][1]);
+    };
+    const auto is_open = [&](const unsigned int v) {
+      return nonmortar_vertex_node[v] == none && image[v] == unknown && region.contains(v);
     };
     // Beside the first node on an edge of its own, else beside a node at the other end of an edge.
     for (unsigned int e = 0; e < nonmortar.edges.size(); ++e)
-      if (edge_start[e] < edge_start[e + 1])
+      if (edge_start[e] < edge_start[e + 1] && is_complete(e))
         {
           const auto [low, high] = nonmortar.edges[e];
           if (is_open(low))
@@ -292,7 +337,7 @@ namespace Signorini
             image[high] = triangle_beside(high, nodes[edge_nodes[edge_start[e + 1] - 1]]);
         }
     for (unsigned int e = 0; e < nonmortar.edges.size(); ++e)
-      if (edge_start[e] == edge_start[e + 1])
+      if (edge_start[e] == edge_start[e + 1] && is_complete(e))
         for (unsigned int i = 0; i < 2; ++i)
           {
             const unsigned int v = nonmortar.edges[e][i], other = nonmortar.edges[e][1 - i];
@@ -314,7 +359,7 @@ namespace Signorini
                 {
                   const unsigned int e     = nonmortar.triangle_edges[t][j];
                   const unsigned int other = nonmortar.edges[e][nonmortar.edges[e][0] == v ? 1 : 0];
-                  if (edge_start[e] == edge_start[e + 1] && is_open(other))
+                  if (edge_start[e] == edge_start[e + 1] && is_complete(e) && is_open(other))
                     {
                       image[other] = image[v];
                       front.push(other);

@@ -344,6 +344,8 @@ namespace Signorini
     for (const unsigned int v : mortar_order)
       for (unsigned int f = first[v]; f < first[v + 1]; ++f)
         {
+          if (!edge_is_needed[f])
+            continue;
           const unsigned int p = mortar_vertex_node[v], q = mortar_vertex_node[mortar.edges[f][1]];
           State              state = State::left;
           if (p != none)

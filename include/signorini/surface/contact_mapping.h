@@ -8,6 +8,8 @@
 #include <signorini/surface/plane_graph.h>
 #include <signorini/surface/surface_mesh.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <functional>
 #include <vector>
 
@@ -32,9 +34,9 @@ namespace Signorini
     /// Edges of the two surfaces where triangles turn to different sides or more than two meet; they count as
     /// borders.
     std::size_t n_conflicts = 0;
-    /// Mortar edges whose image could not be followed.
-    std::size_t n_lost_edges = 0;
-    /// Mortar vertices without an image, in ascending order, with the reason.
+    /// Mortar edges whose image could not be followed (over the part).
+    std::vector<unsigned int> lost_edges;
+    /// Mortar vertices without an image, in ascending order, with the reason. Each is told by one part.
     std::vector<std::pair<unsigned int, Unmapped>> unmapped;
   };
 
@@ -46,10 +48,12 @@ namespace Signorini
   {
   public:
     /// Surfaces with vertex normals; they need not outlive the mapping. is_selected: the nonmortar triangles
-    /// whose overlay is wanted (a rank's own faces); empty for all. The overlay of a triangle does not depend
-    /// on the selection.
+    /// whose overlay is wanted (a rank's own faces); empty for all. Only what comes near them is worked out;
+    /// their overlay does not depend on the selection. Collective: the surfaces are the same on all ranks,
+    /// and every triangle is selected on one of them.
     ContactMapping(const SurfaceMesh &nonmortar, const SurfaceMesh &mortar,
-                   const std::function<bool(const unsigned int)> &is_selected = {});
+                   const std::function<bool(const unsigned int)> &is_selected  = {},
+                   const MPI_Comm                                 communicator = MPI_COMM_SELF);
 
     std::size_t n_polygons() const
     {

@@ -5,7 +5,10 @@
 #define signorini_surface_plane_graph_h
 
 #include <signorini/surface/incidence.h>
+#include <signorini/surface/part_region.h>
 #include <signorini/surface/surface_mesh.h>
+
+#include <deal.II/base/mpi.h>
 
 #include <memory>
 #include <set>
@@ -44,8 +47,9 @@ namespace Signorini
   class PlaneGraph
   {
   public:
-    /// Moves vertices as it finds them incident.
-    explicit PlaneGraph(Incidence &incidence);
+    /// Moves vertices as it finds them incident. Complete in the region of a part, where it is the same as
+    /// the graph of the whole; elsewhere nodes are left out. Collective over the parts.
+    PlaneGraph(Incidence &incidence, const PartRegion &region, const MPI_Comm communicator);
     ~PlaneGraph();
 
     static constexpr unsigned int none = SurfaceTopology::none;
@@ -57,7 +61,8 @@ namespace Signorini
     /// triangles: edge_nodes[edge_start[e]] ... edge_nodes[edge_start[e + 1] - 1].
     std::vector<unsigned int> edge_start, edge_nodes, triangle_start, triangle_nodes;
 
-    std::vector<Unmapped> unmapped;
+    /// Mortar vertices without an image, of this part's share: each vertex belongs to the share of one part.
+    std::vector<std::pair<unsigned int, Unmapped>> unmapped;
     /// Mortar edges whose image could not be followed from end to end although both ends have one.
     std::vector<unsigned int> lost_edges;
 
@@ -73,6 +78,7 @@ namespace Signorini
     /// The image of a mortar edge on its way.
     struct Walk;
 
+    void select_mortar_edges(const MPI_Comm communicator);
     void map_mortar_vertices();
     bool is_hit(SurfacePoint &place, double &eta, const unsigned int vertex,
                 const unsigned int triangle) const;
@@ -108,13 +114,17 @@ namespace Signorini
     unsigned int search_triangle(const unsigned int vertex);
 
     Incidence             &incidence;
+    const PartRegion      &region;
     const SurfaceTopology &nonmortar, &mortar;
+    /// Mortar edges that may cross the region, mortar vertices whose image is needed, and those whose state
+    /// this part tells.
+    std::vector<bool> edge_is_needed, vertex_is_needed, vertex_is_in_share;
     /// The order in which mortar vertices, and edges from them, are visited.
     std::vector<unsigned int> mortar_order;
     /// For nodes where edges cross: the side of the mortar edge on which the lower end of the nonmortar edge
     /// lies.
     std::vector<signed char> low_side;
-    /// The longest way from a mortar vertex to its image.
+    /// The longest way from a mortar vertex to its image, over all parts.
     double reach = 0.;
     /// Mortar edges that were not followed from end to end, and where they are known to cross border edges.
     std::vector<unsigned int>                       unfinished;

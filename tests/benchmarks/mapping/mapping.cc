@@ -56,8 +56,23 @@ namespace
     state.SetComplexityN(n);
     state.counters["cells/s"] = benchmark::Counter(static_cast<double>(cells), benchmark::Counter::kIsRate);
   }
+
+  // What one of `n_parts` slabs costs: what every rank still does for the whole shows.
+  void map_part(benchmark::State &state)
+  {
+    const auto        n_parts = static_cast<double>(state.range(0));
+    const SurfaceMesh non = wave(1000000, 1., 0., true, 1), mor = wave(1000000, .9, .02, false, 2);
+    for (auto _ : state)
+      {
+        const ContactMapping mapping(non, mor, [&](const unsigned int t) {
+          return std::abs(non.vertices[non.triangles[t][0]][0] - .5) < .5 / n_parts;
+        });
+        benchmark::DoNotOptimize(mapping.n_polygons());
+      }
+  }
 } // namespace
 
+BENCHMARK(map_part)->RangeMultiplier(4)->Range(1, 64)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(map, same_size, 1)
     ->RangeMultiplier(10)
     ->Range(1000, 1000000)

@@ -1,8 +1,9 @@
-signorini_add_unit_tests(surface
+signorini_add_unit_tests(surface RANKS "1;3"
   closed_surfaces.cc
   contact_mapping.cc
   degenerate_pairs.cc
   oracle.cc
+  parts.cc
   phi.cc
   random_pairs.cc
   surface_mesh.cc

@@ -135,8 +135,8 @@ namespace TestSurfaces
                                         const ContactMapping &mapping, const bool fully_covered)
   {
     const MappingReport &report = mapping.report();
-    if (report.n_lost_edges > 0)
-      return std::to_string(report.n_lost_edges) + " edges lost";
+    if (report.lost_edges.size() > 0)
+      return std::to_string(report.lost_edges.size()) + " edges lost";
     if (report.n_broken > 0)
       return std::to_string(report.n_broken) + " pairs without a polygon";
     // Where the mapping is turned it is not one-to-one: the report says so, and pieces need not fit exactly.

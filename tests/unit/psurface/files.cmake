@@ -1,0 +1,12 @@
+# Beside other codes, where their Debian packages are installed (libpsurface-dev).
+find_path(PSURFACE_INCLUDE psurface/ContactMapping.h)
+find_library(PSURFACE_LIBRARY psurface)
+if(PSURFACE_INCLUDE AND PSURFACE_LIBRARY)
+  add_library(psurface_overlaps STATIC unit/psurface/psurface_overlaps.cc)
+  set_target_properties(psurface_overlaps PROPERTIES CXX_STANDARD 14)
+  target_compile_options(psurface_overlaps PRIVATE -O2 -w)
+  target_include_directories(psurface_overlaps SYSTEM PRIVATE ${PSURFACE_INCLUDE})
+  target_link_libraries(psurface_overlaps ${PSURFACE_LIBRARY})
+  signorini_add_unit_tests(psurface comparison.cc)
+  target_link_libraries(test_psurface psurface_overlaps)
+endif()
