@@ -106,9 +106,10 @@ namespace Signorini
     time.restart();
     progress.show("building levels");
     const LevelSpaces levels(*d.space, loads);
-    auto              hierarchy =
-        std::make_unique<MultigridHierarchy>(build_hierarchy(std::move(system), levels, d.coupling));
-    cycle.levels = levels.n_levels();
+    auto              hierarchy = std::make_unique<MultigridHierarchy>(build_hierarchy(
+                     std::move(system), levels, d.coupling,
+        parameters.solver.method == SolverMethod::monotone_multigrid ? d.normals : std::vector<Vector3>()));
+    cycle.levels                = levels.n_levels();
     cycle.times["hierarchy"] += time.wall_time();
 
     time.restart();
@@ -147,16 +148,18 @@ namespace Signorini
       progress.show("solving",
                     correction > 0. ? std::log(correction) / std::log(parameters.solver.tolerance) : 1.);
     };
-    TruncatedNewtonMultigrid solver(*hierarchy, parameters.solver);
-    cycle.nonlinear = solver.solve(v, problem, monitor);
+    const auto solver = make_solver(*hierarchy, parameters.solver);
+    cycle.nonlinear   = solver->solve(v, problem, monitor);
     cycle.times["solve"] += time.wall_time();
     if (!cycle.nonlinear.converged)
       {
         results.converged = false;
         note("cycle " + std::to_string(cycle.cycle) + ": " + cycle.nonlinear.note + ".");
       }
+    else if (cycle.nonlinear.stagnated)
+      note("cycle " + std::to_string(cycle.cycle) + ": " + cycle.nonlinear.note + ".");
 
-    evaluate_contact(v, problem, matrix, gaps, solver.active());
+    evaluate_contact(v, problem, matrix, gaps, solver->active());
     cycle.contact_nodes = d.coupling.n_rows();
     cycle.active_nodes  = std::accumulate(d.active.begin(), d.active.end(), std::size_t(0));
     d.displacement      = d.transformation->to_displacement(v, matrix.partition());
@@ -170,6 +173,17 @@ namespace Signorini
         solve_linear(cycle, levels, start);
       }
   }
+
+
+
+  namespace
+  {
+    /// The linear multigrid that a contact solver compares with.
+    SolverMethod linear_method(const SolverMethod method)
+    {
+      return method == SolverMethod::monotone_multigrid ? SolverMethod::truncated_newton_multigrid : method;
+    }
+  } // namespace
 
 
 
@@ -205,9 +219,11 @@ namespace Signorini
     Vector                    v, solution, product;
     matrix.partition().reinit(v);
     plain.from_displacement(v, start);
-    TruncatedNewtonMultigrid solver(hierarchy, parameters.solver);
-    cycle.linear     = solver.solve(v, problem);
-    cycle.has_linear = true;
+    SolverParameters linear_parameters = parameters.solver;
+    linear_parameters.method           = linear_method(parameters.solver.method);
+    const auto solver                  = make_solver(hierarchy, linear_parameters);
+    cycle.linear                       = solver->solve(v, problem);
+    cycle.has_linear                   = true;
 
     matrix.partition().reinit(solution);
     matrix.partition().reinit(product);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/algebra/rotation.h>
 #include <signorini/discretization/hexahedron.h>
 #include <signorini/discretization/interpolation_exchange.h>
 #include <signorini/discretization/level_hierarchy.h>
@@ -186,19 +187,49 @@ namespace Signorini
 
 
 
-    /// Builds the rows of P̂ = (I - E S) P (I + E_c S_c) that differ from those of P.
+    /// Normals of coarse contact nodes: means of the fine ones, in the free directions. Zero where nothing is
+    /// left.
+    std::vector<Vector3> coarsen_normals(const std::vector<Vector3> &normals, const InterfaceCoupling &fine,
+                                         const std::vector<NodeIndex> &nodes, const NodeRows &node_rows,
+                                         const InterfaceCoupling      &coarse,
+                                         const std::vector<FixedMask> &coarse_masks)
+    {
+      std::vector<Vector3> result(coarse.n_rows());
+      for (std::size_t p = 0; p < fine.n_rows(); ++p)
+        {
+          const std::size_t row = std::lower_bound(nodes.begin(), nodes.end(), fine.rows[p]) - nodes.begin();
+          for (std::size_t k = node_rows.start[row]; k < node_rows.start[row + 1]; ++k)
+            result[coarse.find(node_rows.columns[k])] += (node_rows.weights[k] * fine.weight[p]) * normals[p];
+        }
+      for (std::size_t q = 0; q < result.size(); ++q)
+        {
+          const Vector3 free   = project_free(coarse_masks[q], result[q]);
+          const double  length = free.norm();
+          result[q]            = length > 1e-6 * result[q].norm() ? free / length : Vector3();
+        }
+      return result;
+    }
+
+
+
+    /// Builds the rows of P̂ = (I - E S) P (I + E_c S_c) that differ from those of P. With normals the rows of
+    /// contact nodes have relative displacements only, turned from the coarse normals to the fine one: what
+    /// coarse obstacles need.
     class TransformedRows
     {
     public:
       TransformedRows(const InterfaceCoupling &fine, const std::vector<FixedMask> &fine_masks,
                       const std::vector<NodeIndex> &nodes, const NodeRows &node_rows,
-                      const InterfaceCoupling &coarse, const std::vector<FixedMask> &coarse_masks)
+                      const InterfaceCoupling &coarse, const std::vector<FixedMask> &coarse_masks,
+                      const std::vector<Vector3> &normals, const std::vector<Vector3> &coarse_normals)
         : fine(fine)
         , fine_masks(fine_masks)
         , nodes(nodes)
         , node_rows(node_rows)
         , coarse(coarse)
         , coarse_masks(coarse_masks)
+        , normals(normals)
+        , coarse_normals(coarse_normals)
       {
       }
 
@@ -215,6 +246,8 @@ namespace Signorini
       NodalTransfer::BlockRow make(const unsigned int local, const NodeIndex node, const NodeRows &rows,
                                    const std::size_t row)
       {
+        if (const std::ptrdiff_t p = fine.find(node); p >= 0 && !normals.empty())
+          return make_turned(local, normals[p], rows, row);
         sums.clear();
         add(rows, row, 1., 0);
         if (const std::ptrdiff_t p = fine.find(node); p >= 0)
@@ -234,6 +267,20 @@ namespace Signorini
       }
 
     private:
+      NodalTransfer::BlockRow make_turned(const unsigned int local, const Vector3 &normal,
+                                          const NodeRows &rows, const std::size_t row) const
+      {
+        NodalTransfer::BlockRow result{local, {}, {}};
+        for (std::size_t k = rows.start[row]; k < rows.start[row + 1]; ++k)
+          {
+            const Vector3 &from = coarse_normals[coarse.find(rows.columns[k])];
+            result.columns.push_back(rows.columns[k]);
+            result.blocks.push_back(rows.weights[k] *
+                                    rotation(from.norm_square() > 0. ? from : normal, normal));
+          }
+        return result;
+      }
+
       /// Adds factor * (row of P) * T_coarse in the components that are not blocked.
       void add(const NodeRows &rows, const std::size_t row, const double factor, const FixedMask blocked)
       {
@@ -261,6 +308,7 @@ namespace Signorini
       const NodeRows               &node_rows;
       const InterfaceCoupling      &coarse;
       const std::vector<FixedMask> &coarse_masks;
+      const std::vector<Vector3>   &normals, &coarse_normals;
       std::map<NodeIndex, Vector3>  sums;
     };
   } // namespace
@@ -268,10 +316,12 @@ namespace Signorini
 
 
   MultigridHierarchy build_hierarchy(LinearSystem &&system, const LevelSpaces &spaces,
-                                     const InterfaceCoupling &coupling)
+                                     const InterfaceCoupling    &coupling,
+                                     const std::vector<Vector3> &contact_normals)
   {
-    MultigridHierarchy hierarchy(std::move(system.matrix), std::move(system.fixed));
-    InterfaceCoupling  fine = coupling;
+    MultigridHierarchy   hierarchy(std::move(system.matrix), std::move(system.fixed));
+    InterfaceCoupling    fine    = coupling;
+    std::vector<Vector3> normals = contact_normals;
     for (unsigned int l = spaces.n_levels() - 1;; --l)
       {
         const NodePartition         &partition = hierarchy.coarsest().matrix.partition();
@@ -287,8 +337,12 @@ namespace Signorini
         const IndexSet     &owned     = spaces.space(l - 1).owned();
         const NodePartition coarse_partition(owned, IndexSet(owned.size()), partition.communicator());
         const auto          fine_masks = replicate_masks(partition, spaces.fixed(l), fine.rows);
-        const auto      coarse_masks   = replicate_masks(coarse_partition, spaces.fixed(l - 1), coarse.rows);
-        TransformedRows transformed(fine, fine_masks, nodes, node_rows, coarse, coarse_masks);
+        const auto coarse_masks        = replicate_masks(coarse_partition, spaces.fixed(l - 1), coarse.rows);
+        std::vector<Vector3> coarse_normals;
+        if (!normals.empty())
+          coarse_normals = coarsen_normals(normals, fine, nodes, node_rows, coarse, coarse_masks);
+        TransformedRows transformed(fine, fine_masks, nodes, node_rows, coarse, coarse_masks, normals,
+                                    coarse_normals);
         std::vector<NodalTransfer::BlockRow> block_rows;
         for (unsigned int i = 0; i < partition.n_local(); ++i)
           if (const NodeIndex node = partition.to_global(i); transformed.differs(node, rows, i))
@@ -296,9 +350,26 @@ namespace Signorini
         NodalTransfer transfer;
         transfer.reinit(rows, block_rows, partition.n_owned());
         hierarchy.add_coarser_level(std::move(transfer), owned, spaces.fixed(l - 1));
-        fine = std::move(coarse);
+        MultigridLevel &level = hierarchy.coarsest();
+        for (std::size_t q = 0; q < coarse_normals.size(); ++q)
+          if (level.matrix.partition().owns(coarse.rows[q]) && coarse_normals[q].norm_square() > 0.)
+            {
+              level.contact.nodes.push_back(level.matrix.partition().to_local(coarse.rows[q]));
+              level.contact.normals.push_back(coarse_normals[q]);
+            }
+        fine    = std::move(coarse);
+        normals = std::move(coarse_normals);
       }
-    hierarchy.finish();
+    // A hierarchy of one level: its copy has the same contact nodes.
+    HalfSpaces contact;
+    for (std::size_t p = 0; p < normals.size(); ++p)
+      if (const NodePartition &partition = hierarchy.finest().matrix.partition();
+          partition.owns(fine.rows[p]))
+        {
+          contact.nodes.push_back(partition.to_local(fine.rows[p]));
+          contact.normals.push_back(normals[p]);
+        }
+    hierarchy.finish(contact);
     return hierarchy;
   }
 } // namespace Signorini

@@ -18,6 +18,16 @@ namespace Signorini
       for (const double correction : report.history)
         json.number("", correction);
       json.end(']');
+      if (report.stagnated)
+        json.string("stagnated", report.note);
+      if (report.checked_substeps > 0)
+        {
+          json.begin('{', "monotonicity");
+          json.number("substeps", report.checked_substeps);
+          json.number("largest_energy_rise", report.largest_energy_rise);
+          json.number("largest_violation", report.largest_violation);
+          json.end('}');
+        }
     }
 
     void write_cycle(JsonWriter &json, const CycleResult &cycle)

@@ -1,6 +1,9 @@
 signorini_add_layer(solvers
   coarse_cholesky.cc
+  gauss_seidel_iteration.cc
+  monotone_multigrid.cc
   multigrid_hierarchy.cc
+  obstacle_solver.cc
   projected_gauss_seidel.cc
   sweep_measurement.cc
   sweep_schedule.cc

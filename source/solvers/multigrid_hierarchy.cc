@@ -43,6 +43,18 @@ namespace Signorini
 
 
 
+  void restrict_defect(const MultigridLevel &level, Vector &coarse_defect, const Vector &residual)
+  {
+    level.to_finer.restrict_and_add(coarse_defect, residual);
+    for (unsigned int i = 0; i < level.matrix.n_rows(); ++i)
+      if (level.fixed[i] != 0)
+        for (unsigned int c = 0; c < dim; ++c)
+          if (level.fixed[i] & (1u << c))
+            coarse_defect.local_element(dim * i + c) = 0.;
+  }
+
+
+
   double diagonal_scale(const NodeBlockMatrix &matrix)
   {
     double scale = 0.;
@@ -132,7 +144,7 @@ namespace Signorini
 
 
 
-  void MultigridHierarchy::finish()
+  void MultigridHierarchy::finish(const HalfSpaces &contact)
   {
     if (levels.size() == 1)
       {
@@ -157,6 +169,7 @@ namespace Signorini
         const std::vector<FixedMask> fixed(levels[0]->fixed.begin(),
                                            levels[0]->fixed.begin() + partition.n_owned());
         add_coarser_level(std::move(identity), owned, fixed);
+        levels.back()->contact = contact;
       }
     cholesky.factorize(levels.back()->matrix);
   }

@@ -72,13 +72,7 @@ namespace Signorini
 
       void restrict_and_add(const unsigned int from_level, Vector &dst, const Vector &src) const override
       {
-        MultigridLevel &coarse = hierarchy.level(from_level - 1);
-        coarse.to_finer.restrict_and_add(dst, src);
-        for (unsigned int i = 0; i < coarse.matrix.n_rows(); ++i)
-          if (coarse.fixed[i] != 0)
-            for (unsigned int c = 0; c < dim; ++c)
-              if (coarse.fixed[i] & (1u << c))
-                dst.local_element(dim * i + c) = 0.;
+        restrict_defect(hierarchy.level(from_level - 1), dst, src);
       }
 
     private:

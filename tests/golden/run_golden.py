@@ -14,9 +14,9 @@ PRM = os.path.join(HERE, '..', '..', 'prm')
 # Name: parameter file, settings.
 RUNS = {'patch_test': ('patch_test/patch_test.prm', ()),
         'cubes': ('cubes/cubes.prm', ()),
-        'cubes_plain': ('cubes/cubes.prm', ('Solver/Acceleration=none',)),
+        'cubes_plain': ('cubes/cubes.prm', ('Solver/Method=truncated newton multigrid',)),
         'hertz': ('hertz/hertz.prm', ('Refinement/Final global cycles=1',)),
-        'hertz_plain': ('hertz/hertz.prm', ('Refinement/Final global cycles=1', 'Solver/Acceleration=none')),
+        'hertz_plain': ('hertz/hertz.prm', ('Refinement/Final global cycles=1', 'Solver/Method=truncated newton multigrid')),
         'paper': ('hertz/paper.prm', ('Refinement/Global cycles=0',))}
 
 

@@ -7,7 +7,7 @@
 #include <signorini/discretization/boundary_conditions.h>
 #include <signorini/mesh/bodies.h>
 #include <signorini/mesh/refinement.h>
-#include <signorini/solvers/truncated_newton_multigrid.h>
+#include <signorini/solvers/obstacle_solver.h>
 
 #include <deal.II/base/parameter_handler.h>
 

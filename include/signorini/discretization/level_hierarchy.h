@@ -67,8 +67,13 @@ namespace Signorini
 
   /// Collective. Galerkin hierarchy with P̂_k = T_k⁻¹ P_k T_{k-1} on all levels. An empty coupling gives the
   /// hierarchy of the decoupled linear problem.
+  /// @param contact_normals one per row of the coupling: for a monotone multigrid, with relative
+  /// displacements
+  ///   at contact nodes that come from relative displacements alone, turned from normal to normal, and the
+  ///   contact nodes of the coarse levels. Empty for the exact nesting.
   MultigridHierarchy build_hierarchy(LinearSystem &&system, const LevelSpaces &spaces,
-                                     const InterfaceCoupling &coupling);
+                                     const InterfaceCoupling    &coupling,
+                                     const std::vector<Vector3> &contact_normals = {});
 } // namespace Signorini
 
 #endif

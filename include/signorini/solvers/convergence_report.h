@@ -14,6 +14,8 @@ namespace Signorini
   struct ConvergenceReport
   {
     bool converged = false;
+    /// Converged as far as rounding allows, short of the tolerance; see the note.
+    bool stagnated = false;
     /// Applications of the V-cycle.
     unsigned int iterations = 0;
     /// Energy norm of the correction, one entry per iteration.
@@ -28,7 +30,12 @@ namespace Signorini
     double rate = std::numeric_limits<double>::quiet_NaN();
     /// How often the truncated hierarchy was updated.
     unsigned int hierarchy_updates = 0;
-    /// Says why the solver stopped without having converged.
+    /// What SolverParameters::check_monotonicity found: substeps, the largest rise of the energy (relative to
+    /// the square of the energy norm) and the largest violation of a half-space (relative to the largest
+    /// displacement of a contact node).
+    unsigned int checked_substeps    = 0;
+    double       largest_energy_rise = 0., largest_violation = 0.;
+    /// Says why the solver stopped without having met the tolerance.
     std::string note;
   };
 

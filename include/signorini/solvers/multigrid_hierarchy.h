@@ -23,9 +23,14 @@ namespace Signorini
     /// Fixed components of the local nodes.
     std::vector<FixedMask>                fixed;
     std::unique_ptr<ProjectedGaussSeidel> smoother;
+    /// Contact nodes of a coarse level with their normals, for coarse obstacles (no bounds); may be empty.
+    HalfSpaces contact;
     /// From this level to the finer one; unused on the finest level.
     NodalTransfer to_finer;
   };
+
+  /// Collective. coarse_defect += P^T residual, zero in fixed components; level is the coarse one.
+  void restrict_defect(const MultigridLevel &level, Vector &coarse_defect, const Vector &residual);
 
   /// Zeroes rows and columns of fixed components (the diagonal entry stays, or becomes `scale` where it
   /// is zero) and gives directions without any stiffness, which truncation can leave behind, a diagonal
@@ -55,8 +60,9 @@ namespace Signorini
     void set_interface(const std::vector<NodeIndex> &contact_nodes);
 
     /// Collective. After the last level: factorizes level 0. A hierarchy of a single level gets an
-    /// algebraic copy of it as level 0, so that the truncated problem has an exact coarse solver.
-    void finish();
+    /// algebraic copy of it as level 0, so that the truncated problem has an exact coarse solver; `contact`
+    /// are the contact nodes of the copy.
+    void finish(const HalfSpaces &contact = {});
 
     /// Collective. Truncates at the active ones of the half-spaces of the finest level; recomputes only
     /// what changed since the last call. Returns whether anything changed on any rank.

@@ -7,6 +7,7 @@
 #ifndef tests_unit_solvers_cube_problem_h
 #define tests_unit_solvers_cube_problem_h
 
+#include <signorini/algebra/rotation.h>
 #include <signorini/solvers/multigrid_hierarchy.h>
 
 #include <deal.II/base/mpi.h>
@@ -132,25 +133,34 @@ namespace CubeProblem
     return rows;
   }
 
+  /// Unit normals of z = 0 as a function of x and y.
+  using Normals = std::function<Vector3(double, double)>;
+
+  inline Vector3 downwards(const double, const double)
+  {
+    Vector3 normal;
+    normal[2] = -1.;
+    return normal;
+  }
+
   /// Problem S1: rigid paraboloid under the face z = 0.
   inline HalfSpaces paraboloid(const Grid &grid)
   {
     HalfSpaces half_spaces;
-    Vector3    normal;
-    normal[2] = -1.;
     for (const NodeIndex p : grid.owned)
       if (const auto [i, j, k] = grid.index(p); k == 0)
         {
           const double x = i / double(grid.n) - .5, y = j / double(grid.n) - .5;
           half_spaces.nodes.push_back(static_cast<unsigned int>(p - grid.owned.nth_index_in_set(0)));
-          half_spaces.normals.push_back(normal);
+          half_spaces.normals.push_back(downwards(x, y));
           half_spaces.bounds.push_back(x * x + y * y - .05);
         }
     return half_spaces;
   }
 
-  /// Galerkin hierarchy with base 2; rows of the nodes on z = 0 are block rows so that they can be truncated.
-  inline MultigridHierarchy hierarchy(const unsigned int n)
+  /// Galerkin hierarchy with base 2; rows of the nodes on z = 0 are block rows so that they can be truncated,
+  /// turned from normal to normal.
+  inline MultigridHierarchy hierarchy(const unsigned int n, const Normals &normals = downwards)
   {
     Grid               grid(n);
     NodeBlockMatrix    matrix = stiffness(grid);
@@ -167,24 +177,41 @@ namespace CubeProblem
         const NodeRows                       rows = import_ghost_rows(partition, interpolation(fine, coarse));
         std::vector<NodalTransfer::BlockRow> block_rows;
         for (unsigned int i = 0; i < partition.n_local(); ++i)
-          if (m == n && partition.to_global(i) < (m + 1) * (m + 1))
+          if (partition.to_global(i) < (m + 1) * (m + 1))
             {
+              const auto normal_of = [&](const Grid &grid, const NodeIndex p) {
+                const auto index = grid.index(p);
+                return normals(index[0] / double(grid.n), index[1] / double(grid.n));
+              };
               NodalTransfer::BlockRow row{i, {}, {}};
               for (std::size_t k = rows.start[i]; k < rows.start[i + 1]; ++k)
                 {
-                  Block b;
-                  for (unsigned int c = 0; c < dim; ++c)
-                    b[c][c] = rows.weights[k];
                   row.columns.push_back(rows.columns[k]);
-                  row.blocks.push_back(b);
+                  row.blocks.push_back(rows.weights[k] * rotation(normal_of(coarse, rows.columns[k]),
+                                                                  normal_of(fine, partition.to_global(i))));
                 }
               block_rows.push_back(row);
             }
         NodalTransfer transfer;
         transfer.reinit(rows, block_rows, partition.n_owned());
         result.add_coarser_level(std::move(transfer), coarse.owned, coarse.fixed());
+        HalfSpaces &coarse_contact = result.coarsest().contact;
+        for (const NodeIndex p : coarse.owned)
+          if (const auto index = coarse.index(p); index[2] == 0)
+            {
+              coarse_contact.nodes.push_back(result.coarsest().matrix.partition().to_local(p));
+              coarse_contact.normals.push_back(
+                  normals(index[0] / double(coarse.n), index[1] / double(coarse.n)));
+            }
       }
-    result.finish();
+    HalfSpaces contact;
+    for (const NodeIndex p : grid.owned)
+      if (const auto index = grid.index(p); index[2] == 0)
+        {
+          contact.nodes.push_back(result.finest().matrix.partition().to_local(p));
+          contact.normals.push_back(normals(index[0] / double(n), index[1] / double(n)));
+        }
+    result.finish(contact);
     return result;
   }
 } // namespace CubeProblem

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
-#include <signorini/solvers/truncated_newton_multigrid.h>
+#include <signorini/solvers/obstacle_solver.h>
 
 #include <gtest/gtest.h>
 
@@ -13,6 +13,7 @@ namespace
 {
   struct Expected
   {
+    SolverMethod method;
     unsigned int n, active, max_iterations;
     double       energy, force;
   };
@@ -36,8 +37,13 @@ TEST_P(PuncturedCube, ReachesTheKnownSolutionFromZero)
   Vector v;
   v.reinit(problem.rhs);
 
-  TruncatedNewtonMultigrid solver(hierarchy, SolverParameters());
-  const auto               report = solver.solve(v, problem);
+  SolverParameters parameters;
+  parameters.check_monotonicity = true;
+  parameters.method             = expected.method;
+  const auto report             = make_solver(hierarchy, parameters)->solve(v, problem);
+  EXPECT_LE(report.largest_energy_rise, 1e-14);
+  EXPECT_LE(report.largest_violation, 1e-14);
+  EXPECT_GE(report.checked_substeps, 2 * report.iterations);
   EXPECT_TRUE(report.converged);
   EXPECT_LE(report.iterations, expected.max_iterations);
   EXPECT_EQ(report.active_nodes.back(), expected.active);
@@ -52,10 +58,22 @@ TEST_P(PuncturedCube, ReachesTheKnownSolutionFromZero)
   EXPECT_NEAR(dealii::Utilities::MPI::sum(force, MPI_COMM_WORLD) / expected.force, 1., 1e-8);
 }
 
-INSTANTIATE_TEST_SUITE_P(Sizes, PuncturedCube,
-                         testing::Values(Expected{8, 9, 12, 2.110394093511e-4, 1.14727827e-2},
-                                         Expected{16, 21, 12, 2.328860217949e-4, 1.17543487e-2},
-                                         Expected{32, 89, 13, 2.360079949137e-4, 1.18747437e-2}));
+namespace
+{
+  std::vector<Expected> sizes(const SolverMethod method, const std::array<unsigned int, 3> &iterations)
+  {
+    return {{method, 8, 9, iterations[0], 2.110394093511e-4, 1.14727827e-2},
+            {method, 16, 21, iterations[1], 2.328860217949e-4, 1.17543487e-2},
+            {method, 32, 89, iterations[2], 2.360079949137e-4, 1.18747437e-2}};
+  }
+} // namespace
+
+INSTANTIATE_TEST_SUITE_P(Accelerated, PuncturedCube,
+                         testing::ValuesIn(sizes(SolverMethod::accelerated, {{9, 10, 11}})));
+INSTANTIATE_TEST_SUITE_P(TruncatedNewton, PuncturedCube,
+                         testing::ValuesIn(sizes(SolverMethod::truncated_newton_multigrid, {{12, 12, 12}})));
+INSTANTIATE_TEST_SUITE_P(Monotone, PuncturedCube,
+                         testing::ValuesIn(sizes(SolverMethod::monotone_multigrid, {{12, 12, 12}})));
 
 
 

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_solvers_obstacle_solver_h
+#define signorini_solvers_obstacle_solver_h
+
+#include <signorini/solvers/convergence_report.h>
+#include <signorini/solvers/multigrid_hierarchy.h>
+#include <signorini/solvers/obstacle_problem.h>
+#include <signorini/solvers/v_cycle.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <functional>
+#include <memory>
+
+namespace Signorini
+{
+  enum class SolverMethod
+  {
+    /// Truncated Newton multigrid, conjugate gradients while the active set rests.
+    accelerated,
+    truncated_newton_multigrid,
+    monotone_multigrid,
+    projected_gauss_seidel
+  };
+
+  struct SolverParameters
+  {
+    SolverMethod        method = SolverMethod::accelerated;
+    SmoothingParameters smoothing;
+    /// Stop when the energy norm of the correction is below this multiple of that of the iterate.
+    double tolerance = 1e-12;
+    /// Stop when the energy norm of the correction is below this; 0 for the relative rule.
+    double       absolute_tolerance = 0.;
+    unsigned int max_iterations     = 100;
+    /// Measure energy and admissibility after every substep.
+    bool check_monotonicity = false;
+
+    /// Declares the parameters in the current subsection.
+    void add_parameters(dealii::ParameterHandler &prm);
+  };
+
+  /// Solves obstacle problems over a hierarchy. Without half-spaces it solves the linear problem.
+  class ObstacleSolver
+  {
+  public:
+    /// Called after each iteration: number, energy norm of the correction relative to the iterate, active
+    /// nodes.
+    using Monitor = std::function<void(unsigned int, double, unsigned int)>;
+
+    virtual ~ObstacleSolver() = default;
+
+    /// Collective. Solves from the given start, which is projected first. v has the layout of the finest
+    /// level.
+    virtual ConvergenceReport solve(Vector &v, const ObstacleProblem &problem, const Monitor &monitor) = 0;
+
+    ConvergenceReport solve(Vector &v, const ObstacleProblem &problem)
+    {
+      return solve(v, problem, Monitor());
+    }
+
+    /// For each half-space of the last solve whether it is active.
+    const std::vector<unsigned char> &active() const
+    {
+      return hierarchy.finest().smoother->active();
+    }
+
+  protected:
+    /// The hierarchy must outlive the object; its truncation is changed.
+    ObstacleSolver(MultigridHierarchy &hierarchy, const SolverParameters &parameters);
+
+    /// Sweeps of the finest level, interface sweeps nearest to the coarse correction.
+    void smooth(Vector &v, const Vector &rhs, const ProjectedGaussSeidel::Direction direction);
+
+    /// Collective. Largest step along c that keeps the half-spaces that are not active.
+    double admissible_step(const Vector &v, const Vector &c, const HalfSpaces &half_spaces) const;
+
+    /// Collective. v += t c with the t that minimizes the energy, as far as it is admissible. c is admissible
+    /// for v and tangential at active nodes; residual = b - A v is changed.
+    void add_searched(Vector &v, const Vector &c, Vector &residual, const ObstacleProblem &problem) const;
+
+    /// Collective. Books an iteration with the norm of its correction and that of the iterate, and decides
+    /// whether it was the last one: converged, or stagnant at rounding.
+    void book_iteration(ConvergenceReport &report, const double correction, const double iterate,
+                        const Monitor &monitor) const;
+
+    /// Whether to go on.
+    bool goes_on(const ConvergenceReport &report) const;
+
+    /// Collective. Energy, rate and note at the end.
+    void close(ConvergenceReport &report, const Vector &v, const ObstacleProblem &problem) const;
+
+    /// Collective. If wanted, books what the last substep has done to energy and admissibility.
+    void check_substep(ConvergenceReport &report, double &energy, const Vector &v,
+                       const ObstacleProblem &problem) const;
+
+    MultigridHierarchy    &hierarchy;
+    const SolverParameters parameters;
+  };
+
+  /// The solver that the parameters name. A monotone multigrid needs a hierarchy with coarse normals
+  /// (MultigridLevel::contact).
+  std::unique_ptr<ObstacleSolver> make_solver(MultigridHierarchy     &hierarchy,
+                                              const SolverParameters &parameters);
+} // namespace Signorini
+
+#endif

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/solvers/monotone_multigrid.h>
+
+#include <deal.II/base/mpi.h>
+
+namespace Signorini
+{
+  using namespace dealii;
+
+  namespace
+  {
+    constexpr double no_bound = std::numeric_limits<double>::max();
+
+    double normal_part(const HalfSpaces &half_spaces, const std::size_t p, const Vector &values)
+    {
+      double sum = 0.;
+      for (unsigned int c = 0; c < dim; ++c)
+        sum += half_spaces.normals[p][c] * values.local_element(dim * half_spaces.nodes[p] + c);
+      return sum;
+    }
+  } // namespace
+
+
+
+  MonotoneMultigrid::MonotoneMultigrid(MultigridHierarchy &hierarchy, const SolverParameters &parameters)
+    : ObstacleSolver(hierarchy, parameters)
+    , work(hierarchy.n_levels() - 1)
+  {
+    for (unsigned int l = 0; l + 1 < hierarchy.n_levels(); ++l)
+      {
+        for (Vector *vector : {&work[l].correction, &work[l].rhs, &work[l].residual, &work[l].room})
+          hierarchy.level(l).matrix.partition().reinit(*vector);
+        hierarchy.level(l + 1).matrix.partition().reinit(work[l].finer);
+      }
+  }
+
+
+
+  HalfSpaces MonotoneMultigrid::half_spaces_of(const unsigned int level) const
+  {
+    const HalfSpaces &all = hierarchy.level(level).contact;
+    HalfSpaces        result;
+    for (std::size_t q = 0; q < all.size(); ++q)
+      if (const double bound = work[level].room.local_element(dim * all.nodes[q]); bound < no_bound)
+        {
+          result.nodes.push_back(all.nodes[q]);
+          result.normals.push_back(all.normals[q]);
+          result.bounds.push_back(bound);
+        }
+    return result;
+  }
+
+
+
+  void MonotoneMultigrid::restrict_room(const unsigned int to_level, const HalfSpaces &half_spaces,
+                                        const Vector &values, const std::vector<unsigned char> *const active)
+  {
+    const NodalTransfer &transfer = hierarchy.level(to_level).to_finer;
+    const NodePartition &coarse   = hierarchy.level(to_level).matrix.partition();
+    Vector              &room     = work[to_level].room;
+    for (unsigned int i = 0; i < dim * coarse.n_local(); ++i)
+      room.local_element(i) = no_bound;
+    for (std::size_t p = 0; p < half_spaces.size(); ++p)
+      {
+        if (active != nullptr && (*active)[p])
+          continue;
+        const double       left   = std::max(0., half_spaces.bounds[p] - normal_part(half_spaces, p, values));
+        const unsigned int row    = half_spaces.nodes[p];
+        const Block *const blocks = transfer.row_blocks(row);
+        for (std::size_t k = transfer.row_begin(row); k < transfer.row_end(row); ++k)
+          if (blocks != nullptr ? blocks[k - transfer.row_begin(row)].norm_square() > 0.
+                                : transfer.weight(k) != 0.)
+            {
+              double &bound = *(room.begin() + dim * transfer.column(k));
+              bound         = std::min(bound, left);
+            }
+      }
+    room.compress(VectorOperation::min);
+  }
+
+
+
+  void MonotoneMultigrid::smooth_level(const unsigned int                    level,
+                                       const ProjectedGaussSeidel::Direction direction)
+  {
+    ProjectedGaussSeidel &smoother = *hierarchy.level(level).smoother;
+    Work                 &w        = work[level];
+    const bool            is_pre   = direction == ProjectedGaussSeidel::forward;
+    if (!is_pre)
+      for (unsigned int i = 0; i < parameters.smoothing.n_interface_sweeps; ++i)
+        smoother.interface_sweep(w.correction, w.rhs, direction);
+    for (unsigned int i = 0; i < (is_pre ? parameters.smoothing.n_pre : parameters.smoothing.n_post); ++i)
+      smoother.sweep(w.correction, w.rhs, direction);
+    if (is_pre)
+      for (unsigned int i = 0; i < parameters.smoothing.n_interface_sweeps; ++i)
+        smoother.interface_sweep(w.correction, w.rhs, direction);
+  }
+
+
+
+  void MonotoneMultigrid::solve_level_zero()
+  {
+    MultigridLevel        &level    = hierarchy.level(0);
+    Work                  &w        = work[0];
+    ProjectedGaussSeidel  &smoother = *level.smoother;
+    const HalfSpaces       spaces   = half_spaces_of(0);
+    const MPI_Comm         comm     = level.matrix.partition().communicator();
+    constexpr unsigned int n_steps  = 3;
+    w.correction                    = 0.;
+    Vector step;
+    step.reinit(w.correction);
+    smoother.set_half_spaces(spaces);
+    // Newton steps as far as they are admissible, sweeps in between. Without half-spaces in the way the first
+    // step is the solution.
+    for (unsigned int i = 0; i < n_steps; ++i)
+      {
+        level.matrix.vmult(w.residual, w.correction);
+        w.residual.sadd(-1., 1., w.rhs);
+        hierarchy.coarse_solver().solve(step, w.residual);
+        double length = 1.;
+        for (std::size_t q = 0; q < spaces.size(); ++q)
+          if (const double motion = normal_part(spaces, q, step); motion > 0.)
+            length = std::min(length,
+                              std::max(0., spaces.bounds[q] - normal_part(spaces, q, w.correction)) / motion);
+        length = Utilities::MPI::min(length, comm);
+        w.correction.add(length, step);
+        if (length == 1.)
+          break;
+        smooth_level(0, ProjectedGaussSeidel::forward);
+        smooth_level(0, ProjectedGaussSeidel::backward);
+      }
+    smoother.set_half_spaces(HalfSpaces());
+  }
+
+
+
+  void MonotoneMultigrid::correct_level(const unsigned int level)
+  {
+    if (level == 0)
+      {
+        solve_level_zero();
+        return;
+      }
+    MultigridLevel  &here   = hierarchy.level(level);
+    Work            &w      = work[level];
+    Work            &below  = work[level - 1];
+    const HalfSpaces spaces = half_spaces_of(level);
+    here.smoother->set_half_spaces(spaces);
+    w.correction = 0.;
+    smooth_level(level, ProjectedGaussSeidel::forward);
+
+    here.matrix.vmult(w.residual, w.correction);
+    w.residual.sadd(-1., 1., w.rhs);
+    below.rhs = 0.;
+    restrict_defect(hierarchy.level(level - 1), below.rhs, w.residual);
+    restrict_room(level - 1, spaces, w.correction, nullptr);
+    correct_level(level - 1);
+    hierarchy.level(level - 1).to_finer.prolongate(below.finer, below.correction);
+    w.correction.zero_out_ghost_values();
+    w.correction += below.finer;
+
+    smooth_level(level, ProjectedGaussSeidel::backward);
+    here.smoother->set_half_spaces(HalfSpaces());
+  }
+
+
+
+  ConvergenceReport MonotoneMultigrid::solve(Vector &v, const ObstacleProblem &problem,
+                                             const Monitor &monitor)
+  {
+    const NodeBlockMatrix &matrix   = hierarchy.finest().matrix;
+    ProjectedGaussSeidel  &smoother = *hierarchy.finest().smoother;
+    const unsigned int     coarse   = hierarchy.n_levels() - 2;
+    smoother.set_half_spaces(problem.half_spaces);
+    smoother.project(v);
+
+    ConvergenceReport report;
+    Vector            start, residual, product;
+    for (Vector *vector : {&start, &residual, &product})
+      vector->reinit(v);
+    unsigned int n_updates = 0;
+    double       energy    = std::numeric_limits<double>::infinity();
+    while (goes_on(report))
+      {
+        start.copy_locally_owned_data_from(v);
+        smooth(v, problem.rhs, ProjectedGaussSeidel::forward);
+        check_substep(report, energy, v, problem);
+
+        if (hierarchy.truncate(problem.half_spaces, smoother.active()))
+          ++n_updates;
+        matrix.vmult(residual, v);
+        residual.sadd(-1., 1., problem.rhs);
+        const double square = v * problem.rhs - v * residual;
+        work[coarse].rhs    = 0.;
+        restrict_defect(hierarchy.level(coarse), work[coarse].rhs, residual);
+        restrict_room(coarse, problem.half_spaces, v, &smoother.active());
+        correct_level(coarse);
+        hierarchy.level(coarse).to_finer.prolongate(work[coarse].finer, work[coarse].correction);
+        v.zero_out_ghost_values();
+        add_searched(v, work[coarse].finer, residual, problem);
+        check_substep(report, energy, v, problem);
+
+        smooth(v, problem.rhs, ProjectedGaussSeidel::backward);
+        check_substep(report, energy, v, problem);
+        start.sadd(-1., 1., v);
+        matrix.vmult(product, start);
+        book_iteration(report, std::sqrt(std::max(0., start * product)), std::sqrt(std::max(0., square)),
+                       monitor);
+      }
+    close(report, v, problem);
+    report.hierarchy_updates = n_updates;
+    return report;
+  }
+} // namespace Signorini

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/solvers/gauss_seidel_iteration.h>
+#include <signorini/solvers/monotone_multigrid.h>
+#include <signorini/solvers/obstacle_solver.h>
+#include <signorini/solvers/truncated_newton_multigrid.h>
+
+#include <deal.II/base/mpi.h>
+
+namespace Signorini
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Corrections below this multiple of the iterate may be rounding: the square root of what the energy
+    /// can resolve, with room for the condition of the matrix.
+    constexpr double near_rounding = 1e-9;
+    /// So many iterations without a new smallest correction are stagnation.
+    constexpr std::size_t patience = 6;
+  } // namespace
+
+
+
+  void SolverParameters::add_parameters(ParameterHandler &prm)
+  {
+    prm.declare_entry(
+        "Method", "accelerated",
+        Patterns::Selection("accelerated|truncated newton multigrid|monotone multigrid|projected "
+                            "gauss seidel"),
+        "accelerated: truncated Newton multigrid whose V-cycle preconditions conjugate "
+        "gradients while the active set rests (the fastest). truncated newton multigrid: "
+        "without conjugate gradients. monotone multigrid: the method of Krause and Sander, "
+        "with obstacles on all levels. projected gauss seidel: sweeps alone, for tiny "
+        "problems.");
+    prm.add_action("Method", [this](const std::string &value) {
+      method = value == "accelerated"                  ? SolverMethod::accelerated
+               : value == "truncated newton multigrid" ? SolverMethod::truncated_newton_multigrid
+               : value == "monotone multigrid"         ? SolverMethod::monotone_multigrid
+                                                       : SolverMethod::projected_gauss_seidel;
+    });
+    prm.add_parameter("Pre-smoothing steps", smoothing.n_pre,
+                      "Gauss-Seidel sweeps before the coarse correction.");
+    prm.add_parameter("Post-smoothing steps", smoothing.n_post,
+                      "Gauss-Seidel sweeps after the coarse correction.");
+    prm.add_parameter("Interface sweeps", smoothing.n_interface_sweeps,
+                      "Extra sweeps over the contact nodes of both sides and one layer of neighbours, on "
+                      "every level, after the pre- and before the post-smoothing.");
+    prm.add_parameter("Tolerance", tolerance,
+                      "Stop when the energy norm of the correction of an iteration is below this multiple "
+                      "of the energy norm of the iterate (no unit).",
+                      Patterns::Double(1e-15, 1.));
+    prm.add_parameter(
+        "Absolute tolerance", absolute_tolerance,
+        "If positive, stop when the energy norm of the correction (square root of an energy) is "
+        "below this value instead.",
+        Patterns::Double(0.));
+    prm.add_parameter("Maximal iterations", max_iterations,
+                      "Applications of the V-cycle (of a symmetric sweep, for projected gauss seidel).",
+                      Patterns::Integer(1));
+    prm.add_parameter("Check monotonicity", check_monotonicity,
+                      "Measure after every step of the solver on the finest level whether the energy has "
+                      "fallen and the iterate is admissible, and report it (costs a product with the matrix "
+                      "each).");
+  }
+
+
+
+  double convergence_rate(const std::vector<double> &history)
+  {
+    if (history.size() < 2)
+      return std::numeric_limits<double>::quiet_NaN();
+    const std::size_t n         = std::min<std::size_t>(5, history.size() - 1);
+    const double      reduction = history.back() / history[history.size() - 1 - n];
+    return std::pow(reduction, 1. / static_cast<double>(n));
+  }
+
+
+
+  ObstacleSolver::ObstacleSolver(MultigridHierarchy &hierarchy, const SolverParameters &parameters)
+    : hierarchy(hierarchy)
+    , parameters(parameters)
+  {
+  }
+
+
+
+  void ObstacleSolver::smooth(Vector &v, const Vector &rhs, const ProjectedGaussSeidel::Direction direction)
+  {
+    ProjectedGaussSeidel &smoother = *hierarchy.finest().smoother;
+    const bool            is_pre   = direction == ProjectedGaussSeidel::forward;
+    if (!is_pre)
+      for (unsigned int i = 0; i < parameters.smoothing.n_interface_sweeps; ++i)
+        smoother.interface_sweep(v, rhs, direction);
+    for (unsigned int i = 0; i < (is_pre ? parameters.smoothing.n_pre : parameters.smoothing.n_post); ++i)
+      smoother.sweep(v, rhs, direction);
+    if (is_pre)
+      for (unsigned int i = 0; i < parameters.smoothing.n_interface_sweeps; ++i)
+        smoother.interface_sweep(v, rhs, direction);
+  }
+
+
+
+  double ObstacleSolver::admissible_step(const Vector &v, const Vector &c,
+                                         const HalfSpaces &half_spaces) const
+  {
+    double step = std::numeric_limits<double>::max();
+    for (std::size_t p = 0; p < half_spaces.size(); ++p)
+      if (!active()[p])
+        {
+          double motion = 0., room = half_spaces.bounds[p];
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              const unsigned int i = dim * half_spaces.nodes[p] + d;
+              motion += half_spaces.normals[p][d] * c.local_element(i);
+              room -= half_spaces.normals[p][d] * v.local_element(i);
+            }
+          if (motion > 0.)
+            step = std::min(step, std::max(room, 0.) / motion);
+        }
+    return Utilities::MPI::min(step, hierarchy.finest().matrix.partition().communicator());
+  }
+
+
+
+  void ObstacleSolver::add_searched(Vector &v, const Vector &c, Vector &residual,
+                                    const ObstacleProblem &problem) const
+  {
+    // The slope must not see the contact forces: they are larger than the residual by orders of magnitude.
+    hierarchy.finest().smoother->restrict_to_tangents(residual);
+    Vector product;
+    product.reinit(v);
+    hierarchy.finest().matrix.vmult(product, c);
+    const double slope = residual * c, curvature = product * c;
+    if (curvature > 0. && slope > 0.)
+      v.add(std::min(slope / curvature, std::max(1., admissible_step(v, c, problem.half_spaces))), c);
+  }
+
+
+
+  void ObstacleSolver::book_iteration(ConvergenceReport &report, const double correction,
+                                      const double iterate, const Monitor &monitor) const
+  {
+    AssertThrow(std::isfinite(correction), ExcMessage("The iteration produced NaN."));
+    ++report.iterations;
+    report.history.push_back(correction);
+    report.scale          = iterate;
+    unsigned int n_active = std::accumulate(active().begin(), active().end(), 0u);
+    n_active = Utilities::MPI::sum(n_active, hierarchy.finest().matrix.partition().communicator());
+    report.active_nodes.push_back(n_active);
+
+    const double bound =
+        parameters.absolute_tolerance > 0. ? parameters.absolute_tolerance : parameters.tolerance * iterate;
+    report.converged = correction <= bound;
+    if (!report.converged && report.history.size() > patience && correction <= near_rounding * iterate)
+      {
+        const auto smallest = std::min_element(report.history.begin(), report.history.end());
+        if (report.history.end() - smallest > static_cast<std::ptrdiff_t>(patience))
+          {
+            report.converged = report.stagnated = true;
+            std::ostringstream text;
+            text << "stopped at rounding: the correction, " << correction / iterate
+                 << " of the iterate, does not become smaller any more";
+            report.note = text.str();
+          }
+      }
+    if (monitor)
+      monitor(report.iterations, iterate > 0. ? correction / iterate : 0., n_active);
+  }
+
+
+
+  bool ObstacleSolver::goes_on(const ConvergenceReport &report) const
+  {
+    return report.iterations < parameters.max_iterations && !report.converged;
+  }
+
+
+
+  void ObstacleSolver::close(ConvergenceReport &report, const Vector &v, const ObstacleProblem &problem) const
+  {
+    Vector product;
+    product.reinit(v);
+    hierarchy.finest().matrix.vmult(product, v);
+    report.energy = .5 * (product * v) - problem.rhs * v;
+    report.rate   = convergence_rate(report.history);
+    if (!report.converged)
+      report.note = "stopped after " + std::to_string(report.iterations) + " iterations without convergence";
+  }
+
+
+
+  void ObstacleSolver::check_substep(ConvergenceReport &report, double &energy, const Vector &v,
+                                     const ObstacleProblem &problem) const
+  {
+    if (!parameters.check_monotonicity)
+      return;
+    const NodeBlockMatrix &matrix = hierarchy.finest().matrix;
+    Vector                 product;
+    product.reinit(v);
+    matrix.vmult(product, v);
+    const double square = product * v, now = .5 * square - problem.rhs * v;
+    double       violation = 0., largest = 0.;
+    for (std::size_t p = 0; p < problem.half_spaces.size(); ++p)
+      {
+        double normal = 0., size = 0.;
+        for (unsigned int c = 0; c < dim; ++c)
+          {
+            const double x = v.local_element(dim * problem.half_spaces.nodes[p] + c);
+            normal += problem.half_spaces.normals[p][c] * x;
+            size += x * x;
+          }
+        violation = std::max(violation, normal - problem.half_spaces.bounds[p]);
+        largest   = std::max(largest, std::sqrt(size));
+      }
+    const MPI_Comm comm = matrix.partition().communicator();
+    violation           = Utilities::MPI::max(violation, comm);
+    largest             = Utilities::MPI::max(largest, comm);
+    if (largest > 0.)
+      report.largest_violation = std::max(report.largest_violation, violation / largest);
+    if (std::isfinite(energy) && square > 0.)
+      report.largest_energy_rise = std::max(report.largest_energy_rise, (now - energy) / square);
+    ++report.checked_substeps;
+    energy = now;
+  }
+
+
+
+  std::unique_ptr<ObstacleSolver> make_solver(MultigridHierarchy     &hierarchy,
+                                              const SolverParameters &parameters)
+  {
+    switch (parameters.method)
+      {
+        case SolverMethod::monotone_multigrid:
+          return std::make_unique<MonotoneMultigrid>(hierarchy, parameters);
+        case SolverMethod::projected_gauss_seidel:
+          return std::make_unique<GaussSeidelIteration>(hierarchy, parameters);
+        default:
+          return std::make_unique<TruncatedNewtonMultigrid>(hierarchy, parameters);
+      }
+  }
+} // namespace Signorini

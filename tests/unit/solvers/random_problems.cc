@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+// Small random obstacle problems, solved by all solvers and by a dense method that has nothing in common with
+// them: the dual problem by principal pivoting.
+
+#include <signorini/solvers/obstacle_solver.h>
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+
+#include <random>
+
+#include "unit/solvers/cube_problem.h"
+
+using namespace Signorini;
+
+namespace
+{
+  struct Dense
+  {
+    Eigen::MatrixXd matrix, normals;
+    Eigen::VectorXd rhs, bounds;
+  };
+
+  Dense dense(const NodeBlockMatrix &matrix, const ObstacleProblem &problem)
+  {
+    const auto n = dim * matrix.n_rows();
+    const auto m = static_cast<Eigen::Index>(problem.half_spaces.size());
+    Dense d{Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd::Zero(m, n), Eigen::VectorXd(n), Eigen::VectorXd(m)};
+    for (unsigned int i = 0; i < matrix.n_rows(); ++i)
+      for (std::size_t k = matrix.row_begin(i); k < matrix.row_end(i); ++k)
+        for (unsigned int c = 0; c < 9; ++c)
+          d.matrix(dim * i + c / 3, dim * matrix.column(k) + c % 3) = matrix.block(k)[c];
+    for (unsigned int i = 0; i < n; ++i)
+      d.rhs[i] = problem.rhs.local_element(i);
+    for (Eigen::Index p = 0; p < m; ++p)
+      {
+        for (unsigned int c = 0; c < dim; ++c)
+          d.normals(p, dim * problem.half_spaces.nodes[p] + c) = problem.half_spaces.normals[p][c];
+        d.bounds[p] = problem.half_spaces.bounds[p];
+      }
+    return d;
+  }
+
+  /// w = C lambda + q >= 0, lambda >= 0, w lambda = 0 with C = N A^-1 N^T, q = g - N A^-1 b: the pivots of
+  /// Murty (least index), which end for every positive definite C.
+  Eigen::VectorXd solve_by_pivoting(const Dense &d)
+  {
+    const Eigen::LLT<Eigen::MatrixXd> factors(d.matrix);
+    const Eigen::MatrixXd             c = d.normals * factors.solve(d.normals.transpose());
+    const Eigen::VectorXd             q = d.bounds - d.normals * factors.solve(d.rhs);
+    const Eigen::Index                m = q.size();
+    std::vector<bool>                 in_contact(m, false);
+    Eigen::VectorXd                   lambda;
+    for (bool done = false; !done;)
+      {
+        std::vector<Eigen::Index> set;
+        for (Eigen::Index p = 0; p < m; ++p)
+          if (in_contact[p])
+            set.push_back(p);
+        Eigen::MatrixXd reduced(set.size(), set.size());
+        Eigen::VectorXd rhs(set.size());
+        for (std::size_t i = 0; i < set.size(); ++i)
+          {
+            rhs[i] = -q[set[i]];
+            for (std::size_t j = 0; j < set.size(); ++j)
+              reduced(i, j) = c(set[i], set[j]);
+          }
+        lambda = Eigen::VectorXd::Zero(m);
+        if (!set.empty())
+          {
+            const Eigen::VectorXd part = reduced.ldlt().solve(rhs);
+            for (std::size_t i = 0; i < set.size(); ++i)
+              lambda[set[i]] = part[i];
+          }
+        const Eigen::VectorXd w = c * lambda + q;
+        done                    = true;
+        for (Eigen::Index p = 0; p < m && done; ++p)
+          if (in_contact[p] ? lambda[p] < 0. : w[p] < 0.)
+            {
+              in_contact[p] = !in_contact[p];
+              done          = false;
+            }
+      }
+    return factors.solve(d.rhs - d.normals.transpose() * lambda);
+  }
+} // namespace
+
+
+
+TEST(RandomProblems, AllSolversGiveTheDenseSolution)
+{
+  if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
+    GTEST_SKIP() << "the dense solver has one rank";
+  const char        *wanted = std::getenv("SIGNORINI_RANDOM_PROBLEMS");
+  const unsigned int n      = wanted ? static_cast<unsigned int>(std::stoul(wanted)) : 100;
+  std::mt19937       random(1);
+  const auto         uniform = [&](const double low, const double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  const std::map<SolverMethod, const char *> methods = {
+      {SolverMethod::accelerated, "accelerated"},
+      {SolverMethod::truncated_newton_multigrid, "truncated newton multigrid"},
+      {SolverMethod::monotone_multigrid, "monotone multigrid"},
+      {SolverMethod::projected_gauss_seidel, "projected gauss seidel"}};
+  for (unsigned int i = 0; i < n; ++i)
+    {
+      // One or two levels; flat or bent; loads that press, pull or do anything; bounds of both signs.
+      const unsigned int      size = i % 4 == 0 ? 2 : 4;
+      const CubeProblem::Grid grid(size);
+      const double            bend = i % 2 ? uniform(0., 1.) : 0., phase = uniform(0., 6.);
+      const auto              normals = [&](const double x, const double y) {
+        Vector3 normal;
+        normal[0] = bend * std::sin(phase + 5. * x);
+        normal[1] = bend * std::sin(phase + 4. * y);
+        normal[2] = -1.;
+        return normal / normal.norm();
+      };
+      MultigridHierarchy hierarchy = CubeProblem::hierarchy(size, normals);
+      ObstacleProblem    problem;
+      problem.half_spaces = CubeProblem::paraboloid(grid);
+      const double shift = uniform(-.1, .1), load = uniform(-.02, .02), noise = i % 3 ? .002 : .2;
+      for (std::size_t p = 0; p < problem.half_spaces.size(); ++p)
+        {
+          const auto index               = grid.index(problem.half_spaces.nodes[p]);
+          problem.half_spaces.normals[p] = normals(index[0] / double(size), index[1] / double(size));
+          problem.half_spaces.bounds[p] += shift + uniform(-noise, noise);
+        }
+      hierarchy.finest().matrix.partition().reinit(problem.rhs);
+      for (const NodeIndex p : grid.owned)
+        if (grid.index(p)[2] < size)
+          for (unsigned int c = 0; c < dim; ++c)
+            problem.rhs.local_element(dim * p + c) = load * (c == 2) + uniform(-.002, .002);
+      const Dense           d        = dense(hierarchy.finest().matrix, problem);
+      const Eigen::VectorXd solution = solve_by_pivoting(d);
+      const double          scale    = std::sqrt(solution.dot(d.matrix * solution));
+      for (const auto &[method, name] : methods)
+        {
+          SolverParameters parameters;
+          parameters.method             = method;
+          parameters.check_monotonicity = true;
+          parameters.max_iterations     = method == SolverMethod::projected_gauss_seidel ? 5000 : 60;
+          Vector v;
+          v.reinit(problem.rhs);
+          const auto      report     = make_solver(hierarchy, parameters)->solve(v, problem);
+          Eigen::VectorXd difference = solution;
+          for (Eigen::Index k = 0; k < difference.size(); ++k)
+            difference[k] -= v.local_element(k);
+          EXPECT_TRUE(report.converged) << "problem " << i << ", " << name;
+          EXPECT_LE(std::sqrt(difference.dot(d.matrix * difference)), 1e-9 * scale)
+              << "problem " << i << ", " << name;
+          EXPECT_LE(report.largest_energy_rise, 1e-13) << "problem " << i << ", " << name;
+          EXPECT_LE(report.largest_violation, 1e-12) << "problem " << i << ", " << name;
+        }
+    }
+}
