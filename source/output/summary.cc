@@ -19,7 +19,7 @@ namespace Signorini
         json.number("", correction);
       json.end(']');
       if (report.stagnated)
-        json.string("stagnated", report.note);
+        json.text("stagnated", report.note);
       if (report.checked_substeps > 0)
         {
           json.begin('{', "monotonicity");
