@@ -73,13 +73,16 @@ namespace Signorini
             }
         const ContactForces forces = compute_contact_forces(pair.nonmortar, pair.mortar, coupling, pressure);
         result.force               = forces.nonmortar.force;
-        result.force_on_mortar     = forces.mortar.force;
+        result.force_on_mortar     = pair.obstacle ? -forces.nonmortar.force : forces.mortar.force;
         result.moment              = forces.nonmortar.moment;
 
-        const auto penetration = sample_geometric_penetration(
-            pair.nonmortar, pair.mortar, pair.mapping->overlay(),
-            vertex_displacements(pair.nonmortar, *d.partition, d.displacement),
-            vertex_displacements(pair.mortar, *d.partition, d.displacement), pair.prescribed_gap, comm);
+        const auto displaced = vertex_displacements(pair.nonmortar, *d.partition, d.displacement);
+        const auto penetration =
+            pair.obstacle ? sample_rigid_penetration(pair.nonmortar, *pair.obstacle, displaced, comm)
+                          : sample_geometric_penetration(
+                                pair.nonmortar, pair.mortar, pair.mapping->overlay(), displaced,
+                                vertex_displacements(pair.mortar, *d.partition, d.displacement),
+                                pair.prescribed_gap, comm);
         result.min_gap             = penetration.min_gap;
         result.max_penetration     = std::max(0., penetration.max_penetration());
         result.initial_penetration = std::max(0., -penetration.min_initial_gap);
@@ -155,7 +158,8 @@ namespace Signorini
     c.energy                    = results.cycles.back().nonlinear.energy;
     for (const PairResult &pair : results.pairs)
       {
-        if (pair.force.norm() > 0.)
+        // An obstacle takes what the body gives.
+        if (pair.force.norm() > 0. && !d.pairs[&pair - results.pairs.data()].obstacle)
           c.force_balance =
               std::max(c.force_balance, (pair.force + pair.force_on_mortar).norm() / pair.force.norm());
         if (u > 0.)

@@ -43,7 +43,14 @@ namespace Signorini
         const std::string *sides[2]   = {&p.first, &p.second};
         const std::string *regions[2] = {&p.first_region, &p.second_region};
         const char        *names[2]   = {"First", "Second"};
-        for (unsigned int i = 0; i < 2; ++i)
+        definition.has_obstacle       = !Utilities::trim(p.obstacle).empty();
+        if (definition.has_obstacle)
+          {
+            if (!Utilities::trim(p.second).empty())
+              throw InputError(section + "Obstacle: a pair has either a second surface or an obstacle.");
+            definition.obstacle = RigidObstacle(p.obstacle, section + "Obstacle");
+          }
+        for (unsigned int i = 0; i < definition.n_sides(); ++i)
           {
             const std::string where     = section + names[i];
             const auto [body, boundary] = split_side(*sides[i], where);
@@ -57,6 +64,11 @@ namespace Signorini
         definition.has_gap = Utilities::trim(p.initial_gap) != "geometry";
         if (definition.has_gap)
           definition.gap = Expression(p.initial_gap, section + "Initial gap");
+        if (definition.has_gap && definition.has_obstacle)
+          throw InputError(section + "Initial gap: the obstacle gives the gap; write it as \"Obstacle = "
+                                     "function: ...\" to prescribe it.");
+        if (p.gap == "nodal" && !definition.has_gap && !definition.has_obstacle)
+          throw InputError(section + "Gap: nodal gaps need an obstacle or a prescribed initial gap.");
         if (p.penetration != "resolve" && p.penetration != "refuse")
           throw InputError(section + "Initial penetration: use resolve or refuse.");
         pair_definitions.push_back(definition);
@@ -95,32 +107,57 @@ namespace Signorini
     Discretization &d = discretization;
     Timer           time;
     ContactSurface  surfaces[2];
-    for (unsigned int i = 0; i < 2; ++i)
-      surfaces[i] = extract_contact_surface(
-          *d.space, bodies.boundary_ids(definition.body[i], definition.boundary[i]),
-          [&](const NodeIndex node) { return d.dirichlet.mask[d.space->relevant().index_within_set(node)]; },
-          definition.has_region[i] ? [&](const Point<3> &p) { return definition.region[i](p) > 0.; }
-                                   : std::function<bool(const Point<3> &)>());
-    for (unsigned int i = 0; i < 2; ++i)
-      if (surfaces[i].faces.empty())
-        throw InputError("Pair " + definition.parameters.name + ": the boundary \"" + definition.boundary[i] +
-                         "\" of body \"" + bodies.body_name(definition.body[i]) +
-                         "\" has no faces in its region.");
+    for (unsigned int i = 0; i < definition.n_sides(); ++i)
+      {
+        surfaces[i] = extract_contact_surface(
+            *d.space, bodies.boundary_ids(definition.body[i], definition.boundary[i]),
+            [&](const NodeIndex node) {
+              return d.dirichlet.mask[d.space->relevant().index_within_set(node)];
+            },
+            definition.has_region[i] ? [&](const Point<3> &p) { return definition.region[i](p) > 0.; }
+                                     : std::function<bool(const Point<3> &)>());
+        if (surfaces[i].faces.empty())
+          throw InputError("Pair " + definition.parameters.name + ": the boundary \"" +
+                           definition.boundary[i] + "\" of body \"" + bodies.body_name(definition.body[i]) +
+                           "\" has no faces in its region.");
+      }
 
-    const unsigned int non = choose_nonmortar(definition, surfaces);
+    const unsigned int non = definition.has_obstacle ? 0 : choose_nonmortar(definition, surfaces);
     ContactPair        pair;
     pair.name           = definition.parameters.name;
     pair.nonmortar_body = definition.body[non];
-    pair.mortar_body    = definition.body[1 - non];
+    pair.mortar_body    = definition.has_obstacle ? numbers::invalid_unsigned_int : definition.body[1 - non];
     pair.nonmortar_name = bodies.body_name(pair.nonmortar_body) + ": " + definition.boundary[non];
-    pair.mortar_name    = bodies.body_name(pair.mortar_body) + ": " + definition.boundary[1 - non];
+    pair.mortar_name    = definition.has_obstacle
+                              ? definition.obstacle.description()
+                              : bodies.body_name(pair.mortar_body) + ": " + definition.boundary[1 - non];
     pair.nonmortar      = std::move(surfaces[non]);
     pair.mortar         = std::move(surfaces[1 - non]);
     if (definition.has_gap)
       pair.prescribed_gap = [gap = definition.gap](const Point<3> &p) { return gap(p); };
     cycle.times["mesh"] += time.wall_time();
+    if (definition.has_obstacle)
+      {
+        time.restart();
+        pair.obstacle = std::make_unique<RigidObstacle>(definition.obstacle);
+        pair.moments  = compute_rigid_moments(pair.nonmortar, *pair.obstacle, comm);
+        if (std::none_of(pair.moments.begin(), pair.moments.end(),
+                         [](const FaceMoments &m) { return m.covered > 0.; }))
+          throw InputError("Pair " + pair.name + ": the surface \"" + pair.nonmortar_name +
+                           "\" does not face the obstacle \"" + pair.mortar_name +
+                           "\" anywhere: no outward normal meets it from outside.");
+        cycle.times["mortar"] += time.wall_time();
+      }
+    else
+      map_pair(pair, cycle);
+    return pair;
+  }
 
-    time.restart();
+
+
+  void ContactProblem::map_pair(ContactPair &pair, CycleResult &cycle)
+  {
+    Timer              time;
     const unsigned int rank = Utilities::MPI::this_mpi_process(comm);
     pair.mapping            = std::make_unique<ContactMapping>(
         pair.nonmortar.mesh, pair.mortar.mesh,
@@ -139,7 +176,18 @@ namespace Signorini
     pair.moments =
         compute_face_moments(pair.nonmortar, pair.mortar, pair.mapping->overlay(), pair.prescribed_gap, comm);
     cycle.times["mortar"] += time.wall_time();
-    return pair;
+  }
+
+
+
+  void ContactProblem::use_nodal_gaps(PairCoupling &coupling, const ContactPair &pair) const
+  {
+    const double size = surface_size(pair.nonmortar);
+    for (std::size_t row = 0; row < coupling.gaps.size(); ++row)
+      if (pair.prescribed_gap)
+        coupling.gaps[row] = pair.prescribed_gap(coupling.positions[row]);
+      else if (double gap; pair.obstacle->gap(gap, coupling.positions[row], coupling.normals[row], size))
+        coupling.gaps[row] = gap;
   }
 
 
@@ -167,7 +215,9 @@ namespace Signorini
         const ContactPair &pair = d.pairs[p];
         d.couplings.push_back(couple(pair.nonmortar, pair.mortar, pair.moments, excluded[p],
                                      static_cast<bool>(pair.prescribed_gap)));
-        const PairCoupling                 &c = d.couplings.back();
+        PairCoupling &c = d.couplings.back();
+        if (pair_definitions[p].parameters.gap == "nodal")
+          use_nodal_gaps(c, pair);
         std::map<std::string, unsigned int> reasons;
         for (const DroppedNode &node : c.dropped)
           ++reasons[to_string(node.reason)];

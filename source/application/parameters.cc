@@ -15,7 +15,19 @@ namespace Signorini
   void PairParameters::add_parameters(ParameterHandler &prm)
   {
     prm.add_parameter("First", first, "One surface of the pair, \"body: boundary\".");
-    prm.add_parameter("Second", second, "The other surface, \"body: boundary\".");
+    prm.add_parameter("Second", second,
+                      "The other surface, \"body: boundary\"; empty if there is an obstacle.");
+    prm.add_parameter("Obstacle", obstacle,
+                      "A rigid, fixed partner of the first surface instead of a second one: \"plane: point, "
+                      "normal\", \"sphere: centre, radius\", \"cylinder: point, axis, radius\", "
+                      "\"paraboloid: apex, axis, radius of curvature\" or \"function: f(x,y,z)\", positive "
+                      "outside of the obstacle. Points and directions as (x, y, z); normal and axis point to "
+                      "the body; \"hollow sphere\" and \"hollow cylinder\" have it inside.");
+    prm.add_parameter("Gap", gap,
+                      "weighted: integrals of the gap with the dual functions, consistent with the weak "
+                      "condition. nodal: the gap at the nodes along their normals (with an obstacle, or a "
+                      "prescribed initial gap).",
+                      Patterns::Selection("weighted|nodal"));
     prm.add_parameter(
         "Nonmortar", nonmortar,
         "Which surface carries the contact pressure. auto picks the softer body (then the finer "

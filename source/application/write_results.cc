@@ -78,7 +78,17 @@ namespace Signorini
             gap.values[v] += weight * gap.values[parent];
           }
       // The vector from a vertex to its image, where the mapping reaches it.
-      for (const OverlayTriangle &cell : pair.mapping->overlay())
+      if (pair.obstacle)
+        for (std::size_t v = 0; v < n; ++v)
+          {
+            const Vector3 &direction = pair.nonmortar.mesh.vertex_normals[v];
+            if (double distance; pair.obstacle->gap(distance, pair.nonmortar.mesh.vertices[v], direction,
+                                                    surface_size(pair.nonmortar)))
+              for (unsigned int k = 0; k < 3; ++k)
+                image.values[3 * v + k] = distance * direction[k];
+          }
+      for (const OverlayTriangle &cell :
+           pair.mapping ? pair.mapping->overlay() : std::vector<OverlayTriangle>())
         for (unsigned int c = 0; c < 3; ++c)
           for (unsigned int i = 0; i < 3; ++i)
             if (cell.nonmortar[c][i] == 1.)
@@ -133,16 +143,19 @@ namespace Signorini
 
     if (parameters.write_mapping || mesh_only)
       for (const ContactPair &pair : d.pairs)
-        write_file(folder.path() + "mapping-" + Utilities::replace_in_string(pair.name, " ", "-") + "." +
-                       Utilities::int_to_string(Utilities::MPI::this_mpi_process(comm)) + ".vtu",
-                   [&](std::ostream &o) {
-                     write_overlay(o, pair.nonmortar.mesh, pair.mortar.mesh, pair.mapping->overlay());
-                   });
+        if (pair.mapping)
+          write_file(folder.path() + "mapping-" + Utilities::replace_in_string(pair.name, " ", "-") + "." +
+                         Utilities::int_to_string(Utilities::MPI::this_mpi_process(comm)) + ".vtu",
+                     [&](std::ostream &o) {
+                       write_overlay(o, pair.nonmortar.mesh, pair.mortar.mesh, pair.mapping->overlay());
+                     });
     results.mappings.clear();
     for (const ContactPair &pair : d.pairs)
-      results.mappings.push_back({pair.name, sum_reports(pair.mapping->report(), comm),
-                                  assess_mapping(*pair.mapping, pair.nonmortar.mesh, pair.mortar.mesh, comm),
-                                  Utilities::MPI::max(pair.mapping_time, comm)});
+      if (pair.mapping)
+        results.mappings.push_back(
+            {pair.name, sum_reports(pair.mapping->report(), comm),
+             assess_mapping(*pair.mapping, pair.nonmortar.mesh, pair.mortar.mesh, comm),
+             Utilities::MPI::max(pair.mapping_time, comm)});
 
     Utilities::System::MemoryStats memory;
     Utilities::System::get_memory_stats(memory);

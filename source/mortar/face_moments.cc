@@ -156,25 +156,55 @@ namespace Signorini
         moments.covered += area;
       }
 
+      /// A triangle of the face with images given by a function.
+      void add_triangle(const unsigned int triangle, const ImageFunction &image)
+      {
+        const auto         &t = nonmortar.mesh.triangles[triangle];
+        Corners             x;
+        const TriangleRule &rule = triangle_rule(false);
+        for (unsigned int i = 0; i < 3; ++i)
+          x[i] = nonmortar.mesh.vertices[t[i]];
+        std::vector<Vector3> gaps(rule.points.size());
+        for (std::size_t q = 0; q < gaps.size(); ++q)
+          {
+            Vector3 normal;
+            for (unsigned int i = 0; i < 3; ++i)
+              normal += rule.points[q][i] * nonmortar.mesh.vertex_normals[t[i]];
+            const double length = normal.norm();
+            if (!(length > 0.) || !image(gaps[q], combine(x, rule.points[q]), normal / length))
+              return;
+          }
+        const double    area = triangle_area(x);
+        ShapeOnTriangle phi_at(face, x);
+        for (std::size_t q = 0; q < gaps.size(); ++q)
+          add_functions(rule.weights[q] * area, gaps[q], phi_at(rule.points[q], combine(x, rule.points[q])));
+        moments.covered += area;
+      }
+
       FaceMoments moments;
 
     private:
+      void add_functions(const double weight, const Vector3 &gap, const std::array<double, 4> &phi)
+      {
+        for (unsigned int a = 0; a < 4; ++a)
+          {
+            const double w = weight * phi[a];
+            for (unsigned int b = 0; b < 4; ++b)
+              moments.mass[4 * a + b] += w * phi[b];
+            moments.gap[a] += w * gap;
+          }
+      }
+
       void add_point(const double weight, const Point<3> &p, const Point<3> &image,
                      const std::array<double, 4> &phi, const std::array<double, 4> &theta)
       {
         Vector3 gap = image - p;
         if (prescribed_gap)
           gap = Point<3>(prescribed_gap(p), 0., 0.);
+        add_functions(weight, gap, phi);
         for (unsigned int a = 0; a < 4; ++a)
-          {
-            const double w = weight * phi[a];
-            for (unsigned int b = 0; b < 4; ++b)
-              {
-                moments.mass[4 * a + b] += w * phi[b];
-                moments.coupling[slots[b]].second[a] += w * theta[b];
-              }
-            moments.gap[a] += w * gap;
-          }
+          for (unsigned int b = 0; b < 4; ++b)
+            moments.coupling[slots[b]].second[a] += weight * phi[a] * theta[b];
       }
 
       /// Finds or makes the entries of the corners of a mortar face.
@@ -290,32 +320,59 @@ namespace Signorini
 
 
 
+  namespace
+  {
+    /// Integrates the own faces, `add` on top of the triangles of each, and gathers.
+    template <typename Add>
+    std::vector<FaceMoments> integrate_faces(const ContactSurface &nonmortar, const ContactSurface &mortar,
+                                             const GapFunction &prescribed_gap, const MPI_Comm communicator,
+                                             const Add &add)
+    {
+      const unsigned int       rank = Utilities::MPI::this_mpi_process(communicator);
+      const Groups             triangles(nonmortar.faces.size(), nonmortar.mesh.triangles.size(),
+                                         [&](const std::size_t t) { return nonmortar.triangle_face[t]; });
+      std::vector<FaceMoments> mine;
+      for (unsigned int f = 0; f < nonmortar.faces.size(); ++f)
+        if (nonmortar.faces[f].owner == rank)
+          {
+            FaceIntegrator integrator(nonmortar, mortar, prescribed_gap, f);
+            for (std::size_t i = triangles.start[f]; i < triangles.start[f + 1]; ++i)
+              integrator.add_face_triangle(static_cast<unsigned int>(triangles.list[i]));
+            add(integrator, f, triangles);
+            mine.push_back(std::move(integrator.moments));
+          }
+      if (Utilities::MPI::n_mpi_processes(communicator) == 1)
+        return mine;
+      return gather(mine, communicator);
+    }
+  } // namespace
+
+
+
   std::vector<FaceMoments> compute_face_moments(const ContactSurface &nonmortar, const ContactSurface &mortar,
                                                 const std::vector<OverlayTriangle> &overlay,
                                                 const GapFunction                  &prescribed_gap,
                                                 const MPI_Comm                      communicator)
   {
-    const std::size_t  n_faces = nonmortar.faces.size();
-    const unsigned int rank    = Utilities::MPI::this_mpi_process(communicator);
-    const Groups       cells(n_faces, overlay.size(), [&](const std::size_t c) {
+    const Groups cells(nonmortar.faces.size(), overlay.size(), [&](const std::size_t c) {
       return nonmortar.triangle_face[overlay[c].nonmortar_triangle];
     });
-    const Groups       triangles(n_faces, nonmortar.mesh.triangles.size(),
-                                 [&](const std::size_t t) { return nonmortar.triangle_face[t]; });
+    return integrate_faces(nonmortar, mortar, prescribed_gap, communicator,
+                           [&](FaceIntegrator &integrator, const unsigned int f, const Groups &) {
+                             for (std::size_t i = cells.start[f]; i < cells.start[f + 1]; ++i)
+                               integrator.add_overlay_triangle(overlay[cells.list[i]]);
+                           });
+  }
 
-    std::vector<FaceMoments> mine;
-    for (unsigned int f = 0; f < n_faces; ++f)
-      if (nonmortar.faces[f].owner == rank)
-        {
-          FaceIntegrator integrator(nonmortar, mortar, prescribed_gap, f);
-          for (std::size_t i = triangles.start[f]; i < triangles.start[f + 1]; ++i)
-            integrator.add_face_triangle(static_cast<unsigned int>(triangles.list[i]));
-          for (std::size_t i = cells.start[f]; i < cells.start[f + 1]; ++i)
-            integrator.add_overlay_triangle(overlay[cells.list[i]]);
-          mine.push_back(std::move(integrator.moments));
-        }
-    if (Utilities::MPI::n_mpi_processes(communicator) == 1)
-      return mine;
-    return gather(mine, communicator);
+
+
+  std::vector<FaceMoments> compute_face_moments(const ContactSurface &nonmortar, const ImageFunction &image,
+                                                const MPI_Comm communicator)
+  {
+    return integrate_faces(nonmortar, nonmortar, GapFunction(), communicator,
+                           [&](FaceIntegrator &integrator, const unsigned int f, const Groups &triangles) {
+                             for (std::size_t i = triangles.start[f]; i < triangles.start[f + 1]; ++i)
+                               integrator.add_triangle(static_cast<unsigned int>(triangles.list[i]), image);
+                           });
   }
 } // namespace Signorini

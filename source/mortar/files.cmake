@@ -6,4 +6,5 @@ signorini_add_layer(mortar
   geometric_penetration.cc
   pair_conflicts.cc
   pair_coupling.cc
+  rigid_obstacle.cc
 )

@@ -217,6 +217,46 @@ def half_model(p):
     near(half['pairs'][0]['max_pressure'], full['pairs'][0]['max_pressure'], 1e-9, 'pressure')
 
 
+# shared/reference/solver-problems.md, S1: cells a side, active nodes, energy, force.
+S1 = ((8, 9, 2.110394093511e-4, 1.14727827e-2), (16, 21, 2.328860217949e-4, 1.17543487e-2), (32, 89, 2.360079949137e-4, 1.18747437e-2))
+
+
+def obstacle(p):
+    for cycle, (n, active, energy, force) in zip((2, 3, 4), S1):
+        s = p.solve('obstacle/paraboloid.prm', f'Refinement/Global cycles={cycle}')
+        last = s['cycles'][-1]
+        check(last['active_nodes'] == active, f'S1, {n}: {last["active_nodes"]} active nodes instead of {active}')
+        near(last['energy'], energy, 1e-10, f'S1, {n}: energy')
+        near(s['pairs'][0]['force'][2], force, 1e-8, f'S1, {n}: force')
+        certificate(s)
+        iterations(s)
+        check(last['nonlinear']['iterations'] <= 10, f'S1, {n}: {last["nonlinear"]["iterations"]} iterations')
+    # All obstacles that are the same surface, weighted and nodal: the same result.
+    same = [f'Pair bottom/Obstacle={o}' for o in ('paraboloid: (0.5, 0.5, 0.05), (0, 0, 1), 0.5',
+                                                  'function: z - 0.05 + (x-0.5)^2 + (y-0.5)^2')]
+    for gap in ('nodal', 'weighted'):
+        a, b = (p.solve('obstacle/paraboloid.prm', 'Refinement/Global cycles=2', f'Pair bottom/Gap={gap}', o) for o in same)
+        near(b['cycles'][-1]['energy'], a['cycles'][-1]['energy'], 1e-10, f'function, {gap}')
+    # A plane pressed by a constant pressure.
+    pressed = ('Body cube/Dirichlet=left: (0, *, *); front: (*, 0, *); top: (*, *, -0.01)', 'Body cube/Young modulus=1000',
+               'Refinement/Global cycles=1', 'Pair bottom/Obstacle=plane: (0, 0, 0), (0, 0, 1)')
+    for gap in ('nodal', 'weighted'):
+        s = p.solve('obstacle/paraboloid.prm', f'Pair bottom/Gap={gap}', *pressed)
+        constant_pressure(s, 10.)
+        certificate(s)
+    # A ball that is nearly a plane, from below, and the same from inside.
+    for o in ('sphere: (0.5, 0.5, -1e5), 1e5', 'hollow sphere: (0.5, 0.5, 1e5), 1e5', 'cylinder: (0.5, 0, -1e5), (0, 1, 0), 1e5'):
+        s = p.solve('obstacle/paraboloid.prm', *pressed, f'Pair bottom/Obstacle={o}')
+        near(s['pairs'][0]['force'][2], 10., 1e-2, o)
+    for setting, word in (('Pair bottom/Obstacle=cone: (0, 0, 0), 1', 'cone'), ('Pair bottom/Second=cube: top', 'either'),
+                          ('Pair bottom/Obstacle=plane: (0, 0, 5), (0, 0, -1)', 'does not face'),
+                          ('Pair bottom/Initial gap=0.1', 'obstacle')):
+        with tempfile.TemporaryDirectory() as folder:
+            run = p.call(os.path.join(TOP, 'prm', 'obstacle/paraboloid.prm'), '--output', os.path.join(folder, 'out'), '--set', setting)
+            check(run.returncode == 1 and word in run.stderr, f'{setting}: {run.returncode}, {run.stderr}')
+            check(os.listdir(folder) == [], f'{setting}: something was written')
+
+
 # shared/reference/hertz: F/4, a, p0 of this geometry (M1, M2) and the bars at about 50,000 and 400,000 unknowns.
 H1 = {'M1': (('6.896e5', '0.45'), (20.820, 0.4031, 244.63)), 'M2': (('7e3', '0.3'), (10.638, 0.4047, 124.01))}
 COARSE_BARS, FINE_BARS = (1e-2, 2e-2, 3e-2), (3e-3, 7e-3, 1.5e-2)

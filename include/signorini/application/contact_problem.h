@@ -9,6 +9,7 @@
 #include <signorini/discretization/level_hierarchy.h>
 #include <signorini/mesh/refinement.h>
 #include <signorini/mortar/pair_coupling.h>
+#include <signorini/mortar/rigid_obstacle.h>
 #include <signorini/output/progress.h>
 #include <signorini/output/results.h>
 #include <signorini/surface/contact_mapping.h>
@@ -23,11 +24,13 @@ namespace Signorini
   /// One contact pair on the current mesh.
   struct ContactPair
   {
-    std::string                     name;
-    unsigned int                    nonmortar_body, mortar_body;
-    std::string                     nonmortar_name, mortar_name;
-    ContactSurface                  nonmortar, mortar;
+    std::string    name;
+    unsigned int   nonmortar_body, mortar_body;
+    std::string    nonmortar_name, mortar_name;
+    ContactSurface nonmortar, mortar;
+    /// With a rigid obstacle the mortar surface is empty and there is no mapping.
     std::unique_ptr<ContactMapping> mapping;
+    std::unique_ptr<RigidObstacle>  obstacle;
     /// Seconds it took.
     double                   mapping_time = 0.;
     std::vector<FaceMoments> moments;
@@ -93,12 +96,21 @@ namespace Signorini
       bool           has_region[2];
       Expression     gap;
       bool           has_gap;
+      RigidObstacle  obstacle;
+      bool           has_obstacle;
+
+      unsigned int n_sides() const
+      {
+        return has_obstacle ? 1 : 2;
+      }
     };
 
     void         define_pairs();
     void         setup_space();
     void         setup_contact(CycleResult &cycle);
     ContactPair  make_pair(const PairDefinition &definition, CycleResult &cycle);
+    void         map_pair(ContactPair &pair, CycleResult &cycle);
+    void         use_nodal_gaps(PairCoupling &coupling, const ContactPair &pair) const;
     unsigned int choose_nonmortar(const PairDefinition &definition, const ContactSurface (&surfaces)[2]);
     void         solve_cycle(CycleResult &cycle);
     void evaluate_contact(const Vector &v, const ObstacleProblem &problem, const NodeBlockMatrix &matrix,

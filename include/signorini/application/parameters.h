@@ -23,8 +23,11 @@ namespace Signorini
     std::string name;
     /// "body: boundary".
     std::string first, second;
+    /// A rigid obstacle in place of the second surface (RigidObstacle), or empty.
+    std::string obstacle;
     std::string nonmortar   = "auto";
     std::string initial_gap = "geometry";
+    std::string gap         = "weighted";
     std::string penetration = "resolve";
     /// Expressions that are positive where a surface may touch; empty for everywhere.
     std::string first_region, second_region;

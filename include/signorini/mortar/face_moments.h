@@ -46,6 +46,15 @@ namespace Signorini
                                                 const std::vector<OverlayTriangle> &overlay,
                                                 const GapFunction                  &prescribed_gap,
                                                 const MPI_Comm                      communicator);
+
+  /// The vector (length) from a point to its image in the direction of a unit normal; false if there is none.
+  using ImageFunction = std::function<bool(Vector3 &, const dealii::Point<3> &, const Vector3 &)>;
+
+  /// Collective. The moments of all faces where the images are given by a function and nothing moves on the
+  /// other side: no coupling. Normals are linear on triangles. A triangle with a quadrature point without
+  /// image counts as uncovered.
+  std::vector<FaceMoments> compute_face_moments(const ContactSurface &nonmortar, const ImageFunction &image,
+                                                const MPI_Comm communicator);
 } // namespace Signorini
 
 #endif

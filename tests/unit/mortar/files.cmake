@@ -3,5 +3,6 @@ signorini_add_unit_tests(mortar RANKS "1;2"
   dual_basis.cc
   face_moments.cc
   pair_conflicts.cc
+  rigid_obstacle.cc
   two_step_rule.cc
 )

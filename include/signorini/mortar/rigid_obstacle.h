@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_mortar_rigid_obstacle_h
+#define signorini_mortar_rigid_obstacle_h
+
+#include <signorini/algebra/types.h>
+#include <signorini/mesh/contact_surface.h>
+#include <signorini/mesh/expression.h>
+#include <signorini/mortar/face_moments.h>
+#include <signorini/mortar/geometric_penetration.h>
+
+#include <string>
+#include <vector>
+
+namespace Signorini
+{
+  /// A rigid body that does not move, as the partner of an elastic one (the Signorini problem): the set where
+  /// a function is negative, with a gap along given directions.
+  class RigidObstacle
+  {
+  public:
+    RigidObstacle() = default;
+
+    /// From text:
+    ///   plane: point, normal              the normal points to the elastic body
+    ///   sphere: centre, radius            hollow sphere: the body is inside
+    ///   cylinder: point, axis, radius     hollow cylinder: the body is inside
+    ///   paraboloid: apex, axis, R         r^2 = 2 R times the depth below the apex; the axis points to the
+    ///                                     elastic body; negative R for a bowl
+    ///   function: f                       an expression in x, y, z, positive outside of the obstacle
+    /// with points and directions as (x, y, z).
+    /// Errors: InputError naming `where`.
+    RigidObstacle(const std::string &text, const std::string &where);
+
+    /// The distance along the unit vector n from x to where the line enters the obstacle, negative if x lies
+    /// in it (length). `size` is a length of the problem. False if the line does not enter it.
+    bool gap(double &distance, const dealii::Point<3> &x, const Vector3 &n, const double size) const;
+
+    const std::string &description() const
+    {
+      return text;
+    }
+
+  private:
+    enum class Kind
+    {
+      plane,
+      sphere,
+      cylinder,
+      paraboloid,
+      function
+    };
+
+    bool function_gap(double &distance, const dealii::Point<3> &x, const Vector3 &n, const double size) const;
+
+    Kind             kind = Kind::plane;
+    std::string      text;
+    dealii::Point<3> point;
+    Vector3          axis;
+    double           radius = 0.;
+    /// -1 if the elastic body is inside.
+    double     sign = 1.;
+    Expression function;
+  };
+
+  /// Collective. The moments of all faces against an obstacle, as compute_face_moments() has them against a
+  /// surface. The gap is measured along the linear field of vertex normals. A triangle of which a part does
+  /// not see the obstacle counts as uncovered.
+  std::vector<FaceMoments> compute_rigid_moments(const ContactSurface &surface, const RigidObstacle &obstacle,
+                                                 const MPI_Comm communicator);
+
+  /// Collective. As sample_geometric_penetration(), against an obstacle.
+  GeometricPenetration sample_rigid_penetration(const ContactSurface &surface, const RigidObstacle &obstacle,
+                                                const std::vector<Vector3> &displacement,
+                                                const MPI_Comm              communicator);
+
+  /// The diagonal of the box around a surface: a length of the problem.
+  double surface_size(const ContactSurface &surface);
+} // namespace Signorini
+
+#endif

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/algebra/input_error.h>
+#include <signorini/mortar/rigid_obstacle.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/utilities.h>
+
+namespace Signorini
+{
+  using namespace dealii;
+
+  namespace
+  {
+    double number(const std::string &text, const std::string &where)
+    {
+      return Expression(text, where)(Point<3>());
+    }
+
+    Point<3> vector(const std::string &text, const std::string &where)
+    {
+      const auto entries = split_vector(text, where);
+      return Point<3>(number(entries[0], where), number(entries[1], where), number(entries[2], where));
+    }
+
+    Vector3 direction(const std::string &text, const std::string &where)
+    {
+      const Vector3 v = vector(text, where);
+      if (!(v.norm() > 0.))
+        throw InputError(where + ": the direction \"" + text + "\" has no length.");
+      return v / v.norm();
+    }
+
+    /// The root of a t^2 + 2 b t + c where it falls, of smaller rounding error.
+    bool falling_root(double &t, const double a, const double b, const double c)
+    {
+      const double discriminant = b * b - a * c;
+      if (!(discriminant >= 0.))
+        return false;
+      // At the root a t + b = -sqrt(discriminant) < 0.
+      const double root = std::sqrt(discriminant);
+      if (b > 0.)
+        {
+          // t = -(b + root) / a
+          if (a == 0.)
+            return false;
+          t = -(b + root) / a;
+        }
+      else
+        {
+          if (root - b == 0.)
+            return false;
+          t = c / (root - b);
+        }
+      return std::isfinite(t);
+    }
+  } // namespace
+
+
+
+  RigidObstacle::RigidObstacle(const std::string &description, const std::string &where)
+    : text(description)
+  {
+    const std::string usage =
+        where + ": \"" + description +
+        "\" should read \"plane: point, normal\", \"sphere: centre, radius\", \"cylinder: point, axis, "
+        "radius\", \"paraboloid: apex, axis, radius\" or \"function: f(x,y,z)\", with points as (x, y, z).";
+    const std::size_t colon = description.find(':');
+    if (colon == std::string::npos)
+      throw InputError(usage);
+    std::string       name   = Utilities::trim(description.substr(0, colon));
+    const std::string rest   = description.substr(colon + 1);
+    const std::string hollow = "hollow ";
+    if (name.compare(0, hollow.size(), hollow) == 0)
+      {
+        sign = -1.;
+        name = Utilities::trim(name.substr(hollow.size()));
+        if (name != "sphere" && name != "cylinder")
+          throw InputError(usage);
+      }
+    if (name == "function")
+      {
+        kind     = Kind::function;
+        function = Expression(rest, where);
+        return;
+      }
+    const auto pieces = split_list(rest, ',', where);
+    const auto expect = [&](const std::size_t n) {
+      if (pieces.size() != n)
+        throw InputError(usage);
+      point = vector(pieces[0], where);
+    };
+    if (name == "plane")
+      {
+        expect(2);
+        kind = Kind::plane;
+        axis = direction(pieces[1], where);
+        return;
+      }
+    if (name == "sphere")
+      {
+        expect(2);
+        kind = Kind::sphere;
+      }
+    else if (name == "cylinder" || name == "paraboloid")
+      {
+        expect(3);
+        kind = name == "cylinder" ? Kind::cylinder : Kind::paraboloid;
+        axis = direction(pieces[1], where);
+      }
+    else
+      throw InputError(usage);
+    radius = number(pieces.back(), where);
+    if (kind == Kind::paraboloid ? radius == 0. : !(radius > 0.))
+      throw InputError(where + ": the radius should be " +
+                       (kind == Kind::paraboloid ? "different from 0." : "positive."));
+  }
+
+
+
+  bool RigidObstacle::gap(double &distance, const Point<3> &x, const Vector3 &n, const double size) const
+  {
+    const Vector3 d      = x - point;
+    const auto    across = [&](const Vector3 &v) -> Vector3 { return v - (v * axis) * axis; };
+    switch (kind)
+      {
+        case Kind::plane:
+          distance = -(d * axis) / (n * axis);
+          return n * axis < 0. && std::isfinite(distance);
+        case Kind::sphere:
+          return falling_root(distance, sign, sign * (d * n), sign * (d * d - radius * radius));
+        case Kind::cylinder:
+          {
+            const Vector3 e = across(d), m = across(n);
+            return falling_root(distance, sign * (m * m), sign * (e * m), sign * (e * e - radius * radius));
+          }
+        case Kind::paraboloid:
+          {
+            const Vector3 e = across(d), m = across(n);
+            const double  s = .5 / radius;
+            return falling_root(distance, s * (m * m), s * (e * m) + .5 * (n * axis), s * (e * e) + d * axis);
+          }
+        default:
+          return function_gap(distance, x, n, size);
+      }
+  }
+
+
+
+  // Newton's method along the line, with a difference quotient.
+  bool RigidObstacle::function_gap(double &distance, const Point<3> &x, const Vector3 &n,
+                                   const double size) const
+  {
+    const double h = 1e-6 * size;
+    distance       = 0.;
+    for (unsigned int i = 0; i < 50; ++i)
+      {
+        const Point<3> y     = x + distance * n;
+        const double   value = function(y), slope = (function(y + h * n) - function(y - h * n)) / (2. * h);
+        if (value == 0.)
+          return true;
+        if (!(slope < 0.))
+          return false;
+        const double step = std::max(-size, std::min(size, -value / slope));
+        distance += step;
+        if (std::abs(distance) > 100. * size)
+          return false;
+        if (std::abs(step) <= 1e-13 * size)
+          return true;
+      }
+    return false;
+  }
+
+
+
+  double surface_size(const ContactSurface &surface)
+  {
+    Point<3> low = surface.mesh.vertices.at(0), high = low;
+    for (const Point<3> &x : surface.mesh.vertices)
+      for (unsigned int c = 0; c < dim; ++c)
+        {
+          low[c]  = std::min(low[c], x[c]);
+          high[c] = std::max(high[c], x[c]);
+        }
+    return low.distance(high);
+  }
+
+
+
+  std::vector<FaceMoments> compute_rigid_moments(const ContactSurface &surface, const RigidObstacle &obstacle,
+                                                 const MPI_Comm communicator)
+  {
+    const double size = surface_size(surface);
+    return compute_face_moments(
+        surface,
+        [&](Vector3 &gap, const Point<3> &x, const Vector3 &normal) {
+          double     distance;
+          const bool hit = obstacle.gap(distance, x, normal, size);
+          if (hit)
+            gap = distance * normal;
+          return hit;
+        },
+        communicator);
+  }
+
+
+
+  GeometricPenetration sample_rigid_penetration(const ContactSurface &surface, const RigidObstacle &obstacle,
+                                                const std::vector<Vector3> &displacement,
+                                                const MPI_Comm              communicator)
+  {
+    // Corners, middles of edges and centres of the triangles of own faces, displaced; normals as they were.
+    const std::array<std::array<double, 3>, 7> samples = {{{{1., 0., 0.}},
+                                                           {{0., 1., 0.}},
+                                                           {{0., 0., 1.}},
+                                                           {{.5, .5, 0.}},
+                                                           {{0., .5, .5}},
+                                                           {{.5, 0., .5}},
+                                                           {{1. / 3., 1. / 3., 1. / 3.}}}};
+    const double                               size    = surface_size(surface);
+    const unsigned int                         rank    = Utilities::MPI::this_mpi_process(communicator);
+    double min_initial = std::numeric_limits<double>::infinity(), min_gap = min_initial;
+    for (unsigned int t = 0; t < surface.mesh.triangles.size(); ++t)
+      if (surface.faces[surface.triangle_face[t]].owner == rank)
+        for (const auto &w : samples)
+          {
+            Vector3 x, u, n;
+            for (unsigned int i = 0; i < 3; ++i)
+              {
+                const unsigned int v = surface.mesh.triangles[t][i];
+                x += w[i] * Vector3(surface.mesh.vertices[v]);
+                u += w[i] * displacement[v];
+                n += w[i] * surface.mesh.vertex_normals[v];
+              }
+            if (!(n.norm() > 0.))
+              continue;
+            n /= n.norm();
+            double gap;
+            if (obstacle.gap(gap, Point<3>(x), n, size))
+              {
+                min_initial = std::min(min_initial, gap);
+                if (obstacle.gap(gap, Point<3>(x + u), n, size))
+                  min_gap = std::min(min_gap, gap);
+              }
+          }
+    return {Utilities::MPI::min(min_initial, communicator), Utilities::MPI::min(min_gap, communicator)};
+  }
+} // namespace Signorini
