@@ -1,4 +1,5 @@
 signorini_add_layer(algebra
+  algebraic_multigrid.cc
   nodal_transfer.cc
   node_block_matrix.cc
   node_partition.cc

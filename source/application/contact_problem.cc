@@ -108,7 +108,8 @@ namespace Signorini
     const LevelSpaces levels(*d.space, loads);
     auto              hierarchy = std::make_unique<MultigridHierarchy>(build_hierarchy(
                      std::move(system), levels, d.coupling,
-        parameters.solver.method == SolverMethod::monotone_multigrid ? d.normals : std::vector<Vector3>()));
+        parameters.solver.method == SolverMethod::monotone_multigrid ? d.normals : std::vector<Vector3>(),
+                     parameters.solver.level_zero));
     cycle.levels                = levels.n_levels();
     cycle.times["hierarchy"] += time.wall_time();
 
@@ -213,8 +214,9 @@ namespace Signorini
         for (const auto *entry = d.coupling.begin(p); entry != d.coupling.end(p); ++entry)
           add(entry->node, entry->weight * project_free(d.row_masks[p], force));
       }
-    MultigridHierarchy        hierarchy = build_hierarchy(std::move(system), levels, none);
-    const NodeBlockMatrix    &matrix    = hierarchy.finest().matrix;
+    MultigridHierarchy hierarchy =
+        build_hierarchy(std::move(system), levels, none, {}, parameters.solver.level_zero);
+    const NodeBlockMatrix    &matrix = hierarchy.finest().matrix;
     const BasisTransformation plain(*d.space, *d.partition, d.dirichlet, none, no_masks);
     Vector                    v, solution, product;
     matrix.partition().reinit(v);

@@ -315,9 +315,58 @@ namespace Signorini
 
 
 
+  std::vector<Vector> rigid_motions(const NodalSpace &space, const NodePartition &partition,
+                                    const std::vector<FixedMask> &fixed, const InterfaceCoupling &coupling)
+  {
+    Vector positions;
+    partition.reinit(positions);
+    Vector3 centre;
+    for (unsigned int i = 0; i < partition.n_owned(); ++i)
+      for (unsigned int c = 0; c < dim; ++c)
+        {
+          positions.local_element(dim * i + c) = space.position(partition.to_global(i))[c];
+          centre[c] += positions.local_element(dim * i + c);
+        }
+    for (unsigned int c = 0; c < dim; ++c)
+      centre[c] = Utilities::MPI::sum(centre[c], partition.communicator()) /
+                  static_cast<double>(partition.n_global());
+
+    const std::vector<NodeIndex> nodes  = interface_nodes(coupling);
+    const std::vector<Vector3>   at     = replicate_values(partition, positions, nodes);
+    const auto                   motion = [&](const unsigned int m, const Vector3 &x) {
+      Vector3 axis;
+      axis[m % dim] = 1.;
+      return m < dim ? axis : cross_product_3d(axis, x - centre);
+    };
+    std::vector<Vector> motions(2 * dim);
+    for (unsigned int m = 0; m < 2 * dim; ++m)
+      {
+        partition.reinit(motions[m]);
+        for (unsigned int i = 0; i < partition.n_owned(); ++i)
+          {
+            Vector3 x;
+            for (unsigned int c = 0; c < dim; ++c)
+              x[c] = positions.local_element(dim * i + c);
+            Vector3 value = motion(m, x);
+            if (const std::ptrdiff_t p = coupling.find(partition.to_global(i)); p >= 0)
+              for (const auto *entry = coupling.begin(p); entry != coupling.end(p); ++entry)
+                value -=
+                    entry->weight *
+                    motion(m, at[std::lower_bound(nodes.begin(), nodes.end(), entry->node) - nodes.begin()]);
+            value = project_free(fixed[i], value);
+            for (unsigned int c = 0; c < dim; ++c)
+              motions[m].local_element(dim * i + c) = value[c];
+          }
+      }
+    return motions;
+  }
+
+
+
   MultigridHierarchy build_hierarchy(LinearSystem &&system, const LevelSpaces &spaces,
                                      const InterfaceCoupling    &coupling,
-                                     const std::vector<Vector3> &contact_normals)
+                                     const std::vector<Vector3> &contact_normals,
+                                     const LevelZeroMethod       level_zero_method)
   {
     MultigridHierarchy   hierarchy(std::move(system.matrix), std::move(system.fixed));
     InterfaceCoupling    fine    = coupling;
@@ -360,16 +409,19 @@ namespace Signorini
         fine    = std::move(coarse);
         normals = std::move(coarse_normals);
       }
+    LevelZero level_zero;
+    level_zero.method = level_zero_method;
     // A hierarchy of one level: its copy has the same contact nodes.
-    HalfSpaces contact;
+    const NodePartition &partition = hierarchy.coarsest().matrix.partition();
     for (std::size_t p = 0; p < normals.size(); ++p)
-      if (const NodePartition &partition = hierarchy.finest().matrix.partition();
-          partition.owns(fine.rows[p]))
+      if (partition.owns(fine.rows[p]))
         {
-          contact.nodes.push_back(partition.to_local(fine.rows[p]));
-          contact.normals.push_back(normals[p]);
+          level_zero.contact.nodes.push_back(partition.to_local(fine.rows[p]));
+          level_zero.contact.normals.push_back(normals[p]);
         }
-    hierarchy.finish(contact);
+    if (level_zero.uses_amg(partition.n_global()))
+      level_zero.near_kernel = rigid_motions(spaces.space(0), partition, spaces.fixed(0), fine);
+    hierarchy.finish(std::move(level_zero));
     return hierarchy;
   }
 } // namespace Signorini

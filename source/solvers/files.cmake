@@ -1,6 +1,7 @@
 signorini_add_layer(solvers
   coarse_cholesky.cc
   gauss_seidel_iteration.cc
+  level_zero_solver.cc
   monotone_multigrid.cc
   multigrid_hierarchy.cc
   obstacle_solver.cc

@@ -144,8 +144,9 @@ namespace Signorini
 
 
 
-  void MultigridHierarchy::finish(const HalfSpaces &contact)
+  void MultigridHierarchy::finish(LevelZero new_level_zero)
   {
+    level_zero = std::move(new_level_zero);
     if (levels.size() == 1)
       {
         const NodePartition &partition = levels[0]->matrix.partition();
@@ -169,9 +170,9 @@ namespace Signorini
         const std::vector<FixedMask> fixed(levels[0]->fixed.begin(),
                                            levels[0]->fixed.begin() + partition.n_owned());
         add_coarser_level(std::move(identity), owned, fixed);
-        levels.back()->contact = contact;
+        levels.back()->contact = level_zero.contact;
       }
-    cholesky.factorize(levels.back()->matrix);
+    level_zero_solver.setup(levels.back()->matrix, level_zero);
   }
 
 
@@ -250,7 +251,7 @@ namespace Signorini
         eliminate_fixed_components(level.matrix, level.fixed, rows, scales[l]);
         level.smoother->update_diagonal(rows);
       }
-    cholesky.factorize(levels.back()->matrix);
+    level_zero_solver.setup(levels.back()->matrix, level_zero);
     return true;
   }
 } // namespace Signorini

@@ -40,6 +40,14 @@ namespace Signorini
                : value == "monotone multigrid"         ? SolverMethod::monotone_multigrid
                                                        : SolverMethod::projected_gauss_seidel;
     });
+    prm.declare_entry("Level 0", "automatic", Patterns::Selection("automatic|cholesky|amg"),
+                      "Solver of the coarsest level: sparse Cholesky, algebraic multigrid (Trilinos ML with "
+                      "rigid motions), or automatic, Cholesky while the level is small.");
+    prm.add_action("Level 0", [this](const std::string &value) {
+      level_zero = value == "cholesky" ? LevelZeroMethod::cholesky
+                   : value == "amg"    ? LevelZeroMethod::amg
+                                       : LevelZeroMethod::automatic;
+    });
     prm.add_parameter("Pre-smoothing steps", smoothing.n_pre,
                       "Gauss-Seidel sweeps before the coarse correction.");
     prm.add_parameter("Post-smoothing steps", smoothing.n_post,

@@ -129,10 +129,10 @@ namespace Signorini
 
 
 
-    class LevelZero : public MGCoarseGridBase<Vector>
+    class CoarsestLevel : public MGCoarseGridBase<Vector>
     {
     public:
-      explicit LevelZero(const MultigridHierarchy &hierarchy)
+      explicit CoarsestLevel(const MultigridHierarchy &hierarchy)
         : hierarchy(hierarchy)
       {
       }
@@ -169,7 +169,7 @@ namespace Signorini
     LevelMatrix               matrix;
     LevelTransfer             transfer;
     LevelSmoother             pre, post;
-    LevelZero                 coarse;
+    CoarsestLevel             coarse;
     Multigrid<Vector>         multigrid;
   };
 

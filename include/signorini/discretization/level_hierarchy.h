@@ -73,7 +73,13 @@ namespace Signorini
   ///   contact nodes of the coarse levels. Empty for the exact nesting.
   MultigridHierarchy build_hierarchy(LinearSystem &&system, const LevelSpaces &spaces,
                                      const InterfaceCoupling    &coupling,
-                                     const std::vector<Vector3> &contact_normals = {});
+                                     const std::vector<Vector3> &contact_normals = {},
+                                     const LevelZeroMethod       level_zero = LevelZeroMethod::automatic);
+
+  /// Collective. The six rigid motions as v = T⁻¹ u, zero in fixed components, in the layout of a partition
+  /// of the nodes of the space: what algebraic multigrid needs to know.
+  std::vector<Vector> rigid_motions(const NodalSpace &space, const NodePartition &partition,
+                                    const std::vector<FixedMask> &fixed, const InterfaceCoupling &coupling);
 } // namespace Signorini
 
 #endif

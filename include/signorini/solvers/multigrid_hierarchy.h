@@ -6,7 +6,7 @@
 
 #include <signorini/algebra/nodal_transfer.h>
 #include <signorini/algebra/node_block_matrix.h>
-#include <signorini/solvers/coarse_cholesky.h>
+#include <signorini/solvers/level_zero_solver.h>
 #include <signorini/solvers/obstacle_problem.h>
 #include <signorini/solvers/projected_gauss_seidel.h>
 
@@ -59,10 +59,9 @@ namespace Signorini
     /// same on all ranks) and one layer of neighbours.
     void set_interface(const std::vector<NodeIndex> &contact_nodes);
 
-    /// Collective. After the last level: factorizes level 0. A hierarchy of a single level gets an
-    /// algebraic copy of it as level 0, so that the truncated problem has an exact coarse solver; `contact`
-    /// are the contact nodes of the copy.
-    void finish(const HalfSpaces &contact = {});
+    /// Collective. After the last level: sets up the solver of level 0. A hierarchy of a single level gets an
+    /// algebraic copy of it as level 0, so that the truncated problem has an exact coarse solver.
+    void finish(LevelZero level_zero = {});
 
     /// Collective. Truncates at the active ones of the half-spaces of the finest level; recomputes only
     /// what changed since the last call. Returns whether anything changed on any rank.
@@ -95,9 +94,9 @@ namespace Signorini
       return *levels.back();
     }
 
-    const CoarseCholesky &coarse_solver() const
+    const LevelZeroSolver &coarse_solver() const
     {
-      return cholesky;
+      return level_zero_solver;
     }
 
   private:
@@ -107,7 +106,8 @@ namespace Signorini
 
     /// Finest first.
     std::vector<std::unique_ptr<MultigridLevel>> levels;
-    CoarseCholesky                               cholesky;
+    LevelZero                                    level_zero;
+    LevelZeroSolver                              level_zero_solver;
     /// The blocks, before truncation, of the rows of the finest transfer that were ever truncated.
     std::unordered_map<unsigned int, std::vector<Block>> original_blocks;
     std::vector<unsigned char>                           truncated;

@@ -204,14 +204,15 @@ namespace CubeProblem
                   normals(index[0] / double(coarse.n), index[1] / double(coarse.n)));
             }
       }
-    HalfSpaces contact;
+    LevelZero   level_zero;
+    HalfSpaces &contact = level_zero.contact;
     for (const NodeIndex p : grid.owned)
       if (const auto index = grid.index(p); index[2] == 0)
         {
           contact.nodes.push_back(result.finest().matrix.partition().to_local(p));
           contact.normals.push_back(normals(index[0] / double(n), index[1] / double(n)));
         }
-    result.finish(contact);
+    result.finish(level_zero);
     return result;
   }
 } // namespace CubeProblem

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_solvers_level_zero_solver_h
+#define signorini_solvers_level_zero_solver_h
+
+#include <signorini/algebra/algebraic_multigrid.h>
+#include <signorini/solvers/coarse_cholesky.h>
+#include <signorini/solvers/obstacle_problem.h>
+
+namespace Signorini
+{
+  enum class LevelZeroMethod
+  {
+    /// Cholesky as long as the level is small.
+    automatic,
+    cholesky,
+    amg
+  };
+
+  /// What level 0 of a hierarchy needs besides its matrix.
+  struct LevelZero
+  {
+    LevelZeroMethod method = LevelZeroMethod::automatic;
+    /// Vectors of little energy on level 0 (rigid motions), for amg; may be empty.
+    std::vector<Vector> near_kernel;
+    /// Contact nodes, for a hierarchy that has to add a copy of its only level.
+    HalfSpaces contact;
+
+    /// Whether a level of so many nodes is left to amg.
+    bool uses_amg(const NodeIndex n_nodes) const;
+  };
+
+  /// Solver of level 0: sparse Cholesky, or conjugate gradients with algebraic multigrid to three digits,
+  /// which the iteration around it does not notice.
+  class LevelZeroSolver
+  {
+  public:
+    /// Collective.
+    void setup(const NodeBlockMatrix &matrix, const LevelZero &level_zero);
+
+    /// Collective. The matrix of the last setup() must still exist.
+    void solve(Vector &solution, const Vector &rhs) const;
+
+  private:
+    CoarseCholesky                      cholesky;
+    std::unique_ptr<AlgebraicMultigrid> amg;
+    const NodeBlockMatrix              *matrix = nullptr;
+  };
+} // namespace Signorini
+
+#endif
