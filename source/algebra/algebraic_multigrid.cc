@@ -75,6 +75,8 @@ namespace Signorini
 
   void AlgebraicMultigrid::initialize(const NodeBlockMatrix &matrix, const std::vector<Vector> &near_kernel)
   {
+    // Afresh: the preconditioner must not outlive its matrix.
+    implementation         = std::make_unique<Implementation>();
     implementation->matrix = convert(matrix);
     Teuchos::ParameterList parameters;
     ML_Epetra::SetDefaults("SA", parameters);
@@ -87,7 +89,6 @@ namespace Signorini
     if (!near_kernel.empty())
       {
         const std::size_t n = dim * static_cast<std::size_t>(matrix.n_rows());
-        implementation->modes.clear();
         for (const Vector &mode : near_kernel)
           implementation->modes.insert(implementation->modes.end(), mode.begin(), mode.begin() + n);
         parameters.set("null space: type", "pre-computed");

@@ -93,6 +93,20 @@ namespace Signorini
 
 
 
+  std::unique_ptr<MultigridHierarchy> ContactProblem::make_hierarchy(LinearSystem     &&system,
+                                                                     const LevelSpaces &levels) const
+  {
+    const SolverMethod method = parameters.solver.method;
+    if (!needs_levels(method))
+      return std::make_unique<MultigridHierarchy>(std::move(system.matrix), std::move(system.fixed));
+    return std::make_unique<MultigridHierarchy>(build_hierarchy(
+        std::move(system), levels, discretization.coupling,
+        method == SolverMethod::monotone_multigrid ? discretization.normals : std::vector<Vector3>(),
+        parameters.solver.level_zero));
+  }
+
+
+
   void ContactProblem::solve_cycle(CycleResult &cycle)
   {
     Discretization &d = discretization;
@@ -106,16 +120,16 @@ namespace Signorini
     time.restart();
     progress.show("building levels");
     const LevelSpaces levels(*d.space, loads);
-    auto              hierarchy = std::make_unique<MultigridHierarchy>(build_hierarchy(
-                     std::move(system), levels, d.coupling,
-        parameters.solver.method == SolverMethod::monotone_multigrid ? d.normals : std::vector<Vector3>(),
-                     parameters.solver.level_zero));
+    auto              hierarchy = make_hierarchy(std::move(system), levels);
     cycle.levels                = levels.n_levels();
     cycle.times["hierarchy"] += time.wall_time();
 
     time.restart();
-    const NodeBlockMatrix    &matrix = hierarchy->finest().matrix;
-    const std::vector<double> gaps   = d.transformation->reduce_gaps(d.gaps, d.normals);
+    const NodeBlockMatrix &matrix = hierarchy->finest().matrix;
+    if (parameters.solver.method == SolverMethod::active_set_amg)
+      problem.near_kernel =
+          rigid_motions(*d.space, matrix.partition(), hierarchy->finest().fixed, d.coupling);
+    const std::vector<double> gaps = d.transformation->reduce_gaps(d.gaps, d.normals);
     for (std::size_t p = 0; p < d.coupling.n_rows(); ++p)
       if (matrix.partition().owns(d.coupling.rows[p]))
         {
@@ -182,7 +196,9 @@ namespace Signorini
     /// The linear multigrid that a contact solver compares with.
     SolverMethod linear_method(const SolverMethod method)
     {
-      return method == SolverMethod::monotone_multigrid ? SolverMethod::truncated_newton_multigrid : method;
+      return method == SolverMethod::truncated_newton_multigrid || method == SolverMethod::monotone_multigrid
+                 ? SolverMethod::truncated_newton_multigrid
+                 : SolverMethod::accelerated;
     }
   } // namespace
 

@@ -13,6 +13,8 @@ namespace Signorini
     void write_solver(JsonWriter &json, const ConvergenceReport &report)
     {
       json.number("iterations", report.iterations);
+      if (report.linear_cycles > 0)
+        json.number("amg_cycles", report.linear_cycles);
       json.number("rate", report.rate);
       json.begin('[', "history");
       for (const double correction : report.history)

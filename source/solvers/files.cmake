@@ -1,4 +1,5 @@
 signorini_add_layer(solvers
+  active_set_amg.cc
   coarse_cholesky.cc
   gauss_seidel_iteration.cc
   level_zero_solver.cc

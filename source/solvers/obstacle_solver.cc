@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/solvers/active_set_amg.h>
 #include <signorini/solvers/gauss_seidel_iteration.h>
 #include <signorini/solvers/monotone_multigrid.h>
 #include <signorini/solvers/obstacle_solver.h>
@@ -19,27 +20,34 @@ namespace Signorini
     constexpr double near_rounding = 1e-9;
     /// So many iterations without a new smallest correction are stagnation.
     constexpr std::size_t patience = 6;
+
+    const std::map<std::string, SolverMethod> &method_names()
+    {
+      static const std::map<std::string, SolverMethod> names = {
+          {"accelerated", SolverMethod::accelerated},
+          {"truncated newton multigrid", SolverMethod::truncated_newton_multigrid},
+          {"monotone multigrid", SolverMethod::monotone_multigrid},
+          {"active set amg", SolverMethod::active_set_amg},
+          {"projected gauss seidel", SolverMethod::projected_gauss_seidel}};
+      return names;
+    }
   } // namespace
 
 
 
   void SolverParameters::add_parameters(ParameterHandler &prm)
   {
-    prm.declare_entry(
-        "Method", "accelerated",
-        Patterns::Selection("accelerated|truncated newton multigrid|monotone multigrid|projected "
-                            "gauss seidel"),
-        "accelerated: truncated Newton multigrid whose V-cycle preconditions conjugate "
-        "gradients while the active set rests (the fastest). truncated newton multigrid: "
-        "without conjugate gradients. monotone multigrid: the method of Krause and Sander, "
-        "with obstacles on all levels. projected gauss seidel: sweeps alone, for tiny "
-        "problems.");
-    prm.add_action("Method", [this](const std::string &value) {
-      method = value == "accelerated"                  ? SolverMethod::accelerated
-               : value == "truncated newton multigrid" ? SolverMethod::truncated_newton_multigrid
-               : value == "monotone multigrid"         ? SolverMethod::monotone_multigrid
-                                                       : SolverMethod::projected_gauss_seidel;
-    });
+    std::string names;
+    for (const auto &entry : method_names())
+      names += (names.empty() ? "" : "|") + entry.first;
+    prm.declare_entry("Method", "accelerated", Patterns::Selection(names),
+                      "accelerated: truncated Newton multigrid whose V-cycle preconditions conjugate "
+                      "gradients while the active set rests (the fastest). truncated newton multigrid: "
+                      "without conjugate gradients. monotone multigrid: the method of Krause and Sander, "
+                      "with obstacles on all levels. active set amg: primal-dual active set, each linear "
+                      "problem by conjugate gradients with algebraic multigrid (a baseline). projected gauss "
+                      "seidel: sweeps alone, for tiny problems.");
+    prm.add_action("Method", [this](const std::string &value) { method = method_names().at(value); });
     prm.declare_entry("Level 0", "automatic", Patterns::Selection("automatic|cholesky|amg"),
                       "Solver of the coarsest level: sparse Cholesky, algebraic multigrid (Trilinos ML with "
                       "rigid motions), or automatic, Cholesky while the level is small.");
@@ -242,6 +250,8 @@ namespace Signorini
       {
         case SolverMethod::monotone_multigrid:
           return std::make_unique<MonotoneMultigrid>(hierarchy, parameters);
+        case SolverMethod::active_set_amg:
+          return std::make_unique<ActiveSetAmg>(hierarchy, parameters);
         case SolverMethod::projected_gauss_seidel:
           return std::make_unique<GaussSeidelIteration>(hierarchy, parameters);
         default:

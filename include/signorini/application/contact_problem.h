@@ -113,6 +113,8 @@ namespace Signorini
     void         use_nodal_gaps(PairCoupling &coupling, const ContactPair &pair) const;
     unsigned int choose_nonmortar(const PairDefinition &definition, const ContactSurface (&surfaces)[2]);
     void         solve_cycle(CycleResult &cycle);
+    std::unique_ptr<MultigridHierarchy> make_hierarchy(LinearSystem     &&system,
+                                                       const LevelSpaces &levels) const;
     void evaluate_contact(const Vector &v, const ObstacleProblem &problem, const NodeBlockMatrix &matrix,
                           const std::vector<double> &gaps, const std::vector<unsigned char> &active);
     void solve_linear(CycleResult &cycle, const LevelSpaces &levels, const Vector &start);

@@ -18,6 +18,8 @@ namespace Signorini
     bool stagnated = false;
     /// Applications of the V-cycle.
     unsigned int iterations = 0;
+    /// Cycles of algebraic multigrid on the finest level, where that is the method.
+    unsigned int linear_cycles = 0;
     /// Energy norm of the correction, one entry per iteration.
     std::vector<double> history;
     /// Energy norm of the iterate after the last iteration: the scale of the stop rule.

@@ -34,6 +34,8 @@ namespace Signorini
   {
     Vector     rhs;
     HalfSpaces half_spaces;
+    /// Vectors of little energy (rigid motions), for algebraic multigrid; may be empty.
+    std::vector<Vector> near_kernel;
   };
 } // namespace Signorini
 

@@ -22,6 +22,7 @@ namespace Signorini
     accelerated,
     truncated_newton_multigrid,
     monotone_multigrid,
+    active_set_amg,
     projected_gauss_seidel
   };
 
@@ -62,7 +63,7 @@ namespace Signorini
     }
 
     /// For each half-space of the last solve whether it is active.
-    const std::vector<unsigned char> &active() const
+    virtual const std::vector<unsigned char> &active() const
     {
       return hierarchy.finest().smoother->active();
     }
@@ -99,6 +100,12 @@ namespace Signorini
     MultigridHierarchy    &hierarchy;
     const SolverParameters parameters;
   };
+
+  /// Whether a method works on the finest level alone.
+  inline bool needs_levels(const SolverMethod method)
+  {
+    return method != SolverMethod::active_set_amg && method != SolverMethod::projected_gauss_seidel;
+  }
 
   /// The solver that the parameters name. A monotone multigrid needs a hierarchy with coarse normals
   /// (MultigridLevel::contact).

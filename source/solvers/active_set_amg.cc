@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/solvers/active_set_amg.h>
+
+#include <deal.II/base/mpi.h>
+
+namespace Signorini
+{
+  using namespace dealii;
+
+  namespace
+  {
+    constexpr unsigned int most_cycles = 1000;
+
+    double normal_part(const HalfSpaces &half_spaces, const std::size_t p, const Vector &values)
+    {
+      double sum = 0.;
+      for (unsigned int c = 0; c < dim; ++c)
+        sum += half_spaces.normals[p][c] * values.local_element(dim * half_spaces.nodes[p] + c);
+      return sum;
+    }
+
+    void add_normal(Vector &x, const HalfSpaces &half_spaces, const std::size_t p, const double length)
+    {
+      for (unsigned int c = 0; c < dim; ++c)
+        x.local_element(dim * half_spaces.nodes[p] + c) += length * half_spaces.normals[p][c];
+    }
+  } // namespace
+
+
+
+  void ActiveSetAmg::remove_normal_parts(Vector &x, const HalfSpaces &half_spaces) const
+  {
+    for (std::size_t p = 0; p < half_spaces.size(); ++p)
+      if (is_active[p])
+        add_normal(x, half_spaces, p, -normal_part(half_spaces, p, x));
+  }
+
+
+
+  NodeBlockMatrix ActiveSetAmg::reduced_matrix(const HalfSpaces &half_spaces) const
+  {
+    NodeBlockMatrix      result    = hierarchy.finest().matrix;
+    const NodePartition &partition = result.partition();
+    Vector               planes;
+    partition.reinit(planes);
+    for (std::size_t p = 0; p < half_spaces.size(); ++p)
+      if (is_active[p])
+        add_normal(planes, half_spaces, p, 1.);
+    planes.update_ghost_values();
+    const auto plane = [&](const unsigned int node) {
+      Vector3 n;
+      for (unsigned int c = 0; c < dim; ++c)
+        n[c] = planes.local_element(dim * node + c);
+      return n;
+    };
+    for (unsigned int i = 0; i < result.n_rows(); ++i)
+      {
+        const Vector3 row_normal = plane(i);
+        for (std::size_t k = result.row_begin(i); k < result.row_end(i); ++k)
+          {
+            const Vector3 column_normal = plane(result.column(k));
+            if (row_normal.norm_square() == 0. && column_normal.norm_square() == 0.)
+              continue;
+            Block block;
+            std::copy_n(result.block(k), 9, block.begin_raw());
+            const double stiffness = row_normal * (block * row_normal);
+            block -= outer_product(row_normal, row_normal * block);
+            block -= outer_product(block * column_normal, column_normal);
+            if (k == result.row_begin(i))
+              block += stiffness * outer_product(row_normal, row_normal);
+            std::copy_n(block.begin_raw(), 9, result.block(k));
+          }
+      }
+    return result;
+  }
+
+
+
+  ConvergenceReport ActiveSetAmg::solve(Vector &v, const ObstacleProblem &problem, const Monitor &monitor)
+  {
+    const NodeBlockMatrix &matrix   = hierarchy.finest().matrix;
+    const HalfSpaces      &spaces   = problem.half_spaces;
+    const MPI_Comm         comm     = matrix.partition().communicator();
+    ProjectedGaussSeidel  &smoother = *hierarchy.finest().smoother;
+    smoother.set_half_spaces(spaces);
+    smoother.project(v);
+    is_active = smoother.active();
+
+    ConvergenceReport  report;
+    AlgebraicMultigrid amg;
+    NodeBlockMatrix    reduced;
+    Vector             residual, correction, product;
+    for (Vector *vector : {&residual, &correction, &product})
+      vector->reinit(v);
+    double reference = 0.;
+    bool   changed   = true;
+    while (goes_on(report))
+      {
+        if (changed)
+          {
+            reduced                         = reduced_matrix(spaces);
+            std::vector<Vector> near_kernel = problem.near_kernel;
+            for (Vector &mode : near_kernel)
+              remove_normal_parts(mode, spaces);
+            amg.initialize(reduced, near_kernel);
+            ++report.hierarchy_updates;
+          }
+        const Vector start = v;
+        for (std::size_t p = 0; p < spaces.size(); ++p)
+          if (is_active[p])
+            add_normal(v, spaces, p, spaces.bounds[p] - normal_part(spaces, p, v));
+        matrix.vmult(residual, v);
+        residual.sadd(-1., 1., problem.rhs);
+        remove_normal_parts(residual, spaces);
+        const double size = residual.l2_norm();
+        reference         = std::max(reference, size);
+        correction        = 0.;
+        if (size > parameters.tolerance * reference)
+          report.linear_cycles += solve_cg(reduced, amg, correction, residual,
+                                           parameters.tolerance * reference / size, most_cycles);
+        v += correction;
+
+        // Contact pressure where it pushes, or penetration, in the measure of the node's own stiffness.
+        matrix.vmult(residual, v);
+        const double square = v * residual;
+        residual.sadd(-1., 1., problem.rhs);
+        changed = false;
+        for (std::size_t p = 0; p < spaces.size(); ++p)
+          {
+            Block block;
+            std::copy_n(matrix.block(matrix.row_begin(spaces.nodes[p])), 9, block.begin_raw());
+            const double        stiffness = spaces.normals[p] * (block * spaces.normals[p]);
+            const double        excess    = is_active[p] ? 0. : normal_part(spaces, p, v) - spaces.bounds[p];
+            const double        force     = is_active[p] ? normal_part(spaces, p, residual) : 0.;
+            const unsigned char now       = force + stiffness * excess > 0.;
+            changed                       = changed || now != is_active[p];
+            is_active[p]                  = now;
+          }
+        changed    = Utilities::MPI::max(static_cast<int>(changed), comm) != 0;
+        correction = v;
+        correction -= start;
+        matrix.vmult(product, correction);
+        book_iteration(report, std::sqrt(std::max(0., correction * product)), std::sqrt(std::max(0., square)),
+                       monitor);
+        // The active set decides; the linear problems have been solved to the tolerance.
+        report.converged = !changed;
+        report.stagnated = false;
+        report.note.clear();
+      }
+    close(report, v, problem);
+    return report;
+  }
+} // namespace Signorini
