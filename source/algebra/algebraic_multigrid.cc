@@ -83,9 +83,9 @@ namespace Signorini
     parameters.set("ML output", 0);
     parameters.set("PDE equations", static_cast<int>(dim));
     parameters.set("aggregation: threshold", .01);
-    parameters.set("smoother: type", "symmetric Gauss-Seidel");
+    parameters.set("smoother: type", "Chebyshev");
     parameters.set("smoother: sweeps", 2);
-    parameters.set("coarse: max size", 2000);
+    parameters.set("coarse: max size", 500);
     if (!near_kernel.empty())
       {
         const std::size_t n = dim * static_cast<std::size_t>(matrix.n_rows());

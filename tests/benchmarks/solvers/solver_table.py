@@ -1,0 +1,58 @@
+#!/usr/bin/python3
+"""All solvers on the example problems: iterations on every level, and the cost of the finest solve.
+
+usage: solver_table.py PROGRAM [--large] [--tolerance T]
+
+Costs are those of the finest solve with its hierarchy, in seconds and in sweeps (time of a Gauss-Seidel sweep in the same run, method.md,
+section 8). --large refines once more: 0.4 to 0.5 million unknowns (some minutes, 2 GB).
+"""
+import argparse
+import json
+import os
+import subprocess
+import tempfile
+
+TOP = os.path.dirname(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
+METHODS = ('accelerated', 'truncated newton multigrid', 'monotone multigrid', 'active set amg')
+# Name, parameter file, settings, settings of the large run.
+PROBLEMS = (('patch test', 'patch_test/patch_test.prm', ('Refinement/Global cycles=3',), ('Refinement/Global cycles=4',)),
+            ('M1', 'cubes/cubes.prm', (), ('Refinement/Global cycles=4',)),
+            ('S1', 'obstacle/paraboloid.prm', (), ('Refinement/Global cycles=5',)),
+            ('hertz', 'hertz/hertz.prm', ('Refinement/Final global cycles=1',), ()),
+            ('paper', 'hertz/paper.prm', (), ()))
+
+
+def solve(program, prm, settings):
+    with tempfile.TemporaryDirectory() as folder:
+        out = os.path.join(folder, 'out')
+        command = [program, os.path.join(TOP, 'prm', prm), '--output', out]
+        for setting in ('Output/Verbosity=0', 'Output/Bodies=false', 'Output/Contact surfaces=false') + tuple(settings):
+            command += ['--set', setting]
+        subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+        with open(os.path.join(out, 'summary.json')) as f:
+            return json.load(f)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument('program')
+    parser.add_argument('--large', action='store_true')
+    parser.add_argument('--tolerance', default='1e-12')
+    options = parser.parse_args()
+    print(f'{"problem":<11}{"dofs":>9}  {"method":<28}{"iterations per level (linear multigrid)":<66}{"solve":>8}{"sweeps":>8}{"/linear":>9}')
+    for name, prm, settings, large in PROBLEMS:
+        for method in METHODS:
+            s = solve(options.program, prm, (large if options.large else settings) + (f'Solver/Method={method}', f'Solver/Tolerance={options.tolerance}'))
+            last = s['cycles'][-1]
+            counts = []
+            for c in s['cycles']:
+                linear = f'({c["linear"]["iterations"]})' if 'linear' in c and method != 'active set amg' else ''
+                amg = f'[{c["nonlinear"].get("amg_cycles", 0)}]' if method == 'active set amg' else ''
+                counts.append(f'{c["nonlinear"]["iterations"]}{linear}{amg}')
+            time = last['times_s']['solve'] + (0 if method == 'active set amg' else last['times_s']['hierarchy'])
+            linear = f'{time / last["times_s"]["linear_solve"]:9.2f}' if 'linear' in last and method != 'active set amg' else f'{"-":>9}'
+            print(f'{name:<11}{last["dofs"]:>9}  {method:<28}{" ".join(counts):<66}{time:8.2f}{time / last["sweep_time_s"]:8.0f}{linear}', flush=True)
+
+
+if __name__ == '__main__':
+    main()
