@@ -205,4 +205,15 @@ namespace Signorini
     return values.capacity() * sizeof(double) + columns.capacity() * sizeof(unsigned int) +
            row_start.capacity() * sizeof(std::size_t);
   }
+
+
+
+  double diagonal_scale(const NodeBlockMatrix &matrix)
+  {
+    double scale = 0.;
+    for (unsigned int i = 0; i < matrix.n_rows(); ++i)
+      for (unsigned int c = 0; c < dim; ++c)
+        scale = std::max(scale, matrix.block(matrix.row_begin(i))[(dim + 1) * c]);
+    return Utilities::MPI::max(scale, matrix.partition().communicator());
+  }
 } // namespace Signorini

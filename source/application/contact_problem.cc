@@ -59,6 +59,7 @@ namespace Signorini
     d.space           = std::make_unique<NodalSpace>(bodies.triangulation());
     d.partition       = std::make_unique<NodePartition>(d.space->owned(), d.space->relevant(), comm);
     d.dirichlet       = evaluate_dirichlet(*d.space, loads, true);
+    d.free_motions    = free_motions(bodies, *d.space, d.dirichlet);
   }
 
 
@@ -99,10 +100,11 @@ namespace Signorini
     const SolverMethod method = parameters.solver.method;
     if (!needs_levels(method))
       return std::make_unique<MultigridHierarchy>(std::move(system.matrix), std::move(system.fixed));
-    return std::make_unique<MultigridHierarchy>(build_hierarchy(
-        std::move(system), levels, discretization.coupling,
-        method == SolverMethod::monotone_multigrid ? discretization.normals : std::vector<Vector3>(),
-        parameters.solver.level_zero));
+    HierarchyOptions options{{}, parameters.solver.level_zero, discretization.free_motions, &bodies};
+    if (method == SolverMethod::monotone_multigrid)
+      options.contact_normals = discretization.normals;
+    return std::make_unique<MultigridHierarchy>(
+        build_hierarchy(std::move(system), levels, discretization.coupling, options));
   }
 
 
@@ -163,8 +165,12 @@ namespace Signorini
       progress.show("solving",
                     correction > 0. ? std::log(correction) / std::log(parameters.solver.tolerance) : 1.);
     };
+    if (!d.free_motions.empty())
+      hold_free_bodies(v, problem, *hierarchy, !has_start);
     const auto solver = make_solver(*hierarchy, parameters.solver);
     cycle.nonlinear   = solver->solve(v, problem, monitor);
+    if (!d.free_motions.empty())
+      remove_free_motions(v, problem, *hierarchy, solver->active());
     cycle.times["solve"] += time.wall_time();
     if (!cycle.nonlinear.converged)
       {
@@ -230,13 +236,14 @@ namespace Signorini
         for (const auto *entry = d.coupling.begin(p); entry != d.coupling.end(p); ++entry)
           add(entry->node, entry->weight * project_free(d.row_masks[p], force));
       }
-    MultigridHierarchy hierarchy =
-        build_hierarchy(std::move(system), levels, none, {}, parameters.solver.level_zero);
+    MultigridHierarchy hierarchy = build_hierarchy(
+        std::move(system), levels, none, {{}, parameters.solver.level_zero, d.free_motions, &bodies});
     const NodeBlockMatrix    &matrix = hierarchy.finest().matrix;
     const BasisTransformation plain(*d.space, *d.partition, d.dirichlet, none, no_masks);
     Vector                    v, solution, product;
     matrix.partition().reinit(v);
     plain.from_displacement(v, start);
+    problem.semidefinite               = !d.free_motions.empty();
     SolverParameters linear_parameters = parameters.solver;
     linear_parameters.method           = linear_method(parameters.solver.method);
     const auto solver                  = make_solver(hierarchy, linear_parameters);
@@ -316,7 +323,7 @@ namespace Signorini
         if (cycle == 0)
           {
             setup_space();
-            check_rigid_motions(bodies, *discretization.space, discretization.dirichlet);
+            check_free_bodies();
           }
         else if (refinement.mark(bodies.triangulation(), cycle))
           {

@@ -2,6 +2,7 @@ signorini_add_layer(application
   contact_evaluation.cc
   contact_problem.cc
   contact_setup.cc
+  free_bodies.cc
   parameters.cc
   problem_description.cc
   write_results.cc

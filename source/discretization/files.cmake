@@ -5,5 +5,6 @@ signorini_add_layer(discretization
   hexahedron.cc
   interpolation_exchange.cc
   level_hierarchy.cc
+  rigid_support.cc
   vertex_expansion.cc
 )

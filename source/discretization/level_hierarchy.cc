@@ -315,48 +315,66 @@ namespace Signorini
 
 
 
+  namespace
+  {
+    /// v = T⁻¹ u, zero in fixed components, in place.
+    void make_relative(Vector &u, const NodePartition &partition, const std::vector<FixedMask> &fixed,
+                       const InterfaceCoupling &coupling)
+    {
+      const std::vector<NodeIndex> nodes  = interface_nodes(coupling);
+      const std::vector<Vector3>   values = replicate_values(partition, u, nodes);
+      for (unsigned int i = 0; i < partition.n_owned(); ++i)
+        {
+          Vector3 value;
+          for (unsigned int c = 0; c < dim; ++c)
+            value[c] = u.local_element(dim * i + c);
+          if (const std::ptrdiff_t p = coupling.find(partition.to_global(i)); p >= 0)
+            for (const auto *entry = coupling.begin(p); entry != coupling.end(p); ++entry)
+              value -= entry->weight *
+                       values[std::lower_bound(nodes.begin(), nodes.end(), entry->node) - nodes.begin()];
+          value = project_free(fixed[i], value);
+          for (unsigned int c = 0; c < dim; ++c)
+            u.local_element(dim * i + c) = value[c];
+        }
+    }
+
+    /// The same span, orthonormal.
+    void orthonormalize(std::vector<Vector> &vectors)
+    {
+      for (std::size_t i = 0; i < vectors.size(); ++i)
+        {
+          for (unsigned int twice = 0; twice < 2; ++twice)
+            for (std::size_t j = 0; j < i; ++j)
+              vectors[i].add(-(vectors[j] * vectors[i]), vectors[j]);
+          vectors[i] /= vectors[i].l2_norm();
+        }
+    }
+  } // namespace
+
+
+
   std::vector<Vector> rigid_motions(const NodalSpace &space, const NodePartition &partition,
                                     const std::vector<FixedMask> &fixed, const InterfaceCoupling &coupling)
   {
-    Vector positions;
-    partition.reinit(positions);
-    Vector3 centre;
+    Point<3> centre;
     for (unsigned int i = 0; i < partition.n_owned(); ++i)
-      for (unsigned int c = 0; c < dim; ++c)
-        {
-          positions.local_element(dim * i + c) = space.position(partition.to_global(i))[c];
-          centre[c] += positions.local_element(dim * i + c);
-        }
+      centre += Vector3(space.position(partition.to_global(i)));
     for (unsigned int c = 0; c < dim; ++c)
       centre[c] = Utilities::MPI::sum(centre[c], partition.communicator()) /
                   static_cast<double>(partition.n_global());
-
-    const std::vector<NodeIndex> nodes  = interface_nodes(coupling);
-    const std::vector<Vector3>   at     = replicate_values(partition, positions, nodes);
-    const auto                   motion = [&](const unsigned int m, const Vector3 &x) {
-      Vector3 axis;
-      axis[m % dim] = 1.;
-      return m < dim ? axis : cross_product_3d(axis, x - centre);
-    };
     std::vector<Vector> motions(2 * dim);
     for (unsigned int m = 0; m < 2 * dim; ++m)
       {
+        FreeMotion motion{0, centre, 1., Vector3(), Vector3()};
+        (m < dim ? motion.translation : motion.rotation)[m % dim] = 1.;
         partition.reinit(motions[m]);
         for (unsigned int i = 0; i < partition.n_owned(); ++i)
           {
-            Vector3 x;
+            const Vector3 u = motion(space.position(partition.to_global(i)));
             for (unsigned int c = 0; c < dim; ++c)
-              x[c] = positions.local_element(dim * i + c);
-            Vector3 value = motion(m, x);
-            if (const std::ptrdiff_t p = coupling.find(partition.to_global(i)); p >= 0)
-              for (const auto *entry = coupling.begin(p); entry != coupling.end(p); ++entry)
-                value -=
-                    entry->weight *
-                    motion(m, at[std::lower_bound(nodes.begin(), nodes.end(), entry->node) - nodes.begin()]);
-            value = project_free(fixed[i], value);
-            for (unsigned int c = 0; c < dim; ++c)
-              motions[m].local_element(dim * i + c) = value[c];
+              motions[m].local_element(dim * i + c) = u[c];
           }
+        make_relative(motions[m], partition, fixed, coupling);
       }
     return motions;
   }
@@ -364,13 +382,11 @@ namespace Signorini
 
 
   MultigridHierarchy build_hierarchy(LinearSystem &&system, const LevelSpaces &spaces,
-                                     const InterfaceCoupling    &coupling,
-                                     const std::vector<Vector3> &contact_normals,
-                                     const LevelZeroMethod       level_zero_method)
+                                     const InterfaceCoupling &coupling, const HierarchyOptions &options)
   {
     MultigridHierarchy   hierarchy(std::move(system.matrix), std::move(system.fixed));
     InterfaceCoupling    fine    = coupling;
-    std::vector<Vector3> normals = contact_normals;
+    std::vector<Vector3> normals = options.contact_normals;
     for (unsigned int l = spaces.n_levels() - 1;; --l)
       {
         const NodePartition         &partition = hierarchy.coarsest().matrix.partition();
@@ -410,7 +426,7 @@ namespace Signorini
         normals = std::move(coarse_normals);
       }
     LevelZero level_zero;
-    level_zero.method = level_zero_method;
+    level_zero.method = options.level_zero;
     // A hierarchy of one level: its copy has the same contact nodes.
     const NodePartition &partition = hierarchy.coarsest().matrix.partition();
     for (std::size_t p = 0; p < normals.size(); ++p)
@@ -419,6 +435,14 @@ namespace Signorini
           level_zero.contact.nodes.push_back(partition.to_local(fine.rows[p]));
           level_zero.contact.normals.push_back(normals[p]);
         }
+    if (!options.free_motions.empty())
+      {
+        level_zero.free_motions =
+            motion_fields(options.free_motions, *options.bodies, spaces.space(0), partition);
+        for (Vector &motion : level_zero.free_motions)
+          make_relative(motion, partition, spaces.fixed(0), fine);
+        orthonormalize(level_zero.free_motions);
+      }
     if (level_zero.uses_amg(partition.n_global()))
       level_zero.near_kernel = rigid_motions(spaces.space(0), partition, spaces.fixed(0), fine);
     hierarchy.finish(std::move(level_zero));

@@ -7,6 +7,7 @@ signorini_add_layer(solvers
   multigrid_hierarchy.cc
   obstacle_solver.cc
   projected_gauss_seidel.cc
+  strong_blocks.cc
   sweep_measurement.cc
   sweep_schedule.cc
   truncated_newton_multigrid.cc

@@ -3,14 +3,20 @@
 
 #include <signorini/solvers/level_zero_solver.h>
 
+#include <Eigen/Dense>
+
 namespace Signorini
 {
   namespace
   {
     /// From here on the fill of the factors costs more than the cycles.
-    constexpr NodeIndex    largest_for_cholesky = 500;
-    constexpr double       amg_tolerance        = 1e-3;
-    constexpr unsigned int amg_iterations       = 100;
+    constexpr NodeIndex largest_for_cholesky = 500;
+    constexpr double    amg_tolerance        = 1e-3;
+    /// A motion whose energy is below this part of the largest diagonal entry; work below this part of the
+    /// largest load.
+    constexpr double       costs_nothing = 1e-9, no_load = 1e-6;
+    constexpr double       regularization = 1e-6;
+    constexpr unsigned int amg_iterations = 100;
   } // namespace
 
 
@@ -26,19 +32,89 @@ namespace Signorini
   void LevelZeroSolver::setup(const NodeBlockMatrix &new_matrix, const LevelZero &level_zero)
   {
     matrix = &new_matrix;
-    if (!level_zero.uses_amg(new_matrix.partition().n_global()))
+    if (!level_zero.free_motions.empty())
+      {
+        make_definite(new_matrix, level_zero.free_motions);
+        matrix = &definite;
+      }
+    if (!level_zero.uses_amg(matrix->partition().n_global()))
       {
         amg.reset();
-        cholesky.factorize(new_matrix);
+        cholesky.factorize(*matrix);
         return;
       }
     amg = std::make_unique<AlgebraicMultigrid>();
-    amg->initialize(new_matrix, level_zero.near_kernel);
+    amg->initialize(*matrix, level_zero.near_kernel);
+  }
+
+
+
+  void LevelZeroSolver::make_definite(const NodeBlockMatrix     &singular,
+                                      const std::vector<Vector> &free_motions)
+  {
+    const auto      n = static_cast<Eigen::Index>(free_motions.size());
+    Eigen::MatrixXd energies(n, n);
+    Vector          motion, product;
+    singular.partition().reinit(motion);
+    singular.partition().reinit(product);
+    for (Eigen::Index i = 0; i < n; ++i)
+      {
+        motion.copy_locally_owned_data_from(free_motions[i]);
+        singular.vmult(product, motion);
+        for (Eigen::Index j = 0; j < n; ++j)
+          {
+            motion.copy_locally_owned_data_from(free_motions[j]);
+            energies(i, j) = product * motion;
+          }
+      }
+    const double                                         scale = diagonal_scale(singular);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(.5 * (energies + energies.transpose()));
+    kernel.clear();
+    for (Eigen::Index k = 0; k < n; ++k)
+      if (eigen.eigenvalues()[k] <= costs_nothing * scale)
+        {
+          kernel.emplace_back();
+          singular.partition().reinit(kernel.back());
+          for (Eigen::Index i = 0; i < n; ++i)
+            {
+              motion.copy_locally_owned_data_from(free_motions[i]);
+              kernel.back().add(eigen.eigenvectors()(i, k), motion);
+            }
+        }
+    definite = singular;
+    for (unsigned int i = 0; i < definite.n_rows(); ++i)
+      for (unsigned int k = 0; k < 9; ++k)
+        definite.block(definite.row_begin(i))[k] *= 1. + regularization;
   }
 
 
 
   void LevelZeroSolver::solve(Vector &solution, const Vector &rhs) const
+  {
+    if (kernel.empty())
+      {
+        solve_definite(solution, rhs);
+        return;
+      }
+    largest_rhs                  = std::max(largest_rhs, rhs.l2_norm());
+    Vector            consistent = rhs;
+    std::vector<bool> is_loaded;
+    for (const Vector &motion : kernel)
+      {
+        const double work = motion * rhs;
+        is_loaded.push_back(std::abs(work) > no_load * largest_rhs);
+        if (!is_loaded.back())
+          consistent.add(-work, motion);
+      }
+    solve_definite(solution, consistent);
+    for (std::size_t k = 0; k < kernel.size(); ++k)
+      if (!is_loaded[k])
+        solution.add(-(kernel[k] * solution), kernel[k]);
+  }
+
+
+
+  void LevelZeroSolver::solve_definite(Vector &solution, const Vector &rhs) const
   {
     if (!amg)
       {

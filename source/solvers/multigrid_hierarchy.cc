@@ -55,17 +55,6 @@ namespace Signorini
 
 
 
-  double diagonal_scale(const NodeBlockMatrix &matrix)
-  {
-    double scale = 0.;
-    for (unsigned int i = 0; i < matrix.n_rows(); ++i)
-      for (unsigned int c = 0; c < dim; ++c)
-        scale = std::max(scale, matrix.block(matrix.row_begin(i))[(dim + 1) * c]);
-    return Utilities::MPI::max(scale, matrix.partition().communicator());
-  }
-
-
-
   void eliminate_fixed_components(NodeBlockMatrix &matrix, const std::vector<FixedMask> &fixed,
                                   const std::vector<unsigned int> &rows, const double scale)
   {

@@ -149,8 +149,14 @@ namespace Signorini
     product.reinit(v);
     hierarchy.finest().matrix.vmult(product, c);
     const double slope = residual * c, curvature = product * c;
+    double       longest = std::max(1., admissible_step(v, c, problem.half_spaces));
+    // Where c is close to a motion that costs nothing, its curvature is rounding.
+    if (problem.semidefinite)
+      longest = std::min(longest, 2.);
     if (curvature > 0. && slope > 0.)
-      v.add(std::min(slope / curvature, std::max(1., admissible_step(v, c, problem.half_spaces))), c);
+      v.add(std::min(slope / curvature, longest), c);
+    else if (problem.semidefinite && slope > 0.)
+      v.add(1., c);
   }
 
 

@@ -13,6 +13,7 @@ namespace Signorini
   ProjectedGaussSeidel::ProjectedGaussSeidel(const NodeBlockMatrix &matrix)
     : matrix(matrix)
     , all_rows(matrix.partition())
+    , blocks(matrix, all_rows)
     , interface_rows(all_rows.subset({}))
     , inverse_diagonal(9 * static_cast<std::size_t>(matrix.n_rows()))
     , half_space_of_row(matrix.n_rows(), -1)
@@ -33,6 +34,7 @@ namespace Signorini
 
   void ProjectedGaussSeidel::update_diagonal(const std::vector<unsigned int> &rows)
   {
+    blocks.update(rows);
     Block block;
     for (const unsigned int row : rows)
       {
@@ -134,7 +136,11 @@ namespace Signorini
 
   void ProjectedGaussSeidel::sweep(Vector &v, const Vector &rhs, const Direction direction)
   {
+    if (direction == backward)
+      blocks.sweep(v, rhs, false, constraints, half_space_of_row, is_active);
     run(v, rhs, all_rows, direction);
+    if (direction == forward)
+      blocks.sweep(v, rhs, true, constraints, half_space_of_row, is_active);
   }
 
 

@@ -47,7 +47,14 @@ namespace Signorini
 
     c.reinit(v);
     coarse.to_finer.prolongate(c, coarse_correction);
-    smoother.project_correction(c, v);
+    if (problem.semidefinite)
+      {
+        // Motions that cost nothing come out very long: shortened as a whole they stay motions.
+        smoother.restrict_to_tangents(c);
+        c *= std::min(1., admissible_step(v, c, problem.half_spaces));
+      }
+    else
+      smoother.project_correction(c, v);
     v.zero_out_ghost_values();
     if (!search)
       {
@@ -138,6 +145,9 @@ namespace Signorini
               }
             rests = has_direction = false;
           }
+        // Rounding along motions that cost nothing feeds on itself through old directions.
+        if (problem.semidefinite && !report.history.empty() && norm > report.history.back())
+          rests = has_direction = false;
         residual -= product;
         check_substep(report, energy, v, problem);
         book_iteration(report, norm, std::sqrt(std::max(0., square)), monitor);

@@ -125,6 +125,9 @@ namespace Signorini
     /// For each rank that sends: the positions its blocks are added to.
     std::vector<std::pair<unsigned int, std::vector<std::size_t>>> receive_positions;
   };
+
+  /// Collective. The largest diagonal entry of a matrix, over all ranks: a scale for its units.
+  double diagonal_scale(const NodeBlockMatrix &matrix);
 } // namespace Signorini
 
 #endif

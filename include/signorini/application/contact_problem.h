@@ -7,6 +7,7 @@
 #include <signorini/application/parameters.h>
 #include <signorini/discretization/basis_transformation.h>
 #include <signorini/discretization/level_hierarchy.h>
+#include <signorini/discretization/rigid_support.h>
 #include <signorini/mesh/refinement.h>
 #include <signorini/mortar/pair_coupling.h>
 #include <signorini/mortar/rigid_obstacle.h>
@@ -43,6 +44,7 @@ namespace Signorini
     std::unique_ptr<NodalSpace>    space;
     std::unique_ptr<NodePartition> partition;
     DirichletData                  dirichlet;
+    std::vector<FreeMotion>        free_motions;
     std::vector<ContactPair>       pairs;
     std::vector<PairCoupling>      couplings;
     InterfaceCoupling              coupling;
@@ -115,6 +117,14 @@ namespace Signorini
     void         solve_cycle(CycleResult &cycle);
     std::unique_ptr<MultigridHierarchy> make_hierarchy(LinearSystem     &&system,
                                                        const LevelSpaces &levels) const;
+    /// Bodies that are not held by Dirichlet conditions (free_bodies.cc): whether they can be in contact at
+    /// all; whether contact can hold them against their loads; what remains undetermined.
+    void check_free_bodies();
+    void hold_free_bodies(Vector &v, ObstacleProblem &problem, MultigridHierarchy &hierarchy,
+                          const bool settle);
+    void remove_free_motions(Vector &v, const ObstacleProblem &problem, MultigridHierarchy &hierarchy,
+                             const std::vector<unsigned char> &active);
+    std::vector<Vector> motions_of_unknowns(const NodePartition &partition) const;
     void evaluate_contact(const Vector &v, const ObstacleProblem &problem, const NodeBlockMatrix &matrix,
                           const std::vector<double> &gaps, const std::vector<unsigned char> &active);
     void solve_linear(CycleResult &cycle, const LevelSpaces &levels, const Vector &start);

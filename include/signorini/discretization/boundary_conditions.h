@@ -70,10 +70,6 @@ namespace Signorini
   /// Collective. Evaluates the conditions at the nodes. Where two conditions prescribe the same component
   /// of a node, the later one counts. Hanging nodes get no entry: their parents do.
   DirichletData evaluate_dirichlet(const NodalSpace &space, const Loads &loads, const bool with_values);
-
-  /// Collective. Checks for every body that its conditions exclude all rigid motions.
-  /// Errors: InputError naming the body and the motion.
-  void check_rigid_motions(const Bodies &bodies, const NodalSpace &space, const DirichletData &dirichlet);
 } // namespace Signorini
 
 #endif

@@ -7,6 +7,7 @@
 #include <signorini/algebra/interface_coupling.h>
 #include <signorini/algebra/replicated_data.h>
 #include <signorini/discretization/elasticity.h>
+#include <signorini/discretization/rigid_support.h>
 #include <signorini/mesh/coarsening_sequence.h>
 #include <signorini/solvers/multigrid_hierarchy.h>
 
@@ -65,16 +66,22 @@ namespace Signorini
   InterfaceCoupling coarsen_coupling(const InterfaceCoupling &fine, const std::vector<NodeIndex> &nodes,
                                      const NodeRows &rows);
 
+  struct HierarchyOptions
+  {
+    /// One per row of the coupling: for a monotone multigrid, with relative displacements at contact nodes
+    /// that come from relative displacements alone, turned from normal to normal, and the contact nodes of
+    /// the coarse levels. Empty for the exact nesting.
+    std::vector<Vector3> contact_normals;
+    LevelZeroMethod      level_zero = LevelZeroMethod::automatic;
+    /// Motions of bodies that only contact holds.
+    std::vector<FreeMotion> free_motions;
+    const Bodies           *bodies = nullptr;
+  };
+
   /// Collective. Galerkin hierarchy with P̂_k = T_k⁻¹ P_k T_{k-1} on all levels. An empty coupling gives the
   /// hierarchy of the decoupled linear problem.
-  /// @param contact_normals one per row of the coupling: for a monotone multigrid, with relative
-  /// displacements
-  ///   at contact nodes that come from relative displacements alone, turned from normal to normal, and the
-  ///   contact nodes of the coarse levels. Empty for the exact nesting.
   MultigridHierarchy build_hierarchy(LinearSystem &&system, const LevelSpaces &spaces,
-                                     const InterfaceCoupling    &coupling,
-                                     const std::vector<Vector3> &contact_normals = {},
-                                     const LevelZeroMethod       level_zero = LevelZeroMethod::automatic);
+                                     const InterfaceCoupling &coupling, const HierarchyOptions &options = {});
 
   /// Collective. The six rigid motions as v = T⁻¹ u, zero in fixed components, in the layout of a partition
   /// of the nodes of the space: what algebraic multigrid needs to know.

@@ -26,6 +26,9 @@ namespace Signorini
     std::vector<Vector> near_kernel;
     /// Contact nodes, for a hierarchy that has to add a copy of its only level.
     HalfSpaces contact;
+    /// Orthonormal rigid motions of bodies that only contact holds: on those that no active node opposes the
+    /// matrix is singular. Empty if all bodies are held.
+    std::vector<Vector> free_motions;
 
     /// Whether a level of so many nodes is left to amg.
     bool uses_amg(const NodeIndex n_nodes) const;
@@ -43,9 +46,16 @@ namespace Signorini
     void solve(Vector &solution, const Vector &rhs) const;
 
   private:
+    void make_definite(const NodeBlockMatrix &singular, const std::vector<Vector> &free_motions);
+    void solve_definite(Vector &solution, const Vector &rhs) const;
+
     CoarseCholesky                      cholesky;
     std::unique_ptr<AlgebraicMultigrid> amg;
     const NodeBlockMatrix              *matrix = nullptr;
+    NodeBlockMatrix                     definite;
+    /// Orthonormal motions that cost nothing; the largest right hand side so far.
+    std::vector<Vector> kernel;
+    mutable double      largest_rhs = 0.;
   };
 } // namespace Signorini
 

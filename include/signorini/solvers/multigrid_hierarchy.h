@@ -38,9 +38,6 @@ namespace Signorini
   void eliminate_fixed_components(NodeBlockMatrix &matrix, const std::vector<FixedMask> &fixed,
                                   const std::vector<unsigned int> &rows, const double scale);
 
-  /// The largest diagonal entry of a matrix, over all ranks: a scale for its units.
-  double diagonal_scale(const NodeBlockMatrix &matrix);
-
   /// Matrices and transfers of all levels, Galerkin products from fine to coarse, and their truncation:
   /// on the finest level the normal part of the prolongation is removed at active nodes, and what
   /// depends on it on coarser levels is recomputed (method.md, section 5).

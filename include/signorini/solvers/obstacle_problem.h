@@ -36,6 +36,8 @@ namespace Signorini
     HalfSpaces half_spaces;
     /// Vectors of little energy (rigid motions), for algebraic multigrid; may be empty.
     std::vector<Vector> near_kernel;
+    /// Whether A has a kernel: bodies that only the half-spaces hold.
+    bool semidefinite = false;
   };
 } // namespace Signorini
 

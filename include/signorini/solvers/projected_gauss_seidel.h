@@ -6,6 +6,7 @@
 
 #include <signorini/algebra/node_block_matrix.h>
 #include <signorini/solvers/obstacle_problem.h>
+#include <signorini/solvers/strong_blocks.h>
 #include <signorini/solvers/sweep_schedule.h>
 
 #include <vector>
@@ -38,7 +39,9 @@ namespace Signorini
     /// Chooses the rows of interface_sweep().
     void set_interface(const std::vector<unsigned int> &rows);
 
-    /// One sweep over all rows: v <- minimizer row by row. Energy never rises.
+    /// One sweep over all rows: v <- minimizer row by row. Energy never rises. Where cells are stretched it
+    /// also goes over lines and planes of nodes (StrongBlocks), after the nodes forward, before them
+    /// backward.
     void sweep(Vector &v, const Vector &rhs, const Direction direction);
 
     /// One sweep over the interface rows only.
@@ -78,6 +81,7 @@ namespace Signorini
 
     const NodeBlockMatrix     &matrix;
     SweepSchedule              all_rows;
+    StrongBlocks               blocks;
     SweepSchedule              interface_rows;
     std::vector<double>        inverse_diagonal;
     HalfSpaces                 constraints;

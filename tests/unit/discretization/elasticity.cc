@@ -4,6 +4,7 @@
 #include <signorini/algebra/input_error.h>
 #include <signorini/discretization/boundary_conditions.h>
 #include <signorini/discretization/elasticity.h>
+#include <signorini/discretization/rigid_support.h>
 #include <signorini/mesh/bodies.h>
 #include <signorini/mesh/nodal_space.h>
 
@@ -116,19 +117,48 @@ TEST(Elasticity, PatchTestWithHangingNodes)
   EXPECT_LT(total(forces, partition).norm(), 1e-12);
 }
 
-TEST(Elasticity, RigidMotionsMustBeExcluded)
+TEST(Elasticity, FreeMotions)
 {
   Block123         block;
   const NodalSpace space(block.bodies.triangulation());
-  const auto       check = [&](const std::string &conditions) {
+  const auto       n_free = [&](const std::string &conditions) {
     Loads          loads;
     LoadParameters p;
     p.dirichlet = conditions;
     loads.add(block.bodies, 0, p);
-    check_rigid_motions(block.bodies, space, evaluate_dirichlet(space, loads, false));
+    return free_motions(block.bodies, space, evaluate_dirichlet(space, loads, false)).size();
   };
-  EXPECT_NO_THROW(check("bottom: (0, 0, 0)"));
-  EXPECT_NO_THROW(check("bottom: (*, *, 0); left: (0, *, *); front: (*, 0, *)"));
-  EXPECT_THROW(check("bottom: (*, *, 0); left: (0, *, *)"), InputError);
-  EXPECT_THROW(check("bottom: (*, *, 0)"), InputError);
+  EXPECT_EQ(n_free("bottom: (0, 0, 0)"), 0u);
+  EXPECT_EQ(n_free("bottom: (*, *, 0); left: (0, *, *); front: (*, 0, *)"), 0u);
+  EXPECT_EQ(n_free("bottom: (*, *, 0); left: (0, *, *)"), 1u);
+  EXPECT_EQ(n_free("bottom: (*, *, 0)"), 3u);
+  EXPECT_EQ(n_free(""), 6u);
+}
+
+// A body on three points: held by loads that go through the triangle, else it tips over, slides or lifts off.
+TEST(Elasticity, BalanceOfRigidMotions)
+{
+  // Motions: translations in z and x, rotation about y (z moves by -x).
+  const std::vector<double> rows    = {-1., 0., -1., -1., 0., 1., -1., 0., 0.};
+  const std::vector<double> gaps    = {.1, .1, .1};
+  const auto                balance = [&](const double z, const double x, const double turn) {
+    return balance_rigid_motions(rows, gaps, {z, x, turn});
+  };
+  const RigidBalance held = balance(-3., 0., 1.);
+  EXPECT_TRUE(held.is_held);
+  EXPECT_NEAR(held.settling[0], -.1, 1e-14);
+  EXPECT_NEAR(held.settling[2], 0., 1e-14);
+  EXPECT_TRUE(balance(0., 0., 0.).is_held);
+  for (const auto &[z, x, turn] :
+       std::vector<std::array<double, 3>>{{{-1., 0., 2.}}, {{-1., .1, 0.}}, {{1., 0., 0.}}})
+    {
+      const RigidBalance lost = balance(z, x, turn);
+      EXPECT_FALSE(lost.is_held);
+      // A motion that all contacts allow and the load likes.
+      EXPECT_GT(lost.flight[0] * z + lost.flight[1] * x + lost.flight[2] * turn, 0.);
+      for (unsigned int p = 0; p < 3; ++p)
+        EXPECT_LE(rows[3 * p] * lost.flight[0] + rows[3 * p + 1] * lost.flight[1] +
+                      rows[3 * p + 2] * lost.flight[2],
+                  1e-12);
+    }
 }

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_discretization_rigid_support_h
+#define signorini_discretization_rigid_support_h
+
+#include <signorini/algebra/node_partition.h>
+#include <signorini/discretization/boundary_conditions.h>
+
+#include <array>
+#include <vector>
+
+namespace Signorini
+{
+  /// A rigid motion of one body that its Dirichlet conditions do not exclude:
+  /// translation + rotation x (x - centre) / length.
+  struct FreeMotion
+  {
+    unsigned int     body;
+    dealii::Point<3> centre;
+    double           length;
+    Vector3          translation, rotation;
+
+    Vector3 operator()(const dealii::Point<3> &x) const
+    {
+      return translation + cross_product_3d(rotation, (x - centre) / length);
+    }
+  };
+
+  /// Collective. An orthonormal basis of the motions that the conditions leave to the bodies. Empty if every
+  /// body is held.
+  std::vector<FreeMotion> free_motions(const Bodies &bodies, const NodalSpace &space,
+                                       const DirichletData &dirichlet);
+
+  /// Collective. The displacements of the motions, each zero on all other bodies, on a partition of the nodes
+  /// of the space; ghosts up to date.
+  std::vector<Vector> motion_fields(const std::vector<FreeMotion> &motions, const Bodies &bodies,
+                                    const NodalSpace &space, const NodePartition &partition);
+
+  /// Whether contact can hold the bodies: whether pressures lambda >= 0 with G^T lambda = f exist.
+  struct RigidBalance
+  {
+    /// By Farkas' lemma: if not, f - G^T lambda is a motion on which the loads do work and that all contacts
+    /// allow. Zero if the bodies are held.
+    std::vector<double> flight;
+    bool                is_held = true;
+    /// A motion that closes the gaps of the nodes that hold the bodies.
+    std::vector<double> settling;
+  };
+
+  /// @param motions row by row, n_motions each: the normal relative displacement of every contact node in
+  ///   every motion (G)
+  /// @param gaps of the contact nodes
+  /// @param loads the work of the loads on every motion (f)
+  RigidBalance balance_rigid_motions(const std::vector<double> &motions, const std::vector<double> &gaps,
+                                     const std::vector<double> &loads);
+
+  /// A motion in words: "translation (0, 0, -1)".
+  std::string describe_motion(const std::vector<FreeMotion> &motions, const std::vector<double> &coefficients,
+                              const Bodies &bodies);
+} // namespace Signorini
+
+#endif

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_solvers_strong_blocks_h
+#define signorini_solvers_strong_blocks_h
+
+#include <signorini/algebra/node_block_matrix.h>
+#include <signorini/solvers/obstacle_problem.h>
+#include <signorini/solvers/sweep_schedule.h>
+
+#include <memory>
+#include <vector>
+
+namespace Signorini
+{
+  /// Lines and planes of nodes that stretched cells couple strongly, for a block Gauss-Seidel sweep over
+  /// them: sweeps node by node do not see motions that are constant along a line of flat cells.
+  ///
+  /// Found in the matrix: the trace of a block is a multiple of the Laplacian's entry. On cubes no entry
+  /// beside the diagonal is positive; on stretched cells those along the long edges are (like a mass matrix).
+  /// From an aspect ratio of about 2.5 on a node counts as stretched; its strong couplings are the most
+  /// negative ones to other such nodes. Without stretched cells there are no blocks and no costs.
+  class StrongBlocks
+  {
+  public:
+    /// Collective. The matrix and the schedule must outlive the object.
+    StrongBlocks(const NodeBlockMatrix &matrix, const SweepSchedule &all_rows);
+    ~StrongBlocks();
+
+    /// Whether there are none on any rank.
+    bool empty() const
+    {
+      return is_empty;
+    }
+
+    /// Owned nodes in blocks.
+    std::size_t n_rows() const
+    {
+      return rows_in_blocks;
+    }
+
+    /// Rows of the matrix have changed.
+    void update(const std::vector<unsigned int> &rows);
+
+    /// Collective. One sweep: minimizes over all motions of a block that keep its active nodes on their
+    /// planes, as far as its other contact nodes allow. The energy never rises.
+    /// @param half_space_of_row index of the half-space at each owned node, or -1
+    void sweep(Vector &v, const Vector &rhs, const bool forward, const HalfSpaces &half_spaces,
+               const std::vector<int> &half_space_of_row, const std::vector<unsigned char> &active);
+
+  private:
+    struct Block;
+
+    void find_blocks();
+    void factorize(Block &block, const HalfSpaces &half_spaces, const std::vector<int> &half_space_of_row,
+                   const std::vector<unsigned char> &active);
+    void relax(Vector &v, const Vector &rhs, Block &block, const HalfSpaces &half_spaces,
+               const std::vector<int> &half_space_of_row, const std::vector<unsigned char> &active);
+
+    const NodeBlockMatrix &matrix;
+    const SweepSchedule   &schedule;
+    bool                   is_empty       = true;
+    std::size_t            rows_in_blocks = 0;
+    std::vector<Block>     blocks;
+    /// Blocks of each phase of the schedule.
+    std::vector<std::vector<unsigned int>> phases;
+    /// The block of each owned row, or -1; its place in the block.
+    std::vector<int>          block_of_row;
+    std::vector<unsigned int> place_in_block;
+  };
+} // namespace Signorini
+
+#endif

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+// Bodies that nothing but contact holds.
+
+#include <signorini/algebra/input_error.h>
+#include <signorini/algebra/replicated_data.h>
+#include <signorini/application/contact_problem.h>
+
+#include <Eigen/Dense>
+
+namespace Signorini
+{
+  using namespace dealii;
+
+  void ContactProblem::check_free_bodies()
+  {
+    std::set<unsigned int> in_contact;
+    for (const PairDefinition &definition : pair_definitions)
+      for (unsigned int i = 0; i < definition.n_sides(); ++i)
+        in_contact.insert(definition.body[i]);
+    const auto         &motions = discretization.free_motions;
+    std::vector<double> coefficients(motions.size(), 0.);
+    for (std::size_t m = 0; m < motions.size(); ++m)
+      if (in_contact.count(motions[m].body) == 0 || parameters.solver.method == SolverMethod::active_set_amg)
+        {
+          coefficients[m] = 1.;
+          throw InputError("Body " + bodies.body_name(motions[m].body) +
+                           "/Dirichlet: the conditions do not exclude a rigid motion (" +
+                           describe_motion(motions, coefficients, bodies) + ")" +
+                           (in_contact.count(motions[m].body) == 0
+                                ? " and the body belongs to no contact pair"
+                                : ", which \"Solver/Method = active set amg\" needs") +
+                           ". Prescribe displacements on more of its boundaries, e.g. a symmetry plane "
+                           "\"name: (0, *, *)\".");
+        }
+    std::set<std::string> names;
+    for (const FreeMotion &motion : motions)
+      names.insert(bodies.body_name(motion.body));
+    for (const std::string &name : names)
+      note("body " + name + ": its Dirichlet conditions do not hold it, contact must.");
+  }
+
+
+
+  std::vector<Vector> ContactProblem::motions_of_unknowns(const NodePartition &partition) const
+  {
+    const Discretization &d = discretization;
+    Vector                lift, nothing;
+    partition.reinit(lift);
+    d.partition->reinit(nothing);
+    nothing.update_ghost_values();
+    d.transformation->from_displacement(lift, nothing);
+    std::vector<Vector> result;
+    for (const Vector &field : motion_fields(d.free_motions, bodies, *d.space, *d.partition))
+      {
+        result.emplace_back();
+        partition.reinit(result.back());
+        d.transformation->from_displacement(result.back(), field);
+        result.back() -= lift;
+      }
+    return result;
+  }
+
+
+
+  void ContactProblem::hold_free_bodies(Vector &v, ObstacleProblem &problem, MultigridHierarchy &hierarchy,
+                                        const bool settle)
+  {
+    Discretization      &d         = discretization;
+    const NodePartition &partition = hierarchy.finest().matrix.partition();
+    problem.semidefinite           = true;
+    if (!settle)
+      return;
+    const auto                fields = motions_of_unknowns(partition);
+    const std::size_t         n = fields.size(), n_rows = d.coupling.n_rows();
+    std::vector<double>       rows(n * n_rows), work(n);
+    const std::vector<double> gaps = d.transformation->reduce_gaps(d.gaps, d.normals);
+    // The work of the loads on a motion, zero to the rounding of their sums.
+    const double scale = problem.rhs.l1_norm();
+    for (std::size_t m = 0; m < n; ++m)
+      {
+        work[m]           = problem.rhs * fields[m];
+        work[m]           = std::abs(work[m]) > 1e-10 * scale ? work[m] : 0.;
+        const auto values = replicate_values(partition, fields[m], d.coupling.rows);
+        for (std::size_t p = 0; p < n_rows; ++p)
+          rows[n * p + m] = d.normals[p] * values[p];
+      }
+    const RigidBalance balance = balance_rigid_motions(rows, gaps, work);
+    if (!balance.is_held)
+      throw InputError("The loads press no body into contact that could hold it: " +
+                       describe_motion(d.free_motions, balance.flight, bodies) +
+                       ", would fly away. Prescribe displacements, or change the loads.");
+    for (std::size_t m = 0; m < n; ++m)
+      v.add(balance.settling[m], fields[m]);
+  }
+
+
+
+  void ContactProblem::remove_free_motions(Vector &v, const ObstacleProblem &problem,
+                                           MultigridHierarchy               &hierarchy,
+                                           const std::vector<unsigned char> &active)
+  {
+    Discretization      &d         = discretization;
+    const NodePartition &partition = hierarchy.finest().matrix.partition();
+    const auto           fields    = motions_of_unknowns(partition);
+    const auto           n         = static_cast<Eigen::Index>(fields.size());
+    // The motions that slide along all active contacts.
+    Eigen::MatrixXd sums        = Eigen::MatrixXd::Zero(n, n);
+    const auto      normal_part = [&](const Vector &x, const std::size_t p) {
+      double sum = 0.;
+      for (unsigned int c = 0; c < dim; ++c)
+        sum += problem.half_spaces.normals[p][c] * x.local_element(dim * problem.half_spaces.nodes[p] + c);
+      return sum;
+    };
+    for (std::size_t p = 0; p < problem.half_spaces.size(); ++p)
+      if (active[p])
+        for (Eigen::Index i = 0; i < n; ++i)
+          for (Eigen::Index j = 0; j < n; ++j)
+            sums(i, j) += normal_part(fields[i], p) * normal_part(fields[j], p);
+    for (Eigen::Index i = 0; i < n * n; ++i)
+      sums.data()[i] = Utilities::MPI::sum(sums.data()[i], comm);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(sums);
+    std::vector<Vector>                                  kernel;
+    for (Eigen::Index k = 0; k < n; ++k)
+      if (eigen.eigenvalues()[k] <= 1e-10 * std::max(eigen.eigenvalues()[n - 1], 1e-300))
+        {
+          std::vector<double> coefficients(n);
+          kernel.emplace_back();
+          kernel.back().reinit(v);
+          for (Eigen::Index i = 0; i < n; ++i)
+            {
+              coefficients[i] = eigen.eigenvectors()(i, k);
+              kernel.back().add(coefficients[i], fields[i]);
+            }
+          note("nothing determines " + describe_motion(d.free_motions, coefficients, bodies) +
+               ": the mean of the displacement in it is set to zero.");
+        }
+    if (kernel.empty())
+      return;
+    const auto      size = static_cast<Eigen::Index>(kernel.size());
+    Eigen::MatrixXd gram(size, size);
+    Eigen::VectorXd rhs(size);
+    for (Eigen::Index i = 0; i < size; ++i)
+      {
+        rhs[i] = kernel[i] * v;
+        for (Eigen::Index j = 0; j < size; ++j)
+          gram(i, j) = kernel[i] * kernel[j];
+      }
+    const Eigen::VectorXd amount  = gram.ldlt().solve(rhs);
+    Vector                shifted = v;
+    for (Eigen::Index i = 0; i < size; ++i)
+      shifted.add(-amount[i], kernel[i]);
+    // On curved surfaces the shift may run into something: then the displacement stays as it is.
+    bool admissible = true;
+    for (std::size_t p = 0; p < problem.half_spaces.size(); ++p)
+      admissible =
+          admissible && normal_part(shifted, p) <= std::max(normal_part(v, p), problem.half_spaces.bounds[p]);
+    if (Utilities::MPI::min(static_cast<int>(admissible), comm) != 0)
+      v = shifted;
+  }
+} // namespace Signorini

@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/discretization/rigid_support.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <Eigen/Dense>
+
+namespace Signorini
+{
+  using namespace dealii;
+
+  namespace
+  {
+    using Vector6 = Eigen::Matrix<double, 6, 1>;
+    using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+    /// The six rigid motions of a body at a point, for component c.
+    Vector6 rigid_row(const FreeMotion &frame, const Point<3> &p, const unsigned int c)
+    {
+      Vector6 row;
+      for (unsigned int m = 0; m < 6; ++m)
+        {
+          FreeMotion motion                                     = frame;
+          (m < 3 ? motion.translation : motion.rotation)[m % 3] = 1.;
+          row[m]                                                = motion(p)[c];
+        }
+      return row;
+    }
+
+    /// The body of each relevant node (-1 for nodes of other ranks' cells), and the box of each body as
+    /// centre and half diagonal.
+    std::vector<int> find_bodies(std::vector<FreeMotion> &frames, const Bodies &bodies,
+                                 const NodalSpace &space)
+    {
+      const unsigned int       n_bodies = bodies.n_bodies();
+      std::vector<double>      low(dim * n_bodies, std::numeric_limits<double>::max()), high(low);
+      std::vector<int>         body_of_node(space.relevant().n_elements(), -1);
+      std::array<NodeIndex, 8> nodes;
+      for (double &h : high)
+        h = -h;
+      for (const auto &cell : space.dof_handler().active_cell_iterators())
+        if (cell->is_locally_owned())
+          {
+            const unsigned int body = bodies.body_of_material(cell->material_id());
+            space.cell_nodes(cell, nodes);
+            for (const NodeIndex node : nodes)
+              {
+                body_of_node[space.relevant().index_within_set(node)] = static_cast<int>(body);
+                for (unsigned int c = 0; c < dim; ++c)
+                  {
+                    low[dim * body + c]  = std::min(low[dim * body + c], space.position(node)[c]);
+                    high[dim * body + c] = std::max(high[dim * body + c], space.position(node)[c]);
+                  }
+              }
+          }
+      frames.clear();
+      for (unsigned int b = 0; b < n_bodies; ++b)
+        {
+          Point<3> l, h;
+          for (unsigned int c = 0; c < dim; ++c)
+            {
+              l[c] = Utilities::MPI::min(low[dim * b + c], space.communicator());
+              h[c] = Utilities::MPI::max(high[dim * b + c], space.communicator());
+            }
+          frames.push_back({b, l + .5 * (h - l), .5 * (h - l).norm(), Vector3(), Vector3()});
+        }
+      return body_of_node;
+    }
+  } // namespace
+
+
+
+  std::vector<FreeMotion> free_motions(const Bodies &bodies, const NodalSpace &space,
+                                       const DirichletData &dirichlet)
+  {
+    std::vector<FreeMotion> frames;
+    const auto              body_of_node = find_bodies(frames, bodies, space);
+    std::vector<double>     sums(36 * frames.size(), 0.);
+    for (const NodeIndex node : space.owned())
+      {
+        const std::size_t i = space.relevant().index_within_set(node);
+        if (body_of_node[i] < 0)
+          continue;
+        const unsigned int b = static_cast<unsigned int>(body_of_node[i]);
+        for (unsigned int c = 0; c < dim; ++c)
+          if (dirichlet.mask[i] & (1u << c))
+            {
+              const Vector6 row = rigid_row(frames[b], space.position(node), c);
+              Eigen::Map<Matrix6>(sums.data() + 36 * b) += row * row.transpose();
+            }
+      }
+    for (double &s : sums)
+      s = Utilities::MPI::sum(s, space.communicator());
+
+    std::vector<FreeMotion> result;
+    for (unsigned int b = 0; b < frames.size(); ++b)
+      {
+        const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(Eigen::Map<Matrix6>(sums.data() + 36 * b));
+        const double scale = std::max(eigen.eigenvalues()[5], std::numeric_limits<double>::min());
+        for (unsigned int m = 0; m < 6; ++m)
+          if (eigen.eigenvalues()[m] <= 1e-10 * scale)
+            {
+              FreeMotion motion = frames[b];
+              for (unsigned int c = 0; c < dim; ++c)
+                {
+                  motion.translation[c] = eigen.eigenvectors()(c, m);
+                  motion.rotation[c]    = eigen.eigenvectors()(3 + c, m);
+                }
+              result.push_back(motion);
+            }
+      }
+    return result;
+  }
+
+
+
+  std::vector<Vector> motion_fields(const std::vector<FreeMotion> &motions, const Bodies &bodies,
+                                    const NodalSpace &space, const NodePartition &partition)
+  {
+    std::vector<FreeMotion> frames;
+    const auto              body_of_node = find_bodies(frames, bodies, space);
+    std::vector<Vector>     fields(motions.size());
+    for (std::size_t m = 0; m < motions.size(); ++m)
+      {
+        partition.reinit(fields[m]);
+        for (unsigned int i = 0; i < partition.n_owned(); ++i)
+          {
+            const NodeIndex node = partition.to_global(i);
+            if (body_of_node[space.relevant().index_within_set(node)] != static_cast<int>(motions[m].body))
+              continue;
+            const Vector3 u = motions[m](space.position(node));
+            for (unsigned int c = 0; c < dim; ++c)
+              fields[m].local_element(dim * i + c) = u[c];
+          }
+        fields[m].update_ghost_values();
+      }
+    return fields;
+  }
+
+
+
+  namespace
+  {
+    /// min |A x - b|, x >= 0 (Lawson & Hanson 1974, chapter 23).
+    Eigen::VectorXd solve_nonnegative(const Eigen::MatrixXd &a, const Eigen::VectorXd &b)
+    {
+      const Eigen::Index        n         = a.cols();
+      const double              tolerance = 1e-12 * a.cwiseAbs().maxCoeff() * b.norm();
+      Eigen::VectorXd           x         = Eigen::VectorXd::Zero(n);
+      std::vector<Eigen::Index> set;
+      for (Eigen::Index step = 0; step < 10 * (n + 10); ++step)
+        {
+          const Eigen::VectorXd gradient = a.transpose() * (b - a * x);
+          Eigen::Index          best     = -1;
+          for (Eigen::Index i = 0; i < n; ++i)
+            if (std::find(set.begin(), set.end(), i) == set.end() && gradient[i] > tolerance &&
+                (best < 0 || gradient[i] > gradient[best]))
+              best = i;
+          if (best < 0)
+            break;
+          set.push_back(best);
+          while (!set.empty())
+            {
+              Eigen::MatrixXd part(a.rows(), set.size());
+              for (std::size_t i = 0; i < set.size(); ++i)
+                part.col(i) = a.col(set[i]);
+              const Eigen::VectorXd y     = part.completeOrthogonalDecomposition().solve(b);
+              double                limit = 1.;
+              for (std::size_t i = 0; i < set.size(); ++i)
+                if (y[i] <= 0.)
+                  limit = std::min(limit, x[set[i]] / (x[set[i]] - y[i]));
+              std::vector<Eigen::Index> kept;
+              for (std::size_t i = 0; i < set.size(); ++i)
+                {
+                  double &value = x[set[i]];
+                  value += limit * (y[i] - value);
+                  if (value > 0. && (y[i] > 0. || limit < 1.) && value > 1e-14 * x.maxCoeff())
+                    kept.push_back(set[i]);
+                  else
+                    value = 0.;
+                }
+              const bool done = limit == 1. && kept.size() == set.size();
+              set             = kept;
+              if (done)
+                break;
+            }
+        }
+      return x;
+    }
+  } // namespace
+
+
+
+  RigidBalance balance_rigid_motions(const std::vector<double> &motions, const std::vector<double> &gaps,
+                                     const std::vector<double> &loads)
+  {
+    const auto n = static_cast<Eigen::Index>(loads.size()), m = static_cast<Eigen::Index>(gaps.size());
+    const Eigen::Map<const Eigen::MatrixXd> transposed(motions.data(), n, m);
+    const Eigen::Map<const Eigen::VectorXd> f(loads.data(), n);
+    RigidBalance                            result;
+    result.flight.assign(loads.size(), 0.);
+    result.settling.assign(loads.size(), 0.);
+    Eigen::VectorXd lambda = Eigen::VectorXd::Zero(m);
+    if (m > 0 && f.norm() > 0.)
+      lambda = solve_nonnegative(transposed, f);
+    const Eigen::VectorXd rest = m > 0 ? Eigen::VectorXd(f - transposed * lambda) : Eigen::VectorXd(f);
+    result.is_held             = rest.norm() <= 1e-7 * f.norm();
+    if (!result.is_held)
+      {
+        Eigen::Map<Eigen::VectorXd>(result.flight.data(), n) = rest / rest.norm();
+        return result;
+      }
+    std::vector<Eigen::Index> holding;
+    for (Eigen::Index p = 0; p < m; ++p)
+      if (lambda[p] > 0.)
+        holding.push_back(p);
+    Eigen::MatrixXd rows(holding.size(), n);
+    Eigen::VectorXd bounds(holding.size());
+    for (std::size_t i = 0; i < holding.size(); ++i)
+      {
+        rows.row(i) = transposed.col(holding[i]).transpose();
+        bounds[i]   = gaps[holding[i]];
+      }
+    if (!holding.empty())
+      Eigen::Map<Eigen::VectorXd>(result.settling.data(), n) =
+          rows.completeOrthogonalDecomposition().solve(bounds);
+    return result;
+  }
+
+
+
+  std::string describe_motion(const std::vector<FreeMotion> &motions, const std::vector<double> &coefficients,
+                              const Bodies &bodies)
+  {
+    // Of the body that moves most.
+    std::vector<double> size(bodies.n_bodies(), 0.);
+    for (std::size_t m = 0; m < motions.size(); ++m)
+      size[motions[m].body] += coefficients[m] * coefficients[m];
+    const auto body = static_cast<unsigned int>(std::max_element(size.begin(), size.end()) - size.begin());
+    Vector3    translation, rotation;
+    for (std::size_t m = 0; m < motions.size(); ++m)
+      if (motions[m].body == body)
+        {
+          translation += coefficients[m] * motions[m].translation;
+          rotation += coefficients[m] * motions[m].rotation;
+        }
+    std::ostringstream text;
+    text.precision(3);
+    const auto print = [&](const char *const name, const Vector3 &v, const Vector3 &other) {
+      if (v.norm() > 1e-3 * other.norm())
+        {
+          text << name << " (";
+          for (unsigned int c = 0; c < dim; ++c)
+            text << (c > 0 ? ", " : "") << (std::abs(v[c]) > 1e-6 * v.norm() ? v[c] / v.norm() : 0.);
+          text << ")";
+        }
+    };
+    text << "body " << bodies.body_name(body) << ", ";
+    print("translation", translation, rotation);
+    if (translation.norm() > 1e-3 * rotation.norm() && rotation.norm() > 1e-3 * translation.norm())
+      text << " with ";
+    print("rotation about", rotation, translation);
+    return text.str();
+  }
+} // namespace Signorini

@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/solvers/strong_blocks.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <Eigen/Dense>
+#include <Eigen/SparseCholesky>
+
+namespace Signorini
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// A positive coupling of this part of the diagonal makes a node stretched.
+    constexpr double stretched = .19;
+    /// Strong couplings have this part of the most negative one.
+    constexpr double strong = .5;
+    /// Larger blocks are cut: their factors would cost too much.
+    constexpr std::size_t largest_block = 4000;
+    /// Up to here factors are dense.
+    constexpr std::size_t largest_dense = 24;
+
+    double trace_of(const double *const block)
+    {
+      return block[0] + block[4] + block[8];
+    }
+  } // namespace
+
+
+
+  struct StrongBlocks::Block
+  {
+    std::vector<unsigned int> rows;
+    /// Active flags of the contact nodes among them, as factorized.
+    std::vector<unsigned char> flags;
+    bool                       is_current = false;
+
+    Eigen::LLT<Eigen::MatrixXd>                                        dense;
+    std::unique_ptr<Eigen::SimplicialLLT<Eigen::SparseMatrix<double>>> sparse;
+  };
+
+
+
+  StrongBlocks::StrongBlocks(const NodeBlockMatrix &matrix, const SweepSchedule &all_rows)
+    : matrix(matrix)
+    , schedule(all_rows)
+  {
+    find_blocks();
+    is_empty = Utilities::MPI::max(static_cast<int>(!blocks.empty()), matrix.partition().communicator()) == 0;
+  }
+
+
+
+  StrongBlocks::~StrongBlocks() = default;
+
+
+
+  void StrongBlocks::find_blocks()
+  {
+    const unsigned int        n = matrix.n_rows();
+    std::vector<double>       most_negative(n, 0.);
+    std::vector<bool>         is_stretched(n, false);
+    std::vector<unsigned int> phase_of_row(n, 0);
+    for (unsigned int phase = 0; phase < schedule.phases().size(); ++phase)
+      for (const unsigned int row : schedule.phases()[phase])
+        phase_of_row[row] = phase;
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        const double diagonal = trace_of(matrix.block(matrix.row_begin(i)));
+        double       largest  = 0.;
+        for (std::size_t k = matrix.row_begin(i) + 1; k < matrix.row_end(i); ++k)
+          {
+            const double t   = trace_of(matrix.block(k));
+            largest          = std::max(largest, t);
+            most_negative[i] = std::min(most_negative[i], t);
+          }
+        is_stretched[i] = largest >= stretched * diagonal;
+      }
+
+    block_of_row.assign(n, -1);
+    place_in_block.assign(n, 0);
+    std::vector<bool>         visited(n, false);
+    std::vector<unsigned int> front;
+    for (unsigned int start = 0; start < n; ++start)
+      if (is_stretched[start] && !visited[start])
+        {
+          // Along strong couplings, breadth first, so that a cut block stays in one piece.
+          std::vector<unsigned int> rows = {start};
+          visited[start]                 = true;
+          for (std::size_t next = 0; next < rows.size() && rows.size() < largest_block; ++next)
+            {
+              const unsigned int i = rows[next];
+              for (std::size_t k = matrix.row_begin(i) + 1; k < matrix.row_end(i); ++k)
+                if (const unsigned int j = matrix.column(k);
+                    j < n && is_stretched[j] && !visited[j] &&
+                    trace_of(matrix.block(k)) <= strong * std::min(most_negative[i], most_negative[j]))
+                  {
+                    visited[j] = true;
+                    rows.push_back(j);
+                  }
+            }
+          if (rows.size() < 2)
+            continue;
+          std::sort(rows.begin(), rows.end());
+          // With a node that other ranks see the block waits for the turn of this rank.
+          unsigned int phase = static_cast<unsigned int>(schedule.phases().size()) - 1;
+          for (const unsigned int row : rows)
+            phase = std::min(phase, phase_of_row[row]);
+          phases.resize(schedule.phases().size());
+          phases[phase].push_back(static_cast<unsigned int>(blocks.size()));
+          for (unsigned int i = 0; i < rows.size(); ++i)
+            {
+              block_of_row[rows[i]]   = static_cast<int>(blocks.size());
+              place_in_block[rows[i]] = i;
+            }
+          rows_in_blocks += rows.size();
+          blocks.emplace_back();
+          blocks.back().rows = std::move(rows);
+        }
+    phases.resize(schedule.phases().size());
+  }
+
+
+
+  void StrongBlocks::update(const std::vector<unsigned int> &rows)
+  {
+    for (const unsigned int row : rows)
+      if (block_of_row[row] >= 0)
+        blocks[block_of_row[row]].is_current = false;
+  }
+
+
+
+  void StrongBlocks::factorize(Block &block, const HalfSpaces &half_spaces,
+                               const std::vector<int>           &half_space_of_row,
+                               const std::vector<unsigned char> &active)
+  {
+    const auto normal_of = [&](const unsigned int row) {
+      const int p = half_space_of_row[row];
+      return p >= 0 && active[p] ? half_spaces.normals[p] : Vector3();
+    };
+    const auto                          size     = static_cast<Eigen::Index>(dim * block.rows.size());
+    const bool                          is_dense = block.rows.size() <= largest_dense;
+    Eigen::MatrixXd                     full;
+    std::vector<Eigen::Triplet<double>> entries;
+    if (is_dense)
+      full = Eigen::MatrixXd::Zero(size, size);
+    const int index = block_of_row[block.rows[0]];
+    for (std::size_t i = 0; i < block.rows.size(); ++i)
+      {
+        const unsigned int row        = block.rows[i];
+        const Vector3      row_normal = normal_of(row);
+        for (std::size_t k = matrix.row_begin(row); k < matrix.row_end(row); ++k)
+          {
+            const unsigned int column = matrix.column(k);
+            if (column >= matrix.n_rows() || block_of_row[column] != index)
+              continue;
+            const std::size_t j = place_in_block[column];
+            Signorini::Block  entry;
+            std::copy_n(matrix.block(k), 9, entry.begin_raw());
+            const Vector3 column_normal = normal_of(column);
+            const double  stiffness     = row_normal * (entry * row_normal);
+            entry -= outer_product(row_normal, row_normal * entry);
+            entry -= outer_product(entry * column_normal, column_normal);
+            if (row == column)
+              entry += stiffness * outer_product(row_normal, row_normal);
+            for (unsigned int c = 0; c < dim; ++c)
+              for (unsigned int d = 0; d < dim; ++d)
+                if (is_dense)
+                  full(dim * i + c, dim * j + d) = entry[c][d];
+                else
+                  entries.emplace_back(dim * i + c, dim * j + d, entry[c][d]);
+          }
+      }
+    if (is_dense)
+      block.dense.compute(full);
+    else
+      {
+        Eigen::SparseMatrix<double> sparse(size, size);
+        sparse.setFromTriplets(entries.begin(), entries.end());
+        if (!block.sparse)
+          {
+            block.sparse = std::make_unique<Eigen::SimplicialLLT<Eigen::SparseMatrix<double>>>();
+            block.sparse->analyzePattern(sparse);
+          }
+        block.sparse->factorize(sparse);
+      }
+    block.is_current = true;
+  }
+
+
+
+  void StrongBlocks::relax(Vector &v, const Vector &rhs, Block &block, const HalfSpaces &half_spaces,
+                           const std::vector<int>           &half_space_of_row,
+                           const std::vector<unsigned char> &active)
+  {
+    std::vector<unsigned char> flags;
+    for (const unsigned int row : block.rows)
+      if (const int p = half_space_of_row[row]; p >= 0)
+        flags.push_back(active[p]);
+    if (!block.is_current || flags != block.flags)
+      {
+        block.flags = flags;
+        factorize(block, half_spaces, half_space_of_row, active);
+      }
+    Eigen::VectorXd residual(dim * block.rows.size());
+    for (std::size_t i = 0; i < block.rows.size(); ++i)
+      {
+        const unsigned int row = block.rows[i];
+        double             s[3];
+        for (unsigned int c = 0; c < dim; ++c)
+          s[c] = rhs.local_element(dim * row + c);
+        for (std::size_t k = matrix.row_begin(row); k < matrix.row_end(row); ++k)
+          {
+            const double *const a = matrix.block(k);
+            const double *const x = v.begin() + dim * static_cast<std::size_t>(matrix.column(k));
+            for (unsigned int c = 0; c < dim; ++c)
+              s[c] -= a[3 * c] * x[0] + a[3 * c + 1] * x[1] + a[3 * c + 2] * x[2];
+          }
+        if (const int p = half_space_of_row[row]; p >= 0 && active[p])
+          {
+            const Vector3 &n      = half_spaces.normals[p];
+            const double   normal = n[0] * s[0] + n[1] * s[1] + n[2] * s[2];
+            for (unsigned int c = 0; c < dim; ++c)
+              s[c] -= normal * n[c];
+          }
+        for (unsigned int c = 0; c < dim; ++c)
+          residual[dim * i + c] = s[c];
+      }
+    const Eigen::VectorXd step = block.sparse ? Eigen::VectorXd(block.sparse->solve(residual))
+                                              : Eigen::VectorXd(block.dense.solve(residual));
+
+    double length = 1.;
+    for (std::size_t i = 0; i < block.rows.size(); ++i)
+      if (const int p = half_space_of_row[block.rows[i]]; p >= 0 && !active[p])
+        {
+          double motion = 0., room = half_spaces.bounds[p];
+          for (unsigned int c = 0; c < dim; ++c)
+            {
+              motion += half_spaces.normals[p][c] * step[dim * i + c];
+              room -= half_spaces.normals[p][c] * v.local_element(dim * block.rows[i] + c);
+            }
+          if (motion > 0.)
+            length = std::min(length, std::max(room, 0.) / motion);
+        }
+    for (std::size_t i = 0; i < block.rows.size(); ++i)
+      for (unsigned int c = 0; c < dim; ++c)
+        v.local_element(dim * block.rows[i] + c) += length * step[dim * i + c];
+  }
+
+
+
+  void StrongBlocks::sweep(Vector &v, const Vector &rhs, const bool forward, const HalfSpaces &half_spaces,
+                           const std::vector<int>           &half_space_of_row,
+                           const std::vector<unsigned char> &active)
+  {
+    if (is_empty)
+      return;
+    for (std::size_t i = 0; i < phases.size(); ++i)
+      {
+        v.update_ghost_values();
+        const auto &list = phases[forward ? i : phases.size() - 1 - i];
+        const auto  n    = list.size();
+        for (std::size_t k = 0; k < n; ++k)
+          relax(v, rhs, blocks[list[forward ? k : n - 1 - k]], half_spaces, half_space_of_row, active);
+      }
+  }
+} // namespace Signorini
