@@ -15,7 +15,7 @@ namespace Signorini
   namespace
   {
     /// A positive coupling of this part of the diagonal makes a node stretched.
-    constexpr double stretched = .19;
+    constexpr double stretched = .235;
     /// Strong couplings have this part of the most negative one.
     constexpr double strong = .5;
     /// Larger blocks are cut: their factors would cost too much.

@@ -18,7 +18,7 @@ namespace Signorini
   ///
   /// Found in the matrix: the trace of a block is a multiple of the Laplacian's entry. On cubes no entry
   /// beside the diagonal is positive; on stretched cells those along the long edges are (like a mass matrix).
-  /// From an aspect ratio of about 2.5 on a node counts as stretched; its strong couplings are the most
+  /// From an aspect ratio of 5 to 7 on a node counts as stretched; its strong couplings are the most
   /// negative ones to other such nodes. Without stretched cells there are no blocks and no costs.
   class StrongBlocks
   {
