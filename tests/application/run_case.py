@@ -288,6 +288,18 @@ def robust(p):
     run('fixed border', 15, 'Body upper/Dirichlet=top: (0, 0, -0.05); left: (0, 0, 0)', 'Body lower/Dirichlet=bottom: (0, 0, 0); left: (0, 0, 0)', two)
 
 
+def nested(p):
+    """Nested iteration: two cycles a level reach far below the discretization error, and the active set hardly moves."""
+    for prm, settings in (('cubes/cubes.prm', ()), ('obstacle/paraboloid.prm', ()), ('hertz/hertz.prm', ('Refinement/Final global cycles=1',))):
+        rough = p.solve(prm, 'Solver/Tolerance=1e-2', *settings)
+        exact = p.solve(prm, *settings)
+        for i, (a, b) in enumerate(zip(rough['cycles'], exact['cycles'])):
+            check(i == 0 or a['nonlinear']['iterations'] <= 2, f'{prm}, level {i}: {a["nonlinear"]["iterations"]} iterations')
+            near(a['energy'], b['energy'], 1e-6, f'{prm}, level {i}: energy')
+            check(a['active_nodes'] == b['active_nodes'], f'{prm}, level {i}: {a["active_nodes"]} active nodes, not {b["active_nodes"]}')
+            check(b['nonlinear']['hierarchy_updates'] <= 3, f'{prm}, level {i}: {b["nonlinear"]["hierarchy_updates"]} changes of the active set')
+
+
 def free_bodies(p):
     """Bodies that only contact holds."""
     # The weight is carried; sliding and turning on the floor are undetermined and said to be.
