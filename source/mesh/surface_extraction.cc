@@ -232,12 +232,24 @@ namespace Signorini
       std::vector<std::size_t>                  apex;
     };
 
-    /// Vertex normals: area weighted; hanging vertices get the mean of their parents; then projected onto the
-    /// free directions.
+    /// Vertex normals: sums of the area vectors of the faces around (half the product of the diagonals,
+    /// whatever way a face is cut into triangles); hanging vertices get the mean of their parents; then
+    /// projected onto the free directions.
     void set_normals(ContactSurface &surface)
     {
-      surface.mesh.compute_vertex_normals();
-      auto             &normals = surface.mesh.vertex_normals;
+      auto &normals = surface.mesh.vertex_normals;
+      normals.assign(surface.mesh.vertices.size(), Tensor<1, 3>());
+      for (const ContactSurface::Face &face : surface.faces)
+        {
+          const auto        &x           = surface.mesh.vertices;
+          const Tensor<1, 3> area_vector = .5 * cross_product_3d(x[face.corners[2]] - x[face.corners[0]],
+                                                                 x[face.corners[3]] - x[face.corners[1]]);
+          for (const unsigned int v : face.corners)
+            normals[v] += area_vector;
+        }
+      for (Tensor<1, 3> &normal : normals)
+        if (const double length = normal.norm(); length > 0.)
+          normal /= length;
       std::vector<bool> is_without_faces;
       for (const Tensor<1, 3> &normal : normals)
         is_without_faces.push_back(normal.norm() == 0.);

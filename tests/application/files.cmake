@@ -8,6 +8,7 @@ function(signorini_add_application_test case)
   endforeach()
 endfunction()
 
+signorini_add_application_test(bowl 1 2)
 signorini_add_application_test(command_line 1)
 signorini_add_application_test(corner 1 2)
 signorini_add_application_test(cubes 1 2 4)

@@ -262,6 +262,43 @@ def obstacle(p):
             check(os.listdir(folder) == [], f'{setting}: something was written')
 
 
+S2 = ((8, 9, 2.957341002694e-4), (16, 45, 3.056666932133e-4), (32, 145, 3.089038702110e-4))
+
+
+def write_bowl(name, n):
+    """The mesh of S2: a cube whose nodes are moved by z -> z + 0.6 r^2 (1 - z)."""
+    def node(i, j, k):
+        return (k * (n + 1) + j) * (n + 1) + i + 1
+    corners = ((0, 0), (1, 0), (1, 1), (0, 1))
+    elements = [f'3 2 {t} {t} ' + ' '.join(str(node(i + a, j + b, k)) for a, b in corners) for t, k in ((1, 0), (2, n)) for j in range(n) for i in range(n)]
+    elements += ['5 2 3 3 ' + ' '.join(str(node(i + a, j + b, k + c)) for c in (0, 1) for a, b in corners)
+                 for k in range(n) for j in range(n) for i in range(n)]
+    with open(name, 'w') as f:
+        f.write('$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n2 1 "bottom"\n2 2 "top"\n3 3 "cube"\n$EndPhysicalNames\n')
+        f.write(f'$Nodes\n{(n + 1) ** 3}\n')
+        for k in range(n + 1):
+            for j in range(n + 1):
+                for i in range(n + 1):
+                    x, y, z = i / n, j / n, k / n
+                    f.write('%d %.17g %.17g %.17g\n' % (node(i, j, k), x, y, z + .6 * ((x - .5) ** 2 + (y - .5) ** 2) * (1 - z)))
+        f.write(f'$EndNodes\n$Elements\n{len(elements)}\n' + ''.join(f'{e + 1} {text}\n' for e, text in enumerate(elements)) + '$EndElements\n')
+
+
+def bowl(p):
+    """S2 of the solver problems: normals that vary, a mesh file that is level 0."""
+    with tempfile.TemporaryDirectory() as folder:
+        for n, active, energy in S2[:3 if p.command[0] != 'mpirun' else 2]:
+            mesh = os.path.join(folder, f'{n}.msh')
+            write_bowl(mesh, n)
+            for method in ('accelerated', 'monotone multigrid'):
+                s = p.solve('obstacle/paraboloid.prm', f'Body cube/Mesh={mesh}', 'Refinement/Global cycles=0', 'Pair bottom/Obstacle=plane: (0, 0, 0.05), (0, 0, 1)',
+                            f'Solver/Method={method}')
+                last = s['cycles'][-1]
+                near(last['energy'], energy, 1e-10, f'S2, {n}, {method}: energy')
+                check(last['active_nodes'] == active, f'S2, {n}, {method}: {last["active_nodes"]} active nodes')
+                check(last['nonlinear']['iterations'] <= 10, f'S2, {n}, {method}: {last["nonlinear"]["iterations"]} iterations')
+
+
 def robust(p):
     """Iterations where solvers use to fail."""
     def run(text, bound, *settings, prm='cubes/cubes.prm'):
