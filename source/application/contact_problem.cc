@@ -256,6 +256,9 @@ namespace Signorini
     matrix.vmult(product, solution);
     const double scale = product * solution;
     solution -= v;
+    // Rigid motions of free bodies may differ by anything.
+    if (!d.free_motions.empty())
+      subtract_projection(solution, motions_of_unknowns(matrix.partition(), plain));
     matrix.vmult(product, solution);
     cycle.difference = scale > 0. ? std::sqrt(std::max(0., product * solution) / scale) : 0.;
     cycle.times["linear_solve"] += time.wall_time();

@@ -43,20 +43,39 @@ namespace Signorini
 
 
 
-  std::vector<Vector> ContactProblem::motions_of_unknowns(const NodePartition &partition) const
+  void subtract_projection(Vector &x, const std::vector<Vector> &span)
+  {
+    const auto      size = static_cast<Eigen::Index>(span.size());
+    Eigen::MatrixXd gram(size, size);
+    Eigen::VectorXd rhs(size);
+    for (Eigen::Index i = 0; i < size; ++i)
+      {
+        rhs[i] = span[i] * x;
+        for (Eigen::Index j = 0; j < size; ++j)
+          gram(i, j) = span[i] * span[j];
+      }
+    const Eigen::VectorXd amount = gram.ldlt().solve(rhs);
+    for (Eigen::Index i = 0; i < size; ++i)
+      x.add(-amount[i], span[i]);
+  }
+
+
+
+  std::vector<Vector> ContactProblem::motions_of_unknowns(const NodePartition       &partition,
+                                                          const BasisTransformation &transformation) const
   {
     const Discretization &d = discretization;
     Vector                lift, nothing;
     partition.reinit(lift);
     d.partition->reinit(nothing);
     nothing.update_ghost_values();
-    d.transformation->from_displacement(lift, nothing);
+    transformation.from_displacement(lift, nothing);
     std::vector<Vector> result;
     for (const Vector &field : motion_fields(d.free_motions, bodies, *d.space, *d.partition))
       {
         result.emplace_back();
         partition.reinit(result.back());
-        d.transformation->from_displacement(result.back(), field);
+        transformation.from_displacement(result.back(), field);
         result.back() -= lift;
       }
     return result;
@@ -72,7 +91,7 @@ namespace Signorini
     problem.semidefinite           = true;
     if (!settle)
       return;
-    const auto                fields = motions_of_unknowns(partition);
+    const auto                fields = motions_of_unknowns(partition, *d.transformation);
     const std::size_t         n = fields.size(), n_rows = d.coupling.n_rows();
     std::vector<double>       rows(n * n_rows), work(n);
     const std::vector<double> gaps = d.transformation->reduce_gaps(d.gaps, d.normals);
@@ -103,7 +122,7 @@ namespace Signorini
   {
     Discretization      &d         = discretization;
     const NodePartition &partition = hierarchy.finest().matrix.partition();
-    const auto           fields    = motions_of_unknowns(partition);
+    const auto           fields    = motions_of_unknowns(partition, *d.transformation);
     const auto           n         = static_cast<Eigen::Index>(fields.size());
     // The motions that slide along all active contacts.
     Eigen::MatrixXd sums        = Eigen::MatrixXd::Zero(n, n);
@@ -138,19 +157,8 @@ namespace Signorini
         }
     if (kernel.empty())
       return;
-    const auto      size = static_cast<Eigen::Index>(kernel.size());
-    Eigen::MatrixXd gram(size, size);
-    Eigen::VectorXd rhs(size);
-    for (Eigen::Index i = 0; i < size; ++i)
-      {
-        rhs[i] = kernel[i] * v;
-        for (Eigen::Index j = 0; j < size; ++j)
-          gram(i, j) = kernel[i] * kernel[j];
-      }
-    const Eigen::VectorXd amount  = gram.ldlt().solve(rhs);
-    Vector                shifted = v;
-    for (Eigen::Index i = 0; i < size; ++i)
-      shifted.add(-amount[i], kernel[i]);
+    Vector shifted = v;
+    subtract_projection(shifted, kernel);
     // On curved surfaces the shift may run into something: then the displacement stays as it is.
     bool admissible = true;
     for (std::size_t p = 0; p < problem.half_spaces.size(); ++p)

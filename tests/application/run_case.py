@@ -355,6 +355,7 @@ def free_bodies(p):
     # A body between two others passes the force on.
     s = p.solve('../tests/application/stack.prm')
     certificate(s)
+    iterations(s)
     check(s['cycles'][-1]['nonlinear']['iterations'] <= 12, f'stack: {s["cycles"][-1]["nonlinear"]["iterations"]} iterations')
     below, above = (next(q for q in s['pairs'] if q['name'] == name) for name in ('below', 'above'))
     near(below['force'][2], -above['force'][2], 1e-9, 'force through the middle')

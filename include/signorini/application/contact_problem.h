@@ -61,6 +61,9 @@ namespace Signorini
     std::vector<unsigned char> active;
   };
 
+  /// Collective. Makes x orthogonal to the span of some vectors (linearly independent).
+  void subtract_projection(Vector &x, const std::vector<Vector> &span);
+
   /// Reads a problem, runs the nested iteration, collects results. Owns the objects; the algorithms are
   /// elsewhere.
   class ContactProblem
@@ -124,7 +127,8 @@ namespace Signorini
                           const bool settle);
     void remove_free_motions(Vector &v, const ObstacleProblem &problem, MultigridHierarchy &hierarchy,
                              const std::vector<unsigned char> &active);
-    std::vector<Vector> motions_of_unknowns(const NodePartition &partition) const;
+    std::vector<Vector> motions_of_unknowns(const NodePartition       &partition,
+                                            const BasisTransformation &transformation) const;
     void evaluate_contact(const Vector &v, const ObstacleProblem &problem, const NodeBlockMatrix &matrix,
                           const std::vector<double> &gaps, const std::vector<unsigned char> &active);
     void solve_linear(CycleResult &cycle, const LevelSpaces &levels, const Vector &start);
