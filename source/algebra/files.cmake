@@ -4,4 +4,5 @@ signorini_add_layer(algebra
   node_block_matrix.cc
   node_partition.cc
   replicated_data.cc
+  vector_span.cc
 )

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Signorini authors
 
 #include <signorini/algebra/input_error.h>
+#include <signorini/algebra/vector_span.h>
 #include <signorini/application/contact_problem.h>
 #include <signorini/solvers/sweep_measurement.h>
 
@@ -258,7 +259,11 @@ namespace Signorini
     solution -= v;
     // Rigid motions of free bodies may differ by anything.
     if (!d.free_motions.empty())
-      subtract_projection(solution, motions_of_unknowns(matrix.partition(), plain));
+      {
+        std::vector<Vector> motions = motions_of_unknowns(matrix.partition(), plain);
+        orthonormalize(motions);
+        subtract_projection(solution, motions);
+      }
     matrix.vmult(product, solution);
     cycle.difference = scale > 0. ? std::sqrt(std::max(0., product * solution) / scale) : 0.;
     cycle.times["linear_solve"] += time.wall_time();

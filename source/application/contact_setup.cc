@@ -48,6 +48,9 @@ namespace Signorini
           {
             if (!Utilities::trim(p.second).empty())
               throw InputError(section + "Obstacle: a pair has either a second surface or an obstacle.");
+            if (!Utilities::trim(p.second_region).empty() || p.nonmortar == "second")
+              throw InputError(section + "Obstacle: there is no second surface that \"Second region\" or "
+                                         "\"Nonmortar = second\" could mean.");
             definition.obstacle = RigidObstacle(p.obstacle, section + "Obstacle");
           }
         for (unsigned int i = 0; i < definition.n_sides(); ++i)

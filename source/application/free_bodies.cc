@@ -5,6 +5,7 @@
 
 #include <signorini/algebra/input_error.h>
 #include <signorini/algebra/replicated_data.h>
+#include <signorini/algebra/vector_span.h>
 #include <signorini/application/contact_problem.h>
 
 #include <Eigen/Dense>
@@ -39,24 +40,6 @@ namespace Signorini
       names.insert(bodies.body_name(motion.body));
     for (const std::string &name : names)
       note("body " + name + ": its Dirichlet conditions do not hold it, contact must.");
-  }
-
-
-
-  void subtract_projection(Vector &x, const std::vector<Vector> &span)
-  {
-    const auto      size = static_cast<Eigen::Index>(span.size());
-    Eigen::MatrixXd gram(size, size);
-    Eigen::VectorXd rhs(size);
-    for (Eigen::Index i = 0; i < size; ++i)
-      {
-        rhs[i] = span[i] * x;
-        for (Eigen::Index j = 0; j < size; ++j)
-          gram(i, j) = span[i] * span[j];
-      }
-    const Eigen::VectorXd amount = gram.ldlt().solve(rhs);
-    for (Eigen::Index i = 0; i < size; ++i)
-      x.add(-amount[i], span[i]);
   }
 
 
@@ -125,18 +108,13 @@ namespace Signorini
     const auto           fields    = motions_of_unknowns(partition, *d.transformation);
     const auto           n         = static_cast<Eigen::Index>(fields.size());
     // The motions that slide along all active contacts.
-    Eigen::MatrixXd sums        = Eigen::MatrixXd::Zero(n, n);
-    const auto      normal_part = [&](const Vector &x, const std::size_t p) {
-      double sum = 0.;
-      for (unsigned int c = 0; c < dim; ++c)
-        sum += problem.half_spaces.normals[p][c] * x.local_element(dim * problem.half_spaces.nodes[p] + c);
-      return sum;
-    };
-    for (std::size_t p = 0; p < problem.half_spaces.size(); ++p)
+    const HalfSpaces &spaces = problem.half_spaces;
+    Eigen::MatrixXd   sums   = Eigen::MatrixXd::Zero(n, n);
+    for (std::size_t p = 0; p < spaces.size(); ++p)
       if (active[p])
         for (Eigen::Index i = 0; i < n; ++i)
           for (Eigen::Index j = 0; j < n; ++j)
-            sums(i, j) += normal_part(fields[i], p) * normal_part(fields[j], p);
+            sums(i, j) += spaces.normal_part(p, fields[i]) * spaces.normal_part(p, fields[j]);
     for (Eigen::Index i = 0; i < n * n; ++i)
       sums.data()[i] = Utilities::MPI::sum(sums.data()[i], comm);
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(sums);
@@ -157,13 +135,14 @@ namespace Signorini
         }
     if (kernel.empty())
       return;
+    orthonormalize(kernel);
     Vector shifted = v;
     subtract_projection(shifted, kernel);
     // On curved surfaces the shift may run into something: then the displacement stays as it is.
     bool admissible = true;
-    for (std::size_t p = 0; p < problem.half_spaces.size(); ++p)
-      admissible =
-          admissible && normal_part(shifted, p) <= std::max(normal_part(v, p), problem.half_spaces.bounds[p]);
+    for (std::size_t p = 0; p < spaces.size(); ++p)
+      admissible = admissible &&
+                   spaces.normal_part(p, shifted) <= std::max(spaces.normal_part(p, v), spaces.bounds[p]);
     if (Utilities::MPI::min(static_cast<int>(admissible), comm) != 0)
       v = shifted;
   }

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Signorini authors
 
 #include <signorini/algebra/rotation.h>
+#include <signorini/algebra/vector_span.h>
 #include <signorini/discretization/hexahedron.h>
 #include <signorini/discretization/interpolation_exchange.h>
 #include <signorini/discretization/level_hierarchy.h>
@@ -311,12 +312,6 @@ namespace Signorini
       const std::vector<Vector3>   &normals, &coarse_normals;
       std::map<NodeIndex, Vector3>  sums;
     };
-  } // namespace
-
-
-
-  namespace
-  {
     /// v = T⁻¹ u, zero in fixed components, in place.
     void make_relative(Vector &u, const NodePartition &partition, const std::vector<FixedMask> &fixed,
                        const InterfaceCoupling &coupling)
@@ -335,18 +330,6 @@ namespace Signorini
           value = project_free(fixed[i], value);
           for (unsigned int c = 0; c < dim; ++c)
             u.local_element(dim * i + c) = value[c];
-        }
-    }
-
-    /// The same span, orthonormal.
-    void orthonormalize(std::vector<Vector> &vectors)
-    {
-      for (std::size_t i = 0; i < vectors.size(); ++i)
-        {
-          for (unsigned int twice = 0; twice < 2; ++twice)
-            for (std::size_t j = 0; j < i; ++j)
-              vectors[i].add(-(vectors[j] * vectors[i]), vectors[j]);
-          vectors[i] /= vectors[i].l2_norm();
         }
     }
   } // namespace

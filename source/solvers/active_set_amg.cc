@@ -13,19 +13,6 @@ namespace Signorini
   {
     constexpr unsigned int most_cycles = 1000;
 
-    double normal_part(const HalfSpaces &half_spaces, const std::size_t p, const Vector &values)
-    {
-      double sum = 0.;
-      for (unsigned int c = 0; c < dim; ++c)
-        sum += half_spaces.normals[p][c] * values.local_element(dim * half_spaces.nodes[p] + c);
-      return sum;
-    }
-
-    void add_normal(Vector &x, const HalfSpaces &half_spaces, const std::size_t p, const double length)
-    {
-      for (unsigned int c = 0; c < dim; ++c)
-        x.local_element(dim * half_spaces.nodes[p] + c) += length * half_spaces.normals[p][c];
-    }
   } // namespace
 
 
@@ -34,7 +21,7 @@ namespace Signorini
   {
     for (std::size_t p = 0; p < half_spaces.size(); ++p)
       if (is_active[p])
-        add_normal(x, half_spaces, p, -normal_part(half_spaces, p, x));
+        half_spaces.add_normal(x, p, -half_spaces.normal_part(p, x));
   }
 
 
@@ -47,7 +34,7 @@ namespace Signorini
     partition.reinit(planes);
     for (std::size_t p = 0; p < half_spaces.size(); ++p)
       if (is_active[p])
-        add_normal(planes, half_spaces, p, 1.);
+        half_spaces.add_normal(planes, p, 1.);
     planes.update_ghost_values();
     const auto plane = [&](const unsigned int node) {
       Vector3 n;
@@ -63,13 +50,8 @@ namespace Signorini
             const Vector3 column_normal = plane(result.column(k));
             if (row_normal.norm_square() == 0. && column_normal.norm_square() == 0.)
               continue;
-            Block block;
-            std::copy_n(result.block(k), 9, block.begin_raw());
-            const double stiffness = row_normal * (block * row_normal);
-            block -= outer_product(row_normal, row_normal * block);
-            block -= outer_product(block * column_normal, column_normal);
-            if (k == result.row_begin(i))
-              block += stiffness * outer_product(row_normal, row_normal);
+            const Block block =
+                restrict_to_planes(result.block(k), row_normal, column_normal, k == result.row_begin(i));
             std::copy_n(block.begin_raw(), 9, result.block(k));
           }
       }
@@ -110,7 +92,7 @@ namespace Signorini
         const Vector start = v;
         for (std::size_t p = 0; p < spaces.size(); ++p)
           if (is_active[p])
-            add_normal(v, spaces, p, spaces.bounds[p] - normal_part(spaces, p, v));
+            spaces.add_normal(v, p, spaces.bounds[p] - spaces.normal_part(p, v));
         matrix.vmult(residual, v);
         residual.sadd(-1., 1., problem.rhs);
         remove_normal_parts(residual, spaces);
@@ -132,8 +114,8 @@ namespace Signorini
             Block block;
             std::copy_n(matrix.block(matrix.row_begin(spaces.nodes[p])), 9, block.begin_raw());
             const double        stiffness = spaces.normals[p] * (block * spaces.normals[p]);
-            const double        excess    = is_active[p] ? 0. : normal_part(spaces, p, v) - spaces.bounds[p];
-            const double        force     = is_active[p] ? normal_part(spaces, p, residual) : 0.;
+            const double        excess    = is_active[p] ? 0. : spaces.normal_part(p, v) - spaces.bounds[p];
+            const double        force     = is_active[p] ? spaces.normal_part(p, residual) : 0.;
             const unsigned char now       = force + stiffness * excess > 0.;
             changed                       = changed || now != is_active[p];
             is_active[p]                  = now;

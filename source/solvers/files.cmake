@@ -5,6 +5,7 @@ signorini_add_layer(solvers
   level_zero_solver.cc
   monotone_multigrid.cc
   multigrid_hierarchy.cc
+  obstacle_problem.cc
   obstacle_solver.cc
   projected_gauss_seidel.cc
   strong_blocks.cc

@@ -12,14 +12,6 @@ namespace Signorini
   namespace
   {
     constexpr double no_bound = std::numeric_limits<double>::max();
-
-    double normal_part(const HalfSpaces &half_spaces, const std::size_t p, const Vector &values)
-    {
-      double sum = 0.;
-      for (unsigned int c = 0; c < dim; ++c)
-        sum += half_spaces.normals[p][c] * values.local_element(dim * half_spaces.nodes[p] + c);
-      return sum;
-    }
   } // namespace
 
 
@@ -66,7 +58,7 @@ namespace Signorini
       {
         if (active != nullptr && (*active)[p])
           continue;
-        const double       left   = std::max(0., half_spaces.bounds[p] - normal_part(half_spaces, p, values));
+        const double       left   = std::max(0., half_spaces.bounds[p] - half_spaces.normal_part(p, values));
         const unsigned int row    = half_spaces.nodes[p];
         const Block *const blocks = transfer.row_blocks(row);
         for (std::size_t k = transfer.row_begin(row); k < transfer.row_end(row); ++k)
@@ -78,24 +70,6 @@ namespace Signorini
             }
       }
     room.compress(VectorOperation::min);
-  }
-
-
-
-  void MonotoneMultigrid::smooth_level(const unsigned int                    level,
-                                       const ProjectedGaussSeidel::Direction direction)
-  {
-    ProjectedGaussSeidel &smoother = *hierarchy.level(level).smoother;
-    Work                 &w        = work[level];
-    const bool            is_pre   = direction == ProjectedGaussSeidel::forward;
-    if (!is_pre)
-      for (unsigned int i = 0; i < parameters.smoothing.n_interface_sweeps; ++i)
-        smoother.interface_sweep(w.correction, w.rhs, direction);
-    for (unsigned int i = 0; i < (is_pre ? parameters.smoothing.n_pre : parameters.smoothing.n_post); ++i)
-      smoother.sweep(w.correction, w.rhs, direction);
-    if (is_pre)
-      for (unsigned int i = 0; i < parameters.smoothing.n_interface_sweeps; ++i)
-        smoother.interface_sweep(w.correction, w.rhs, direction);
   }
 
 
@@ -119,17 +93,13 @@ namespace Signorini
         level.matrix.vmult(w.residual, w.correction);
         w.residual.sadd(-1., 1., w.rhs);
         hierarchy.coarse_solver().solve(step, w.residual);
-        double length = 1.;
-        for (std::size_t q = 0; q < spaces.size(); ++q)
-          if (const double motion = normal_part(spaces, q, step); motion > 0.)
-            length = std::min(length,
-                              std::max(0., spaces.bounds[q] - normal_part(spaces, q, w.correction)) / motion);
-        length = Utilities::MPI::min(length, comm);
+        const double length =
+            std::min(1., Utilities::MPI::min(spaces.longest_step(w.correction, step), comm));
         w.correction.add(length, step);
         if (length == 1.)
           break;
-        smooth_level(0, ProjectedGaussSeidel::forward);
-        smooth_level(0, ProjectedGaussSeidel::backward);
+        for (const auto direction : {ProjectedGaussSeidel::forward, ProjectedGaussSeidel::backward})
+          smoother.smooth(w.correction, w.rhs, parameters.smoothing, direction);
       }
     smoother.set_half_spaces(HalfSpaces());
   }
@@ -149,7 +119,7 @@ namespace Signorini
     const HalfSpaces spaces = half_spaces_of(level);
     here.smoother->set_half_spaces(spaces);
     w.correction = 0.;
-    smooth_level(level, ProjectedGaussSeidel::forward);
+    here.smoother->smooth(w.correction, w.rhs, parameters.smoothing, ProjectedGaussSeidel::forward);
 
     here.matrix.vmult(w.residual, w.correction);
     w.residual.sadd(-1., 1., w.rhs);
@@ -161,7 +131,7 @@ namespace Signorini
     w.correction.zero_out_ghost_values();
     w.correction += below.finer;
 
-    smooth_level(level, ProjectedGaussSeidel::backward);
+    here.smoother->smooth(w.correction, w.rhs, parameters.smoothing, ProjectedGaussSeidel::backward);
     here.smoother->set_half_spaces(HalfSpaces());
   }
 
@@ -185,7 +155,7 @@ namespace Signorini
     while (goes_on(report))
       {
         start.copy_locally_owned_data_from(v);
-        smooth(v, problem.rhs, ProjectedGaussSeidel::forward);
+        smoother.smooth(v, problem.rhs, parameters.smoothing, ProjectedGaussSeidel::forward);
         check_substep(report, energy, v, problem);
 
         if (hierarchy.truncate(problem.half_spaces, smoother.active()))
@@ -202,7 +172,7 @@ namespace Signorini
         add_searched(v, work[coarse].finer, residual, problem);
         check_substep(report, energy, v, problem);
 
-        smooth(v, problem.rhs, ProjectedGaussSeidel::backward);
+        smoother.smooth(v, problem.rhs, parameters.smoothing, ProjectedGaussSeidel::backward);
         check_substep(report, energy, v, problem);
         start.sadd(-1., 1., v);
         matrix.vmult(product, start);

@@ -102,40 +102,11 @@ namespace Signorini
 
 
 
-  void ObstacleSolver::smooth(Vector &v, const Vector &rhs, const ProjectedGaussSeidel::Direction direction)
-  {
-    ProjectedGaussSeidel &smoother = *hierarchy.finest().smoother;
-    const bool            is_pre   = direction == ProjectedGaussSeidel::forward;
-    if (!is_pre)
-      for (unsigned int i = 0; i < parameters.smoothing.n_interface_sweeps; ++i)
-        smoother.interface_sweep(v, rhs, direction);
-    for (unsigned int i = 0; i < (is_pre ? parameters.smoothing.n_pre : parameters.smoothing.n_post); ++i)
-      smoother.sweep(v, rhs, direction);
-    if (is_pre)
-      for (unsigned int i = 0; i < parameters.smoothing.n_interface_sweeps; ++i)
-        smoother.interface_sweep(v, rhs, direction);
-  }
-
-
-
   double ObstacleSolver::admissible_step(const Vector &v, const Vector &c,
                                          const HalfSpaces &half_spaces) const
   {
-    double step = std::numeric_limits<double>::max();
-    for (std::size_t p = 0; p < half_spaces.size(); ++p)
-      if (!active()[p])
-        {
-          double motion = 0., room = half_spaces.bounds[p];
-          for (unsigned int d = 0; d < dim; ++d)
-            {
-              const unsigned int i = dim * half_spaces.nodes[p] + d;
-              motion += half_spaces.normals[p][d] * c.local_element(i);
-              room -= half_spaces.normals[p][d] * v.local_element(i);
-            }
-          if (motion > 0.)
-            step = std::min(step, std::max(room, 0.) / motion);
-        }
-    return Utilities::MPI::min(step, hierarchy.finest().matrix.partition().communicator());
+    return Utilities::MPI::min(half_spaces.longest_step(v, c, &active()),
+                               hierarchy.finest().matrix.partition().communicator());
   }
 
 
@@ -226,15 +197,12 @@ namespace Signorini
     double       violation = 0., largest = 0.;
     for (std::size_t p = 0; p < problem.half_spaces.size(); ++p)
       {
-        double normal = 0., size = 0.;
+        double size = 0.;
         for (unsigned int c = 0; c < dim; ++c)
-          {
-            const double x = v.local_element(dim * problem.half_spaces.nodes[p] + c);
-            normal += problem.half_spaces.normals[p][c] * x;
-            size += x * x;
-          }
-        violation = std::max(violation, normal - problem.half_spaces.bounds[p]);
-        largest   = std::max(largest, std::sqrt(size));
+          size += dealii::Utilities::fixed_power<2>(v.local_element(dim * problem.half_spaces.nodes[p] + c));
+        violation =
+            std::max(violation, problem.half_spaces.normal_part(p, v) - problem.half_spaces.bounds[p]);
+        largest = std::max(largest, std::sqrt(size));
       }
     const MPI_Comm comm = matrix.partition().communicator();
     violation           = Utilities::MPI::max(violation, comm);

@@ -152,6 +152,21 @@ namespace Signorini
 
 
 
+  void ProjectedGaussSeidel::smooth(Vector &v, const Vector &rhs, const SmoothingParameters &parameters,
+                                    const Direction direction)
+  {
+    if (direction == forward)
+      for (unsigned int i = 0; i < parameters.n_pre; ++i)
+        sweep(v, rhs, direction);
+    for (unsigned int i = 0; i < parameters.n_interface_sweeps; ++i)
+      interface_sweep(v, rhs, direction);
+    if (direction == backward)
+      for (unsigned int i = 0; i < parameters.n_post; ++i)
+        sweep(v, rhs, direction);
+  }
+
+
+
   void ProjectedGaussSeidel::project(Vector &v)
   {
     for (std::size_t p = 0; p < constraints.size(); ++p)

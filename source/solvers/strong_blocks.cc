@@ -37,6 +37,9 @@ namespace Signorini
     /// Active flags of the contact nodes among them, as factorized.
     std::vector<unsigned char> flags;
     bool                       is_current = false;
+    /// Whether there are factors: a block without support (a body that only contact holds) has none, and is
+    /// left to the sweeps by node.
+    bool is_definite = false;
 
     Eigen::LLT<Eigen::MatrixXd>                                        dense;
     std::unique_ptr<Eigen::SimplicialLLT<Eigen::SparseMatrix<double>>> sparse;
@@ -82,8 +85,8 @@ namespace Signorini
 
     block_of_row.assign(n, -1);
     place_in_block.assign(n, 0);
-    std::vector<bool>         visited(n, false);
-    std::vector<unsigned int> front;
+    std::vector<bool> visited(n, false);
+    phases.resize(schedule.phases().size());
     for (unsigned int start = 0; start < n; ++start)
       if (is_stretched[start] && !visited[start])
         {
@@ -109,18 +112,15 @@ namespace Signorini
           unsigned int phase = static_cast<unsigned int>(schedule.phases().size()) - 1;
           for (const unsigned int row : rows)
             phase = std::min(phase, phase_of_row[row]);
-          phases.resize(schedule.phases().size());
           phases[phase].push_back(static_cast<unsigned int>(blocks.size()));
           for (unsigned int i = 0; i < rows.size(); ++i)
             {
               block_of_row[rows[i]]   = static_cast<int>(blocks.size());
               place_in_block[rows[i]] = i;
             }
-          rows_in_blocks += rows.size();
           blocks.emplace_back();
           blocks.back().rows = std::move(rows);
         }
-    phases.resize(schedule.phases().size());
   }
 
 
@@ -159,14 +159,8 @@ namespace Signorini
             if (column >= matrix.n_rows() || block_of_row[column] != index)
               continue;
             const std::size_t j = place_in_block[column];
-            Signorini::Block  entry;
-            std::copy_n(matrix.block(k), 9, entry.begin_raw());
-            const Vector3 column_normal = normal_of(column);
-            const double  stiffness     = row_normal * (entry * row_normal);
-            entry -= outer_product(row_normal, row_normal * entry);
-            entry -= outer_product(entry * column_normal, column_normal);
-            if (row == column)
-              entry += stiffness * outer_product(row_normal, row_normal);
+            const auto        entry =
+                restrict_to_planes(matrix.block(k), row_normal, normal_of(column), row == column);
             for (unsigned int c = 0; c < dim; ++c)
               for (unsigned int d = 0; d < dim; ++d)
                 if (is_dense)
@@ -176,7 +170,10 @@ namespace Signorini
           }
       }
     if (is_dense)
-      block.dense.compute(full);
+      {
+        block.dense.compute(full);
+        block.is_definite = block.dense.info() == Eigen::Success;
+      }
     else
       {
         Eigen::SparseMatrix<double> sparse(size, size);
@@ -187,6 +184,7 @@ namespace Signorini
             block.sparse->analyzePattern(sparse);
           }
         block.sparse->factorize(sparse);
+        block.is_definite = block.sparse->info() == Eigen::Success;
       }
     block.is_current = true;
   }
@@ -206,6 +204,8 @@ namespace Signorini
         block.flags = flags;
         factorize(block, half_spaces, half_space_of_row, active);
       }
+    if (!block.is_definite)
+      return;
     Eigen::VectorXd residual(dim * block.rows.size());
     for (std::size_t i = 0; i < block.rows.size(); ++i)
       {

@@ -114,13 +114,13 @@ namespace Signorini
       {
         const std::vector<unsigned char> active = smoother.active();
         start.copy_locally_owned_data_from(v);
-        smooth(v, problem.rhs, ProjectedGaussSeidel::forward);
+        smoother.smooth(v, problem.rhs, parameters.smoothing, ProjectedGaussSeidel::forward);
         check_substep(report, energy, v, problem);
         bool         keeps_active = smoother.active() == active;
         const double square       = correct(v, problem, !rests);
         if (!rests)
           check_substep(report, energy, v, problem);
-        smooth(v, problem.rhs, ProjectedGaussSeidel::backward);
+        smoother.smooth(v, problem.rhs, parameters.smoothing, ProjectedGaussSeidel::backward);
         keeps_active = all_ranks(keeps_active && smoother.active() == active);
 
         correction.copy_locally_owned_data_from(v);

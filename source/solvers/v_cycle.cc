@@ -97,22 +97,8 @@ namespace Signorini
 
       void smooth(const unsigned int level, Vector &u, const Vector &rhs) const override
       {
-        ProjectedGaussSeidel &smoother = *hierarchy.level(level).smoother;
-        // Post-smoothing is the adjoint of pre-smoothing, so that the cycle is symmetric.
-        if (is_pre)
-          {
-            for (unsigned int i = 0; i < parameters.n_pre; ++i)
-              smoother.sweep(u, rhs, ProjectedGaussSeidel::forward);
-            for (unsigned int i = 0; i < parameters.n_interface_sweeps; ++i)
-              smoother.interface_sweep(u, rhs, ProjectedGaussSeidel::forward);
-          }
-        else
-          {
-            for (unsigned int i = 0; i < parameters.n_interface_sweeps; ++i)
-              smoother.interface_sweep(u, rhs, ProjectedGaussSeidel::backward);
-            for (unsigned int i = 0; i < parameters.n_post; ++i)
-              smoother.sweep(u, rhs, ProjectedGaussSeidel::backward);
-          }
+        hierarchy.level(level).smoother->smooth(
+            u, rhs, parameters, is_pre ? ProjectedGaussSeidel::forward : ProjectedGaussSeidel::backward);
       }
 
       void apply(const unsigned int level, Vector &u, const Vector &rhs) const override

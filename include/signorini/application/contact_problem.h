@@ -61,9 +61,6 @@ namespace Signorini
     std::vector<unsigned char> active;
   };
 
-  /// Collective. Makes x orthogonal to the span of some vectors (linearly independent).
-  void subtract_projection(Vector &x, const std::vector<Vector> &span);
-
   /// Reads a problem, runs the nested iteration, collects results. Owns the objects; the algorithms are
   /// elsewhere.
   class ContactProblem

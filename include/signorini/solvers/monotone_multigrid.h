@@ -37,7 +37,6 @@ namespace Signorini
       Vector room;
     };
 
-    void smooth_level(const unsigned int level, const ProjectedGaussSeidel::Direction direction);
     /// Room left at contact nodes of a level by a correction, restricted to the next coarser level.
     void restrict_room(const unsigned int to_level, const HalfSpaces &half_spaces, const Vector &values,
                        const std::vector<unsigned char> *const active);

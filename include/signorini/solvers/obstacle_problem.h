@@ -24,7 +24,23 @@ namespace Signorini
     {
       return nodes.size();
     }
+
+    /// n_p . v_p
+    double normal_part(const std::size_t p, const Vector &v) const;
+
+    /// v_p += length n_p
+    void add_normal(Vector &v, const std::size_t p, const double length) const;
+
+    /// Largest step along c from v that keeps the half-spaces of this rank, those that `ignored` marks left
+    /// out; the largest number if nothing is in the way.
+    double longest_step(const Vector &v, const Vector &c,
+                        const std::vector<unsigned char> *const ignored = nullptr) const;
   };
+
+  /// A block of a matrix that acts in the planes with given normals only (zero for no plane). A diagonal
+  /// block keeps its stiffness along the normal, so that it can be inverted.
+  Block restrict_to_planes(const double *const block, const Vector3 &row_normal, const Vector3 &column_normal,
+                           const bool is_diagonal);
 
   /// The narrow waist between discretization and solvers: find v with
   ///   ½ vᵀ A v − bᵀ v = min,   n_p . v_p <= g_p at the contact nodes,   v = 0 in fixed components,

@@ -72,9 +72,6 @@ namespace Signorini
     /// The hierarchy must outlive the object; its truncation is changed.
     ObstacleSolver(MultigridHierarchy &hierarchy, const SolverParameters &parameters);
 
-    /// Sweeps of the finest level, interface sweeps nearest to the coarse correction.
-    void smooth(Vector &v, const Vector &rhs, const ProjectedGaussSeidel::Direction direction);
-
     /// Collective. Largest step along c that keeps the half-spaces that are not active.
     double admissible_step(const Vector &v, const Vector &c, const HalfSpaces &half_spaces) const;
 

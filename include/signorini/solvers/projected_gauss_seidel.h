@@ -13,6 +13,14 @@
 
 namespace Signorini
 {
+  /// Smoothing of all levels.
+  struct SmoothingParameters
+  {
+    unsigned int n_pre              = 3;
+    unsigned int n_post             = 3;
+    unsigned int n_interface_sweeps = 2;
+  };
+
   /// Block Gauss-Seidel by node (3x3 blocks), with or without half-spaces.
   ///
   /// At a contact node the 3x3 problem with one half-space has a closed solution: solve without
@@ -46,6 +54,11 @@ namespace Signorini
 
     /// One sweep over the interface rows only.
     void interface_sweep(Vector &v, const Vector &rhs, const Direction direction);
+
+    /// The sweeps before (forward) or after (backward) a coarse correction, interface sweeps nearest to it.
+    /// One is the adjoint of the other, so that a cycle is symmetric.
+    void smooth(Vector &v, const Vector &rhs, const SmoothingParameters &parameters,
+                const Direction direction);
 
     /// For each half-space whether the last visit projected onto its plane.
     const std::vector<unsigned char> &active() const

@@ -33,12 +33,6 @@ namespace Signorini
       return is_empty;
     }
 
-    /// Owned nodes in blocks.
-    std::size_t n_rows() const
-    {
-      return rows_in_blocks;
-    }
-
     /// Rows of the matrix have changed.
     void update(const std::vector<unsigned int> &rows);
 
@@ -59,8 +53,7 @@ namespace Signorini
 
     const NodeBlockMatrix &matrix;
     const SweepSchedule   &schedule;
-    bool                   is_empty       = true;
-    std::size_t            rows_in_blocks = 0;
+    bool                   is_empty = true;
     std::vector<Block>     blocks;
     /// Blocks of each phase of the schedule.
     std::vector<std::vector<unsigned int>> phases;

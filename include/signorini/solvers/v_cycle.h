@@ -13,14 +13,6 @@
 
 namespace Signorini
 {
-  /// Smoothing of all levels.
-  struct SmoothingParameters
-  {
-    unsigned int n_pre              = 3;
-    unsigned int n_post             = 3;
-    unsigned int n_interface_sweeps = 2;
-  };
-
   /// The linear V-cycle on the levels of a hierarchy below a given one, run by dealii::Multigrid over our
   /// own matrix, transfer, smoother and coarse solver.
   class VCycle
