@@ -4,7 +4,7 @@
 #include <signorini/algebra/input_error.h>
 #include <signorini/algebra/replicated_data.h>
 #include <signorini/application/contact_problem.h>
-#include <signorini/discretization/hexahedron.h>
+#include <signorini/discretization/element.h>
 #include <signorini/mortar/contact_forces.h>
 #include <signorini/mortar/geometric_penetration.h>
 
@@ -176,8 +176,7 @@ namespace Signorini
 
   void ContactProblem::collect_probes()
   {
-    Discretization          &d = discretization;
-    std::array<NodeIndex, 8> nodes;
+    Discretization &d = discretization;
     for (unsigned int b = 0; b < bodies.n_bodies(); ++b)
       for (const auto &[name, text] :
            split_named_entries(parameters.probes[b], "Body " + bodies.body_name(b) + "/Probes"))
@@ -190,33 +189,26 @@ namespace Signorini
           // The cell whose reference coordinates of the point stick out least.
           double  best = std::numeric_limits<double>::max();
           Vector3 value;
-          for (const auto &cell : d.space->dof_handler().active_cell_iterators())
-            if (cell->is_locally_owned() && bodies.body_of_material(cell->material_id()) == b)
+          for (const NodalSpace::Cell &cell : d.space->cells())
+            if (cell.is_owned && bodies.body_of_material(cell.material) == b)
               {
-                d.space->cell_nodes(cell, nodes);
-                Hexahedron::Corners corners;
-                double              reach = 0.;
-                for (unsigned int v = 0; v < 8; ++v)
-                  corners[v] = d.space->position(nodes[v]);
-                for (unsigned int v = 1; v < 8; ++v)
-                  reach = std::max(reach, corners[0].distance(corners[v]));
-                if (point.distance(corners[0]) > 2. * reach)
+                const Element element(*d.space, cell);
+                const double  reach = element.diameter();
+                if (point.distance(element.corner(0)) > 2. * reach)
                   continue;
                 Point<3> reference;
-                if (!Hexahedron::invert_map(reference, corners, point))
+                if (!element.invert_map(reference, point))
                   continue;
-                double outside = 0.;
-                for (unsigned int c = 0; c < dim; ++c)
-                  outside = std::max({outside, -reference[c], reference[c] - 1.});
+                const double outside = element.outside(reference);
                 if (outside >= best)
                   continue;
                 best              = outside;
                 value             = Vector3();
-                const auto values = Hexahedron::shape_values(reference);
-                for (unsigned int v = 0; v < 8; ++v)
+                const auto values = element.shape_values(reference);
+                for (unsigned int v = 0; v < cell.n_vertices; ++v)
                   for (unsigned int c = 0; c < dim; ++c)
-                    value[c] +=
-                        values[v] * d.displacement.local_element(dim * d.partition->to_local(nodes[v]) + c);
+                    value[c] += values[v] * d.displacement.local_element(
+                                                dim * d.partition->to_local(d.space->nodes(cell)[v]) + c);
               }
           const auto nearest = Utilities::MPI::min_max_avg(best, comm);
           if (!(nearest.min < .05))

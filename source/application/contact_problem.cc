@@ -7,8 +7,6 @@
 #include <signorini/solvers/sweep_measurement.h>
 
 #include <deal.II/base/utilities.h>
-#include <deal.II/distributed/solution_transfer.h>
-#include <deal.II/fe/fe_q.h>
 
 namespace Signorini
 {
@@ -28,8 +26,11 @@ namespace Signorini
     for (const std::string &text : bodies.notes())
       note(text);
     define_pairs();
-    if (parameters.refinement.initial_global > 0)
-      bodies.triangulation().refine_global(parameters.refinement.initial_global);
+    for (unsigned int i = 0; i < parameters.refinement.initial_global; ++i)
+      {
+        const NodalSpace space(comm, bodies.mesh());
+        bodies.refine(space, std::vector<bool>(space.cells().size(), true));
+      }
   }
 
 
@@ -57,7 +58,7 @@ namespace Signorini
   void ContactProblem::setup_space()
   {
     Discretization &d = discretization;
-    d.space           = std::make_unique<NodalSpace>(bodies.triangulation());
+    d.space           = std::make_unique<NodalSpace>(comm, bodies.mesh());
     d.partition       = std::make_unique<NodePartition>(d.space->owned(), d.space->relevant(), comm);
     d.dirichlet       = evaluate_dirichlet(*d.space, loads, true);
     d.free_motions    = free_motions(bodies, *d.space, d.dirichlet);
@@ -122,7 +123,7 @@ namespace Signorini
 
     time.restart();
     progress.show("building levels");
-    const LevelSpaces levels(*d.space, loads);
+    const LevelSpaces levels(*d.space, bodies, loads);
     auto              hierarchy = make_hierarchy(std::move(system), levels);
     cycle.levels                = levels.n_levels();
     cycle.times["hierarchy"] += time.wall_time();
@@ -271,57 +272,57 @@ namespace Signorini
 
 
 
-  void ContactProblem::refine()
+  bool ContactProblem::refine(const std::vector<bool> &marked)
   {
     Discretization &d = discretization;
-    // The numbering of the nodes follows from the triangulation alone, so a second handler of dofs, which
-    // lives through the refinement, numbers like the NodalSpace before and after it.
-    const FE_Q<3> fe(1);
-    DoFHandler<3> dofs(bodies.triangulation());
-    dofs.distribute_dofs(fe);
-    const bool                                         transfers = d.displacement.size() > 0;
-    std::array<Vector, 3>                              components;
-    std::vector<const Vector *>                        old;
-    parallel::distributed::SolutionTransfer<3, Vector> transfer(dofs);
-    bodies.triangulation().prepare_coarsening_and_refinement();
-    if (transfers)
-      {
-        for (unsigned int c = 0; c < dim; ++c)
-          {
-            components[c].reinit(d.space->owned(), d.space->relevant(), comm);
-            for (unsigned int i = 0; i < d.partition->n_owned(); ++i)
-              components[c].local_element(i) = d.displacement.local_element(dim * i + c);
-            components[c].update_ghost_values();
-            old.push_back(&components[c]);
-          }
-        transfer.prepare_for_coarsening_and_refinement(old);
-      }
-    bodies.triangulation().execute_coarsening_and_refinement();
+    if (!bodies.refine(*d.space, marked))
+      return false;
+    const auto   old_space     = std::move(d.space);
+    const auto   old_partition = std::move(d.partition);
+    const Vector old           = d.displacement;
     d.transformation.reset();
-    d.space.reset();
     setup_space();
-    if (!transfers)
-      return;
-    dofs.distribute_dofs(fe);
-    std::array<Vector, 3> interpolated;
-    std::vector<Vector *> targets;
-    for (Vector &component : interpolated)
-      {
-        component.reinit(d.space->owned(), d.space->relevant(), comm);
-        targets.push_back(&component);
-      }
-    transfer.interpolate(targets);
+    if (old.size() == 0)
+      return true;
+
+    // Interpolate: the columns of the rows may belong to other ranks.
+    const NodeRows         rows = interpolation_rows(*d.space, *old_space, bodies.tetrahedra());
+    std::vector<NodeIndex> columns;
+    for (const NodeIndex column : rows.columns)
+      if (!old_space->owned().is_element(column))
+        columns.push_back(column);
+    std::sort(columns.begin(), columns.end());
+    columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
+    IndexSet needed = old_space->owned();
+    needed.add_indices(columns.begin(), columns.end());
+    const NodePartition sources(old_space->owned(), needed, comm);
+    Vector              values;
+    sources.reinit(values);
+    for (unsigned int i = 0; i < dim * sources.n_owned(); ++i)
+      values.local_element(i) = old.local_element(i);
+    values.update_ghost_values();
     d.partition->reinit(d.displacement);
-    for (unsigned int c = 0; c < dim; ++c)
-      for (unsigned int i = 0; i < d.partition->n_owned(); ++i)
-        d.displacement.local_element(dim * i + c) = interpolated[c].local_element(i);
+    for (unsigned int i = 0; i < d.partition->n_owned(); ++i)
+      for (std::size_t k = rows.start[i]; k < rows.start[i + 1]; ++k)
+        for (unsigned int c = 0; c < dim; ++c)
+          d.displacement.local_element(dim * i + c) +=
+              rows.weights[k] * values.local_element(dim * sources.to_local(rows.columns[k]) + c);
     d.displacement.update_ghost_values();
+    for (const auto &line : d.space->hanging_nodes().get_lines())
+      if (d.partition->owns(line.index))
+        for (const auto &[parent, weight] : line.entries)
+          for (unsigned int c = 0; c < dim; ++c)
+            d.displacement.local_element(dim * d.partition->to_local(line.index) + c) +=
+                weight * d.displacement.local_element(dim * d.partition->to_local(parent) + c);
+    d.displacement.update_ghost_values();
+    return true;
   }
 
 
 
   void ContactProblem::run()
   {
+    std::vector<double> indicator;
     for (unsigned int cycle = 0; cycle <= refinement.n_cycles(); ++cycle)
       {
         results.cycles.emplace_back();
@@ -333,17 +334,12 @@ namespace Signorini
             setup_space();
             check_free_bodies();
           }
-        else if (refinement.mark(bodies.triangulation(), cycle))
-          {
-            progress.show("refining");
-            refine();
-          }
-        else
+        else if (progress.show("refining"); !refine(mark(cycle, indicator)))
           {
             results.cycles.pop_back();
             continue;
           }
-        result.cells = bodies.triangulation().n_global_active_cells();
+        result.cells = discretization.space->n_global_cells();
         result.dofs  = dim * discretization.space->n_conforming_nodes();
         result.times["mesh"] += time.wall_time();
         print("cycle " + std::to_string(cycle) + ": " + std::to_string(result.cells) + " cells, " +
@@ -357,6 +353,19 @@ namespace Signorini
           line << " (linear multigrid " << result.linear.iterations << ", difference " << result.difference
                << ")";
         line << ", " << result.active_nodes << " of " << result.contact_nodes << " contact nodes active";
+        if (parameters.refinement.adaptive_cycles > 0)
+          {
+            progress.show("estimating the error");
+            time.restart();
+            indicator    = estimate();
+            double total = 0.;
+            for (std::size_t c = 0; c < indicator.size(); ++c)
+              if (discretization.space->cells()[c].is_owned)
+                total += indicator[c];
+            result.indicator = std::sqrt(Utilities::MPI::sum(total, comm));
+            result.times["estimate"] += time.wall_time();
+            line << ", error indicator " << result.indicator;
+          }
         print(line.str());
       }
     progress.show("evaluating");
@@ -372,8 +381,7 @@ namespace Signorini
     setup_space();
     CycleResult cycle;
     for (unsigned int c = 1; c <= refinement.n_cycles(); ++c)
-      if (refinement.mark(bodies.triangulation(), c))
-        refine();
+      refine(refinement.mark(*discretization.space, c));
     setup_contact(cycle);
     discretization.partition->reinit(discretization.displacement);
     discretization.displacement.update_ghost_values();

@@ -135,7 +135,10 @@ namespace Signorini
                               ? definition.obstacle.description()
                               : bodies.body_name(pair.mortar_body) + ": " + definition.boundary[1 - non];
     pair.nonmortar      = std::move(surfaces[non]);
-    pair.mortar         = std::move(surfaces[1 - non]);
+    pair.nonmortar_ids  = bodies.boundary_ids(definition.body[non], definition.boundary[non]);
+    if (!definition.has_obstacle)
+      pair.mortar_ids = bodies.boundary_ids(definition.body[1 - non], definition.boundary[1 - non]);
+    pair.mortar = std::move(surfaces[1 - non]);
     if (definition.has_gap)
       pair.prescribed_gap = [gap = definition.gap](const Point<3> &p) { return gap(p); };
     cycle.times["mesh"] += time.wall_time();

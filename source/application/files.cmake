@@ -1,4 +1,5 @@
 signorini_add_layer(application
+  adaptivity.cc
   contact_evaluation.cc
   contact_problem.cc
   contact_setup.cc

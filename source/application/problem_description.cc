@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Signorini authors
 
 #include <signorini/application/contact_problem.h>
+#include <signorini/discretization/element.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -22,29 +23,23 @@ namespace Signorini
     };
     std::map<types::boundary_id, Extent> extents;
     std::vector<std::size_t>             cells(bodies.n_bodies(), 0);
-    std::array<NodeIndex, 8>             nodes;
-    for (const auto &cell : d.space->dof_handler().active_cell_iterators())
-      if (cell->is_locally_owned())
+    for (const NodalSpace::Cell &cell : d.space->cells())
+      if (cell.is_owned)
+        ++cells[bodies.body_of_material(cell.material)];
+    for (const NodalSpace::BoundaryFace &face : d.space->boundary_faces())
+      if (const NodalSpace::Cell &cell = d.space->cells()[face.cell]; cell.is_owned)
         {
-          ++cells[bodies.body_of_material(cell->material_id())];
-          d.space->cell_nodes(cell, nodes);
-          for (const unsigned int f : cell->face_indices())
-            if (cell->face(f)->at_boundary())
+          const ElementFace shape(Element(*d.space, cell), face.face);
+          Extent           &extent = extents[face.id];
+          for (unsigned int v = 0; v < shape.n_corners(); ++v)
+            for (unsigned int c = 0; c < dim; ++c)
               {
-                Extent                 &extent = extents[cell->face(f)->boundary_id()];
-                std::array<Point<3>, 4> x;
-                for (unsigned int v = 0; v < 4; ++v)
-                  {
-                    x[v] = d.space->position(nodes[GeometryInfo<3>::face_to_cell_vertices(f, v)]);
-                    for (unsigned int c = 0; c < dim; ++c)
-                      {
-                        extent.low[c]  = std::min(extent.low[c], x[v][c]);
-                        extent.high[c] = std::max(extent.high[c], x[v][c]);
-                      }
-                  }
-                extent.area += .5 * (cross_product_3d(x[1] - x[0], x[2] - x[0]).norm() +
-                                     cross_product_3d(x[3] - x[1], x[3] - x[2]).norm());
+                const double x = d.space->position(d.space->nodes(cell)[shape.vertex(v)])[c];
+                extent.low[c]  = std::min(extent.low[c], x);
+                extent.high[c] = std::max(extent.high[c], x);
               }
+          for (unsigned int q = 0; q < shape.n_points(); ++q)
+            extent.area += shape.point(q).area.norm();
         }
     for (unsigned int b = 0; b < bodies.n_bodies(); ++b)
       {

@@ -78,33 +78,41 @@ namespace Signorini
         for (const types::boundary_id id : loads.dirichlet[i].ids)
           conditions_of[id].push_back(i);
 
-      std::array<NodeIndex, 8> nodes;
-      for (const auto &cell : space.dof_handler().active_cell_iterators())
-        if (!cell->is_artificial() && cell->at_boundary())
-          for (const unsigned int face : cell->face_indices())
-            if (cell->face(face)->at_boundary())
-              {
-                const auto it = conditions_of.find(cell->face(face)->boundary_id());
-                if (it == conditions_of.end())
-                  continue;
-                space.cell_nodes(cell, nodes);
-                for (unsigned int v = 0; v < 4; ++v)
-                  {
-                    const NodeIndex node = nodes[GeometryInfo<3>::face_to_cell_vertices(face, v)];
-                    if (space.hanging_nodes().is_constrained(node))
-                      continue;
-                    const std::size_t i = space.relevant().index_within_set(node);
-                    for (const int condition : it->second)
-                      for (unsigned int c = 0; c < dim; ++c)
-                        if (loads.dirichlet[condition].components[c])
-                          {
-                            data.mask[i] |= 1u << c;
-                            data.condition[i][c] = std::max(data.condition[i][c], condition);
-                          }
-                  }
-              }
+      for (const NodalSpace::BoundaryFace &face : space.boundary_faces())
+        {
+          const auto it = conditions_of.find(face.id);
+          if (it == conditions_of.end())
+            continue;
+          const NodalSpace::Cell &cell = space.cells()[face.cell];
+          for (const unsigned int v : CellShape::face(cell.n_vertices, face.face))
+            {
+              const NodeIndex node = space.nodes(cell)[v];
+              if (space.hanging_nodes().is_constrained(node))
+                continue;
+              const std::size_t i = space.relevant().index_within_set(node);
+              for (const int condition : it->second)
+                for (unsigned int c = 0; c < dim; ++c)
+                  if (loads.dirichlet[condition].components[c])
+                    {
+                      data.mask[i] |= 1u << c;
+                      data.condition[i][c] = std::max(data.condition[i][c], condition);
+                    }
+            }
+        }
     }
   } // namespace
+
+
+
+  Vector3 Traction::force(const Point<3> &position, const Vector3 &area) const
+  {
+    if (is_pressure)
+      return -values[0](position) * area;
+    Vector3 result;
+    for (unsigned int c = 0; c < dim; ++c)
+      result[c] = values[c](position) * area.norm();
+    return result;
+  }
 
 
 

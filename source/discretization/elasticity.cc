@@ -4,7 +4,7 @@
 #include <signorini/algebra/input_error.h>
 #include <signorini/algebra/replicated_data.h>
 #include <signorini/discretization/elasticity.h>
-#include <signorini/discretization/hexahedron.h>
+#include <signorini/discretization/element.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -14,7 +14,7 @@ namespace Signorini
 
   namespace
   {
-    using Cell = DoFHandler<3>::active_cell_iterator;
+    using Cell = NodalSpace::Cell;
 
     /// The nodes of each owned cell after expansion.
     struct CellNodes
@@ -26,13 +26,12 @@ namespace Signorini
     CellNodes collect_cell_nodes(const NodalSpace &space, const VertexExpansion &expansion)
     {
       CellNodes                          result;
-      std::array<NodeIndex, 8>           vertices;
       std::vector<VertexExpansion::Term> terms;
       std::vector<NodeIndex>             list;
-      for (const auto &cell : space.dof_handler().active_cell_iterators())
-        if (cell->is_locally_owned())
+      for (const Cell &cell : space.cells())
+        if (cell.is_owned)
           {
-            space.cell_nodes(cell, vertices);
+            const auto vertices = space.nodes(cell);
             if (std::all_of(vertices.begin(), vertices.end(),
                             [&](const NodeIndex n) { return expansion.is_plain(n); }))
               result.nodes.insert(result.nodes.end(), vertices.begin(), vertices.end());
@@ -109,54 +108,36 @@ namespace Signorini
 
 
 
-    /// Stiffness, load and prescribed displacement of a cell.
+    /// Stiffness and load of a cell.
     struct CellData
     {
-      std::array<NodeIndex, 8> vertices;
-      Hexahedron::Corners      corners;
-      std::array<double, 576>  stiffness;
-      std::array<Vector3, 8>   load;
+      Element                            element;
+      dealii::ArrayView<const NodeIndex> vertices;
+      std::array<double, 576>            stiffness;
+      std::array<Vector3, 8>             load;
+
+      unsigned int n() const
+      {
+        return element.n_vertices();
+      }
+
+      /// The block of two vertices.
+      const double *block(const unsigned int a, const unsigned int b) const
+      {
+        return stiffness.data() + 9 * (n() * a + b);
+      }
     };
 
-    Point<3> face_point(const std::array<Point<3>, 4> &x, const double s, const double t)
-    {
-      return Point<3>((1 - s) * (1 - t) * x[0] + s * (1 - t) * x[1] + (1 - s) * t * x[2] + s * t * x[3]);
-    }
-
-
-
-    /// Forces of a traction on one face, 2x2 Gauss points on the bilinear face.
+    /// Forces of a traction on one face.
     void add_traction(CellData &data, const unsigned int face, const Traction &traction)
     {
-      std::array<Point<3>, 4>     x;
-      std::array<unsigned int, 4> corner;
-      Point<3>                    centre;
-      for (unsigned int v = 0; v < 4; ++v)
+      const ElementFace shape(data.element, face);
+      for (unsigned int q = 0; q < shape.n_points(); ++q)
         {
-          corner[v] = GeometryInfo<3>::face_to_cell_vertices(face, v);
-          x[v]      = data.corners[corner[v]];
-        }
-      for (const Point<3> &c : data.corners)
-        centre += .125 * c;
-      const double g[2] = {.5 - .5 / std::sqrt(3.), .5 + .5 / std::sqrt(3.)};
-      for (unsigned int q = 0; q < 4; ++q)
-        {
-          const double       s = g[q & 1], t = g[q >> 1];
-          const Point<3>     p  = face_point(x, s, t);
-          const Tensor<1, 3> ds = (1 - t) * (x[1] - x[0]) + t * (x[3] - x[2]);
-          const Tensor<1, 3> dt = (1 - s) * (x[2] - x[0]) + s * (x[3] - x[1]);
-          Tensor<1, 3>       a  = .25 * cross_product_3d(ds, dt);
-          if (a * (p - centre) < 0.)
-            a *= -1.;
-          Vector3 force;
-          if (traction.is_pressure)
-            force = -traction.values[0](p) * a;
-          else
-            for (unsigned int c = 0; c < dim; ++c)
-              force[c] = traction.values[c](p) * a.norm();
-          const double shape[4] = {(1 - s) * (1 - t), s * (1 - t), (1 - s) * t, s * t};
-          for (unsigned int v = 0; v < 4; ++v)
-            data.load[corner[v]] += shape[v] * force;
+          const ElementFace::PointData point = shape.point(q);
+          const Vector3                force = traction.force(point.position, point.area);
+          for (unsigned int v = 0; v < shape.n_corners(); ++v)
+            data.load[shape.vertex(v)] += point.shape[v] * force;
         }
     }
 
@@ -170,49 +151,60 @@ namespace Signorini
         , space(space)
         , loads(loads)
       {
+        std::map<types::boundary_id, std::vector<const Traction *>> tractions_of;
         for (const Traction &traction : loads.tractions)
           for (const types::boundary_id id : traction.ids)
             tractions_of[id].push_back(&traction);
+        if (!tractions_of.empty())
+          for (const NodalSpace::BoundaryFace &face : space.boundary_faces())
+            if (const auto it = tractions_of.find(face.id); it != tractions_of.end())
+              for (const Traction *traction : it->second)
+                loaded.push_back({face.cell, face.face, traction});
+        std::stable_sort(loaded.begin(), loaded.end(),
+                         [](const auto &a, const auto &b) { return a.cell < b.cell; });
       }
 
-      void compute(CellData &data, const Cell &cell) const
+      void compute(CellData &data, const unsigned int index) const
       {
-        space.cell_nodes(cell, data.vertices);
-        for (unsigned int v = 0; v < 8; ++v)
-          data.corners[v] = space.position(data.vertices[v]);
-        const auto &material = bodies.material(cell->material_id());
-        if (!Hexahedron::stiffness(data.stiffness, data.corners, material.young, material.poisson))
+        const Cell &cell = space.cells()[index];
+        data.element     = Element(space, cell);
+        data.vertices.reinit(space.nodes(cell).data(), cell.n_vertices);
+        const auto &material = bodies.material(cell.material);
+        if (!data.element.stiffness(data.stiffness, material.young, material.poisson))
           {
             std::ostringstream message;
             message << "Body " << bodies.body_name(material.body) << ": inverted cell near ("
-                    << data.corners[0] << "). Mend the mesh.";
+                    << data.element.corner(0) << "). Mend the mesh.";
             throw InputError(message.str());
           }
         data.load.fill(Vector3());
         const auto &force = loads.volume_forces[material.body];
         if (!force[0].is_zero() || !force[1].is_zero() || !force[2].is_zero())
-          for (unsigned int q = 0; q < 8; ++q)
+          for (unsigned int q = 0; q < data.element.n_points(); ++q)
             {
-              const auto [weight, point] = Hexahedron::volume_element(data.corners, q);
-              const auto values          = Hexahedron::shape_values(Hexahedron::gauss_points()[q]);
-              for (unsigned int v = 0; v < 8; ++v)
+              const auto [weight, point] = data.element.volume_element(q);
+              const auto values          = data.element.shape_at_point(q);
+              for (unsigned int v = 0; v < data.n(); ++v)
                 for (unsigned int c = 0; c < dim; ++c)
                   data.load[v][c] += weight * values[v] * force[c](point);
             }
-        if (!tractions_of.empty() && cell->at_boundary())
-          for (const unsigned int face : cell->face_indices())
-            if (cell->face(face)->at_boundary())
-              if (const auto it = tractions_of.find(cell->face(face)->boundary_id());
-                  it != tractions_of.end())
-                for (const Traction *traction : it->second)
-                  add_traction(data, face, *traction);
+        auto face = std::lower_bound(loaded.begin(), loaded.end(), index,
+                                     [](const LoadedFace &f, const unsigned int i) { return f.cell < i; });
+        for (; face != loaded.end() && face->cell == index; ++face)
+          add_traction(data, face->face, *face->traction);
       }
 
     private:
-      const Bodies                                               &bodies;
-      const NodalSpace                                           &space;
-      const Loads                                                &loads;
-      std::map<types::boundary_id, std::vector<const Traction *>> tractions_of;
+      struct LoadedFace
+      {
+        unsigned int    cell, face;
+        const Traction *traction;
+      };
+
+      const Bodies           &bodies;
+      const NodalSpace       &space;
+      const Loads            &loads;
+      std::vector<LoadedFace> loaded;
     };
 
 
@@ -220,11 +212,11 @@ namespace Signorini
     /// Subtracts K times a cell displacement from the load.
     void subtract_stiffness(CellData &data, const std::array<Vector3, 8> &u)
     {
-      for (unsigned int a = 0; a < 8; ++a)
-        for (unsigned int b = 0; b < 8; ++b)
+      for (unsigned int a = 0; a < data.n(); ++a)
+        for (unsigned int b = 0; b < data.n(); ++b)
           for (unsigned int c = 0; c < dim; ++c)
             for (unsigned int d = 0; d < dim; ++d)
-              data.load[a][c] -= data.stiffness[9 * (8 * a + b) + 3 * c + d] * u[b][d];
+              data.load[a][c] -= data.block(a, b)[3 * c + d] * u[b][d];
     }
 
 
@@ -256,14 +248,13 @@ namespace Signorini
     {
       const NodePartition        &partition = system.matrix.partition();
       std::array<unsigned int, 8> local;
-      for (unsigned int v = 0; v < 8; ++v)
+      for (unsigned int v = 0; v < data.n(); ++v)
         local[v] = partition.to_local(data.vertices[v]);
-      for (unsigned int a = 0; a < 8; ++a)
+      for (unsigned int a = 0; a < data.n(); ++a)
         {
           const unsigned int row = system.matrix.row_of(local[a]);
-          for (unsigned int b = 0; b < 8; ++b)
-            add_block(system.matrix.block(system.matrix.find(row, local[b])),
-                      data.stiffness.data() + 9 * (8 * a + b));
+          for (unsigned int b = 0; b < data.n(); ++b)
+            add_block(system.matrix.block(system.matrix.find(row, local[b])), data.block(a, b));
           for (unsigned int c = 0; c < dim; ++c)
             system.rhs.local_element(dim * local[a] + c) += data.load[a][c];
         }
@@ -279,17 +270,17 @@ namespace Signorini
       {
         collect(data, expansion);
         const std::size_t n = nodes.size();
-        product.assign(8 * n * 9, 0.);
+        product.assign(data.n() * n * 9, 0.);
         // K C, then Cᵀ (K C).
-        for (unsigned int a = 0; a < 8; ++a)
-          for (unsigned int b = 0; b < 8; ++b)
+        for (unsigned int a = 0; a < data.n(); ++a)
+          for (unsigned int b = 0; b < data.n(); ++b)
             for (const auto &[m, w] : terms[b])
               for (unsigned int c = 0; c < dim; ++c)
                 for (unsigned int d = 0; d < dim; ++d)
-                  product[9 * (n * a + m) + 3 * c + d] += data.stiffness[9 * (8 * a + b) + 3 * c + d] * w[d];
+                  product[9 * (n * a + m) + 3 * c + d] += data.block(a, b)[3 * c + d] * w[d];
         result.assign(n * n * 9, 0.);
         load.assign(n, Vector3());
-        for (unsigned int a = 0; a < 8; ++a)
+        for (unsigned int a = 0; a < data.n(); ++a)
           for (const auto &[l, w] : terms[a])
             {
               for (unsigned int c = 0; c < dim; ++c)
@@ -306,7 +297,7 @@ namespace Signorini
       void collect(const CellData &data, const VertexExpansion &expansion)
       {
         nodes.clear();
-        for (unsigned int v = 0; v < 8; ++v)
+        for (unsigned int v = 0; v < data.n(); ++v)
           {
             expansion.expand(data.vertices[v], buffer[v]);
             for (const auto &term : buffer[v])
@@ -314,7 +305,7 @@ namespace Signorini
           }
         std::sort(nodes.begin(), nodes.end());
         nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-        for (unsigned int v = 0; v < 8; ++v)
+        for (unsigned int v = 0; v < data.n(); ++v)
           {
             terms[v].clear();
             for (const auto &term : buffer[v])
@@ -397,13 +388,13 @@ namespace Signorini
     std::string         error;
     try
       {
-        for (const auto &cell : space.dof_handler().active_cell_iterators())
-          if (cell->is_locally_owned())
+        for (unsigned int cell = 0; cell < space.cells().size(); ++cell)
+          if (space.cells()[cell].is_owned)
             {
               assembler.compute(data, cell);
               bool                   plain = true, lifted = false;
               std::array<Vector3, 8> lift;
-              for (unsigned int v = 0; v < 8; ++v)
+              for (unsigned int v = 0; v < data.n(); ++v)
                 {
                   plain   = plain && expansion.is_plain(data.vertices[v]);
                   lift[v] = lift_at(space, dirichlet, data.vertices[v]);
@@ -440,16 +431,16 @@ namespace Signorini
     partition.reinit(residual);
     const CellAssembler assembler(bodies, space, loads);
     CellData            data;
-    for (const auto &cell : space.dof_handler().active_cell_iterators())
-      if (cell->is_locally_owned())
+    for (unsigned int cell = 0; cell < space.cells().size(); ++cell)
+      if (space.cells()[cell].is_owned)
         {
           assembler.compute(data, cell);
           std::array<Vector3, 8> cell_u;
-          for (unsigned int v = 0; v < 8; ++v)
+          for (unsigned int v = 0; v < data.n(); ++v)
             for (unsigned int c = 0; c < dim; ++c)
               cell_u[v][c] = u.local_element(dim * partition.to_local(data.vertices[v]) + c);
           subtract_stiffness(data, cell_u);
-          for (unsigned int v = 0; v < 8; ++v)
+          for (unsigned int v = 0; v < data.n(); ++v)
             {
               const auto add = [&](const NodeIndex node, const double weight) {
                 for (unsigned int c = 0; c < dim; ++c)

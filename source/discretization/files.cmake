@@ -2,6 +2,8 @@ signorini_add_layer(discretization
   basis_transformation.cc
   boundary_conditions.cc
   elasticity.cc
+  element.cc
+  error_indicator.cc
   hexahedron.cc
   interpolation_exchange.cc
   level_hierarchy.cc

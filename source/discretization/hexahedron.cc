@@ -9,27 +9,29 @@ namespace Signorini
 
   namespace Hexahedron
   {
+    std::array<Vector3, 8> reference_gradients(const Point<3> &p)
+    {
+      std::array<Vector3, 8> gradients;
+      for (unsigned int a = 0; a < 8; ++a)
+        {
+          double value[3], slope[3];
+          for (unsigned int c = 0; c < 3; ++c)
+            {
+              const bool upper = a & (1u << c);
+              value[c]         = upper ? p[c] : 1. - p[c];
+              slope[c]         = upper ? 1. : -1.;
+            }
+          gradients[a][0] = slope[0] * value[1] * value[2];
+          gradients[a][1] = value[0] * slope[1] * value[2];
+          gradients[a][2] = value[0] * value[1] * slope[2];
+        }
+      return gradients;
+    }
+
+
+
     namespace
     {
-      std::array<Vector3, 8> reference_gradients(const Point<3> &p)
-      {
-        std::array<Vector3, 8> gradients;
-        for (unsigned int a = 0; a < 8; ++a)
-          {
-            double value[3], slope[3];
-            for (unsigned int c = 0; c < 3; ++c)
-              {
-                const bool upper = a & (1u << c);
-                value[c]         = upper ? p[c] : 1. - p[c];
-                slope[c]         = upper ? 1. : -1.;
-              }
-            gradients[a][0] = slope[0] * value[1] * value[2];
-            gradients[a][1] = value[0] * slope[1] * value[2];
-            gradients[a][2] = value[0] * value[1] * slope[2];
-          }
-        return gradients;
-      }
-
       struct ReferenceData
       {
         std::array<Point<3>, 8>               points;

@@ -14,15 +14,11 @@ namespace Signorini
   namespace
   {
     using Key  = ParentLookup::Key;
-    using Cell = DoFHandler<3>::active_cell_iterator;
+    using Cell = NodalSpace::Cell;
 
     Key name_of(const Cell &cell)
     {
-      const CellId id  = cell->id();
-      Key          key = {id.get_coarse_cell_id(), 1};
-      for (const std::uint8_t child : id.get_child_indices())
-        key.path = key.path << 3 | child;
-      return key;
+      return {cell.coarse_cell, cell.path};
     }
 
     Key parent_of(const Key &key)
@@ -44,14 +40,13 @@ namespace Signorini
 
   void ParentLookup::collect_own_cells(const NodalSpace &coarse)
   {
-    std::array<NodeIndex, 8> vertices;
-    for (const auto &cell : coarse.dof_handler().active_cell_iterators())
-      if (cell->is_locally_owned())
+    for (const Cell &cell : coarse.cells())
+      if (cell.is_owned && cell.n_vertices == CellShape::hexahedron)
         {
           index[name_of(cell)] = static_cast<unsigned int>(cells.size());
           cells.emplace_back();
-          CellInterpolation &data = cells.back();
-          coarse.cell_nodes(cell, vertices);
+          CellInterpolation &data     = cells.back();
+          const auto         vertices = coarse.nodes(cell);
           for (unsigned int v = 0; v < 8; ++v)
             {
               data.start[v] = static_cast<unsigned int>(data.nodes.size());
@@ -90,8 +85,8 @@ namespace Signorini
 
     // What is missing here, asked of the directory; it answers with the owners.
     std::set<std::pair<std::uint64_t, std::uint64_t>> missing;
-    for (const auto &cell : fine.dof_handler().active_cell_iterators())
-      if (cell->is_locally_owned())
+    for (const Cell &cell : fine.cells())
+      if (cell.is_owned && cell.n_vertices == CellShape::hexahedron)
         {
           const Key key = name_of(cell), parent = parent_of(key);
           if (index.count(key) == 0 && index.count(parent) == 0)

@@ -52,11 +52,42 @@ namespace Signorini
             }
       std::sort(row.begin(), row.end());
     }
+
+
+
+    /// The row of a vertex of a forest: itself in the coarse mesh, or the mean of the rows of the ends of the
+    /// edge it was made on.
+    void forest_row(std::vector<std::pair<NodeIndex, double>> &row, const TetrahedralForest *const forest,
+                    const unsigned int vertex, const std::vector<NodeIndex> &coarse_nodes)
+    {
+      row.clear();
+      std::vector<std::pair<unsigned int, double>> open = {{vertex, 1.}};
+      while (!open.empty())
+        {
+          const auto [v, weight] = open.back();
+          open.pop_back();
+          if (v < coarse_nodes.size())
+            {
+              const NodeIndex node = coarse_nodes[v];
+              const auto      it =
+                  std::find_if(row.begin(), row.end(), [&](const auto &e) { return e.first == node; });
+              if (it == row.end())
+                row.emplace_back(node, weight);
+              else
+                it->second += weight;
+            }
+          else
+            for (const unsigned int parent : forest->parents(v))
+              open.emplace_back(parent, .5 * weight);
+        }
+      std::sort(row.begin(), row.end());
+    }
   } // namespace
 
 
 
-  NodeRows interpolation_rows(const NodalSpace &fine, const NodalSpace &coarse)
+  NodeRows interpolation_rows(const NodalSpace &fine, const NodalSpace &coarse,
+                              const TetrahedralForest *const forest)
   {
     const ParentLookup                        parents(fine, coarse);
     const NodeIndex                           n_owned = fine.owned().n_elements();
@@ -64,12 +95,11 @@ namespace Signorini
     std::vector<bool>                         done(n_owned, false);
     std::vector<std::size_t>                  first(n_owned, 0), last(n_owned, 0);
     std::vector<std::pair<NodeIndex, double>> entries, row;
-    std::array<NodeIndex, 8>                  nodes;
     std::array<double, 8>                     weights;
-    for (const auto &cell : fine.dof_handler().active_cell_iterators())
-      if (cell->is_locally_owned())
+    for (const NodalSpace::Cell &cell : fine.cells())
+      if (cell.is_owned && cell.n_vertices == CellShape::hexahedron)
         {
-          fine.cell_nodes(cell, nodes);
+          const auto               nodes  = fine.nodes(cell);
           const CellInterpolation *parent = nullptr;
           int                      child  = -1;
           for (unsigned int v = 0; v < 8; ++v)
@@ -95,6 +125,14 @@ namespace Signorini
               last[i] = entries.size();
             }
         }
+    const NodeIndex n_before = n_owned - fine.n_owned_forest_nodes();
+    for (NodeIndex i = n_before; i < n_owned; ++i)
+      {
+        forest_row(row, forest, fine.owned_forest_vertices()[i - n_before], coarse.forest_nodes());
+        first[i] = entries.size();
+        entries.insert(entries.end(), row.begin(), row.end());
+        last[i] = entries.size();
+      }
     NodeRows result;
     result.columns.reserve(entries.size());
     result.weights.reserve(entries.size());
@@ -109,13 +147,10 @@ namespace Signorini
 
 
 
-  LevelSpaces::LevelSpaces(const NodalSpace &finest, const Loads &loads)
+  LevelSpaces::LevelSpaces(const NodalSpace &finest, const Bodies &bodies, const Loads &loads)
     : finest(finest)
+    , coarse(coarser_spaces(bodies))
   {
-    triangulations = create_coarsening_sequence(dynamic_cast<const parallel::distributed::Triangulation<3> &>(
-        finest.dof_handler().get_triangulation()));
-    for (const auto &triangulation : triangulations)
-      coarse.push_back(std::make_unique<NodalSpace>(*triangulation));
     for (unsigned int l = 0; l < n_levels(); ++l)
       {
         const NodalSpace   &s         = space(l);
@@ -126,7 +161,7 @@ namespace Signorini
                                      ? all_fixed
                                      : dirichlet.mask[s.relevant().index_within_set(node)]);
         if (l > 0)
-          rows.push_back(interpolation_rows(s, space(l - 1)));
+          rows.push_back(interpolation_rows(s, space(l - 1), bodies.tetrahedra()));
       }
   }
 

@@ -34,18 +34,16 @@ namespace Signorini
     std::vector<int> find_bodies(std::vector<FreeMotion> &frames, const Bodies &bodies,
                                  const NodalSpace &space)
     {
-      const unsigned int       n_bodies = bodies.n_bodies();
-      std::vector<double>      low(dim * n_bodies, std::numeric_limits<double>::max()), high(low);
-      std::vector<int>         body_of_node(space.relevant().n_elements(), -1);
-      std::array<NodeIndex, 8> nodes;
+      const unsigned int  n_bodies = bodies.n_bodies();
+      std::vector<double> low(dim * n_bodies, std::numeric_limits<double>::max()), high(low);
+      std::vector<int>    body_of_node(space.relevant().n_elements(), -1);
       for (double &h : high)
         h = -h;
-      for (const auto &cell : space.dof_handler().active_cell_iterators())
-        if (cell->is_locally_owned())
+      for (const NodalSpace::Cell &cell : space.cells())
+        if (cell.is_owned)
           {
-            const unsigned int body = bodies.body_of_material(cell->material_id());
-            space.cell_nodes(cell, nodes);
-            for (const NodeIndex node : nodes)
+            const unsigned int body = bodies.body_of_material(cell.material);
+            for (const NodeIndex node : space.nodes(cell))
               {
                 body_of_node[space.relevant().index_within_set(node)] = static_cast<int>(body);
                 for (unsigned int c = 0; c < dim; ++c)

@@ -4,6 +4,7 @@
 #include <signorini/algebra/input_error.h>
 #include <signorini/mesh/bodies.h>
 #include <signorini/mesh/mesh_input.h>
+#include <signorini/mesh/nodal_space.h>
 
 #include <deal.II/base/utilities.h>
 #include <deal.II/grid/grid_tools.h>
@@ -19,8 +20,13 @@ namespace Signorini
   void BodyParameters::add_parameters(ParameterHandler &prm)
   {
     prm.add_parameter("Mesh", mesh,
-                      "A gmsh file (.msh) of hexahedra, relative to this file, or a generated mesh: " +
+                      "A mesh file of hexahedra or tetrahedra (.msh, .inp of Abaqus, .vtk, .unv, .bdf and "
+                      "whatever else gmsh reads), relative to this file, or a generated mesh: " +
                           Utilities::replace_in_string(generated_mesh_kinds(), "|", ", ") + ".");
+    prm.add_parameter("Convert to hexahedra", convert_to_hexahedra,
+                      "Cuts each tetrahedron of the mesh into four hexahedra.");
+    prm.add_parameter("Convert to tetrahedra", convert_to_tetrahedra,
+                      "Cuts each hexahedron of the mesh into twelve tetrahedra.");
     prm.add_parameter("Radius", radius, "Radius of balls and cylinders, outer radius of shells (length).");
     prm.add_parameter("Inner radius", inner_radius, "Inner radius of shells (length).");
     prm.add_parameter("Height", height, "Height of cylinders (length).");
@@ -98,7 +104,7 @@ namespace Signorini
     }
 
     /// Keeps the cells of some volumes only.
-    void select_volumes(HexahedralMesh &mesh, const std::string &list, const std::string &where)
+    void select_volumes(VolumeMesh &mesh, const std::string &list, const std::string &where)
     {
       if (Utilities::trim(list).empty())
         return;
@@ -111,57 +117,39 @@ namespace Signorini
                              listed(mesh.volume_names) + ".");
           keep[it - mesh.volume_names.begin()] = true;
         }
-      std::map<std::array<unsigned int, 4>, unsigned int> name_of;
+      std::map<VolumeMesh::Face, unsigned int> name_of;
       for (const auto &face : mesh.faces)
-        {
-          auto key = face.vertices;
-          std::sort(key.begin(), key.end());
-          name_of[key] = face.name;
-        }
-      HexahedralMesh part;
-      part.boundary_names = mesh.boundary_names;
-      part.volume_names   = mesh.volume_names;
-      part.notes          = mesh.notes;
-      std::vector<int> number(mesh.vertices.size(), -1);
-      for (std::size_t c = 0; c < mesh.cells.size(); ++c)
-        if (keep[mesh.cell_volume[c]])
+        name_of[face_key(face.vertices)] = face.name;
+      VolumeMesh part;
+      part.volume_names = mesh.volume_names;
+      part.notes        = mesh.notes;
+      std::vector<unsigned int> number(mesh.vertices.size(), VolumeMesh::no_vertex), old;
+      for (const VolumeMesh::Cell &cell : mesh.cells)
+        if (keep[cell.volume])
           {
-            part.cells.push_back(mesh.cells[c]);
-            part.cell_volume.push_back(mesh.cell_volume[c]);
-            for (unsigned int &v : part.cells.back())
+            part.cells.push_back(cell);
+            for (unsigned int v = 0; v < cell.n_vertices; ++v)
               {
-                if (number[v] < 0)
+                unsigned int &n = number[cell.vertices[v]];
+                if (n == VolumeMesh::no_vertex)
                   {
-                    number[v] = static_cast<int>(part.vertices.size());
-                    part.vertices.push_back(mesh.vertices[v]);
+                    n = static_cast<unsigned int>(part.vertices.size());
+                    part.vertices.push_back(mesh.vertices[cell.vertices[v]]);
+                    old.push_back(cell.vertices[v]);
                   }
-                v = static_cast<unsigned int>(number[v]);
+                part.cells.back().vertices[v] = n;
               }
           }
-      std::map<std::array<unsigned int, 4>, unsigned int> renumbered;
-      for (const auto &[key, name] : name_of)
-        {
-          std::array<unsigned int, 4> k;
-          for (unsigned int v = 0; v < 4; ++v)
-            k[v] = static_cast<unsigned int>(number[key[v]]);
-          std::sort(k.begin(), k.end());
-          renumbered[k] = name;
-        }
       for (const auto &face : find_boundary_faces(part))
         {
-          auto key = face.first;
-          std::sort(key.begin(), key.end());
-          auto it = renumbered.find(key);
-          if (it == renumbered.end())
-            {
-              const auto unnamed =
-                  std::find(part.boundary_names.begin(), part.boundary_names.end(), "unnamed");
-              const unsigned int index = unnamed - part.boundary_names.begin();
-              if (unnamed == part.boundary_names.end())
-                part.boundary_names.push_back("unnamed");
-              it = renumbered.insert({key, index}).first;
-            }
-          part.faces.push_back({face.first, it->second});
+          VolumeMesh::Face key = face.first;
+          for (unsigned int &v : key)
+            if (v != VolumeMesh::no_vertex)
+              v = old[v];
+          const auto it = name_of.find(face_key(key));
+          part.faces.push_back(
+              {face.first, index_of(part.boundary_names,
+                                    it == name_of.end() ? "unnamed" : mesh.boundary_names[it->second])});
         }
       mesh = part;
     }
@@ -172,7 +160,7 @@ namespace Signorini
   /// The mesh of one body in its place.
   struct Bodies::Placed
   {
-    HexahedralMesh              mesh;
+    VolumeMesh                  mesh;
     std::vector<CurvedBoundary> curved;
     std::vector<unsigned int>   material_of_volume;
     Point<3>                    centre;
@@ -183,8 +171,7 @@ namespace Signorini
 
   Bodies::Bodies(const MPI_Comm communicator, const std::vector<BodyParameters> &parameters,
                  const std::string &base_folder)
-    : tria(communicator, Triangulation<3>::MeshSmoothing::none,
-           parallel::distributed::Triangulation<3>::Settings::default_setting)
+    : comm(communicator)
   {
     std::vector<Placed> placed(parameters.size());
     for (unsigned int b = 0; b < parameters.size(); ++b)
@@ -235,7 +222,7 @@ namespace Signorini
                 file.is_absolute() ? kind : (std::filesystem::path(base_folder) / file).string();
             try
               {
-                body.mesh = read_hexahedral_mesh(path, communicator);
+                body.mesh = read_volume_mesh(path, communicator);
               }
             catch (const InputError &e)
               {
@@ -243,6 +230,12 @@ namespace Signorini
               }
             select_volumes(body.mesh, p.volumes, section + "Volumes");
           }
+        if (p.convert_to_hexahedra && p.convert_to_tetrahedra)
+          throw InputError(section + "Convert to hexahedra, Convert to tetrahedra: choose one.");
+        if (p.convert_to_hexahedra)
+          body.mesh = split_into_hexahedra(body.mesh);
+        if (p.convert_to_tetrahedra)
+          body.mesh = split_into_tetrahedra(body.mesh);
         remarks.insert(remarks.end(), body.mesh.notes.begin(), body.mesh.notes.end());
 
         // Materials: one per body, and one for each volume with its own.
@@ -292,36 +285,62 @@ namespace Signorini
 
   void Bodies::create(const std::vector<Placed> &placed)
   {
+    types::boundary_id next_boundary = 0;
+    for (unsigned int b = 0; b < placed.size(); ++b)
+      {
+        const VolumeMesh  &mesh   = placed[b].mesh;
+        const unsigned int n      = mesh.cells[0].n_vertices;
+        const std::string  prefix = "Body " + names[b] + ": ";
+        if (std::any_of(mesh.cells.begin(), mesh.cells.end(),
+                        [&](const VolumeMesh::Cell &cell) { return cell.n_vertices != n; }))
+          throw InputError(prefix + "the mesh has both tetrahedra and hexahedra; use one kind for each body "
+                                    "(or Convert to hexahedra).");
+        first_boundary.push_back(next_boundary);
+        next_boundary += mesh.boundary_names.size();
+      }
+    create_hexahedra(placed);
+    create_tetrahedra(placed);
+  }
+
+
+
+  void Bodies::create_hexahedra(const std::vector<Placed> &placed)
+  {
     std::vector<Point<3>>    vertices;
     std::vector<CellData<3>> cells;
     SubCellData              faces;
-    types::boundary_id       next_boundary = 0;
-    for (const Placed &body : placed)
+    for (unsigned int b = 0; b < placed.size(); ++b)
       {
+        const VolumeMesh &mesh = placed[b].mesh;
+        if (mesh.cells[0].n_vertices != CellShape::hexahedron)
+          continue;
         const unsigned int shift = static_cast<unsigned int>(vertices.size());
-        vertices.insert(vertices.end(), body.mesh.vertices.begin(), body.mesh.vertices.end());
-        for (std::size_t c = 0; c < body.mesh.cells.size(); ++c)
+        vertices.insert(vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
+        for (const VolumeMesh::Cell &cell : mesh.cells)
           {
             cells.emplace_back(8);
             for (unsigned int v = 0; v < 8; ++v)
-              cells.back().vertices[v] = body.mesh.cells[c][v] + shift;
-            cells.back().material_id = body.material_of_volume[body.mesh.cell_volume[c]];
+              cells.back().vertices[v] = cell.vertices[v] + shift;
+            cells.back().material_id = placed[b].material_of_volume[cell.volume];
           }
-        first_boundary.push_back(next_boundary);
-        for (const auto &face : body.mesh.faces)
+        for (const auto &face : mesh.faces)
           {
             faces.boundary_quads.emplace_back(4);
             for (unsigned int v = 0; v < 4; ++v)
               faces.boundary_quads.back().vertices[v] = face.vertices[v] + shift;
-            faces.boundary_quads.back().boundary_id = next_boundary + face.name;
+            faces.boundary_quads.back().boundary_id = first_boundary[b] + face.name;
           }
-        next_boundary += body.mesh.boundary_names.size();
       }
+    if (cells.empty())
+      return;
+    tria = std::make_unique<parallel::distributed::Triangulation<3>>(
+        comm, Triangulation<3>::MeshSmoothing::none,
+        parallel::distributed::Triangulation<3>::Settings::default_setting);
     // deal.II wants neighbouring cells to agree on the direction of edges.
     GridTools::consistently_order_cells(cells);
     try
       {
-        tria.create_triangulation(vertices, cells, faces);
+        tria->create_triangulation(vertices, cells, faces);
       }
     catch (const std::exception &)
       {
@@ -335,16 +354,98 @@ namespace Signorini
       for (const CurvedBoundary &curved : placed[b].curved)
         {
           const std::set<types::boundary_id> ids = boundary_ids(b, curved.name);
-          for (const auto &cell : tria.cell_iterators_on_level(0))
+          for (const auto &cell : tria->cell_iterators_on_level(0))
             for (const unsigned int f : cell->face_indices())
               if (cell->face(f)->at_boundary() && ids.count(cell->face(f)->boundary_id()) > 0)
                 cell->face(f)->set_all_manifold_ids(next_manifold);
           if (curved.shape == CurvedBoundary::sphere)
-            tria.set_manifold(next_manifold, SphericalManifold<3>(placed[b].centre));
+            tria->set_manifold(next_manifold, SphericalManifold<3>(placed[b].centre));
           else
-            tria.set_manifold(next_manifold, CylindricalManifold<3>(placed[b].axis, placed[b].centre));
+            tria->set_manifold(next_manifold, CylindricalManifold<3>(placed[b].axis, placed[b].centre));
           ++next_manifold;
         }
+  }
+
+
+
+  void Bodies::create_tetrahedra(const std::vector<Placed> &placed)
+  {
+    std::vector<Point<3>>                vertices;
+    std::vector<TetrahedralForest::Cell> cells;
+    for (unsigned int b = 0; b < placed.size(); ++b)
+      {
+        const VolumeMesh &mesh = placed[b].mesh;
+        if (mesh.cells[0].n_vertices != CellShape::tetrahedron)
+          continue;
+        std::map<VolumeMesh::Face, unsigned int> name_of;
+        for (const auto &face : mesh.faces)
+          name_of[face_key(face.vertices)] = face.name;
+        const unsigned int shift = static_cast<unsigned int>(vertices.size());
+        vertices.insert(vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
+        for (const VolumeMesh::Cell &cell : mesh.cells)
+          {
+            cells.emplace_back();
+            cells.back().material = placed[b].material_of_volume[cell.volume];
+            for (unsigned int f = 0; f < 4; ++f)
+              {
+                VolumeMesh::Face face;
+                face.fill(VolumeMesh::no_vertex);
+                for (unsigned int v = 0; v < 3; ++v)
+                  face[v] = cell.vertices[CellShape::face(4, f)[v]];
+                const auto it            = name_of.find(face_key(face));
+                cells.back().vertices[f] = cell.vertices[f] + shift;
+                cells.back().boundary[f] =
+                    it == name_of.end() ? TetrahedralForest::inner : first_boundary[b] + it->second;
+              }
+          }
+      }
+    if (!cells.empty())
+      forest = std::make_unique<TetrahedralForest>(vertices, cells);
+  }
+
+
+
+  MeshView Bodies::mesh() const
+  {
+    return {tria.get(), forest.get(), forest ? forest->n_levels() - 1 : 0};
+  }
+
+
+
+  bool Bodies::refine(const NodalSpace &space, const std::vector<bool> &marked)
+  {
+    AssertDimension(marked.size(), space.cells().size());
+    bool any = false;
+    for (std::size_t c = 0; c < marked.size(); ++c)
+      any = any || (marked[c] && space.cells()[c].is_owned);
+    if (Utilities::MPI::max(static_cast<int>(any), comm) == 0)
+      return false;
+    std::size_t c = 0;
+    if (tria)
+      {
+        // The space has the cells in this order, hexahedra first.
+        for (const auto &cell : tria->active_cell_iterators())
+          if (!cell->is_artificial())
+            {
+              if (cell->is_locally_owned() && marked[c])
+                cell->set_refine_flag();
+              ++c;
+            }
+        tria->prepare_coarsening_and_refinement();
+        tria->execute_coarsening_and_refinement();
+      }
+    if (forest)
+      {
+        std::vector<char> mine;
+        for (; c < marked.size(); ++c)
+          if (space.cells()[c].is_owned)
+            mine.push_back(marked[c]);
+        std::vector<bool> all;
+        for (const auto &part : Utilities::MPI::all_gather(comm, mine))
+          all.insert(all.end(), part.begin(), part.end());
+        forest->refine(all);
+      }
+    return true;
   }
 
 

@@ -1,12 +1,14 @@
 signorini_add_layer(mesh
+  abaqus_input.cc
   bodies.cc
-  coarsening_sequence.cc
+  coarser_meshes.cc
   expression.cc
   generated_mesh.cc
-  hexahedral_mesh.cc
   mesh_input.cc
   nodal_space.cc
   refinement.cc
   surface_extraction.cc
   surface_file.cc
+  tetrahedral_forest.cc
+  volume_mesh.cc
 )

@@ -131,13 +131,13 @@ namespace Signorini
     }
 
     /// Joins cells at coinciding corners.
-    HexahedralMesh join(const Cells &cells, const double size)
+    VolumeMesh join(const Cells &cells, const double size)
     {
-      HexahedralMesh                              mesh;
+      VolumeMesh                                  mesh;
       std::map<std::array<long, 3>, unsigned int> numbers;
       for (const auto &cell : cells)
         {
-          mesh.cells.emplace_back();
+          mesh.cells.push_back({{}, 8, 0});
           for (unsigned int v = 0; v < 8; ++v)
             {
               std::array<long, 3> key;
@@ -147,10 +147,9 @@ namespace Signorini
                   numbers.insert({key, static_cast<unsigned int>(mesh.vertices.size())});
               if (is_new)
                 mesh.vertices.push_back(cell[v]);
-              mesh.cells.back()[v] = it->second;
+              mesh.cells.back().vertices[v] = it->second;
             }
         }
-      mesh.cell_volume.assign(mesh.cells.size(), 0);
       mesh.volume_names.assign(1, "volume");
       return mesh;
     }
@@ -164,7 +163,7 @@ namespace Signorini
                          [&](const Point<3> &p) { return std::abs(distance(p)) < 1e-6 * size; });
     }
 
-    void name_boundaries(HexahedralMesh &mesh, const Classifier &classify)
+    void name_boundaries(VolumeMesh &mesh, const Classifier &classify)
     {
       for (const auto &[vertices, cell] : find_boundary_faces(mesh))
         {

@@ -2,22 +2,36 @@
 // Copyright (C) 2026 by the Signorini authors
 
 #include <signorini/algebra/input_error.h>
+#include <signorini/mesh/abaqus_input.h>
 #include <signorini/mesh/gmsh_session.h>
 #include <signorini/mesh/mesh_input.h>
 
 #include <deal.II/base/mpi.h>
 
+#include <filesystem>
+#include <map>
 
 namespace Signorini
 {
   using namespace dealii;
+
+  unsigned int index_of(std::vector<std::string> &names, const std::string &name)
+  {
+    const auto it = std::find(names.begin(), names.end(), name);
+    if (it != names.end())
+      return static_cast<unsigned int>(it - names.begin());
+    names.push_back(name);
+    return static_cast<unsigned int>(names.size()) - 1;
+  }
+
+
 
   namespace
   {
     /// gmsh's corners of a hexahedron run around the bottom, then the top; deal.II's are lexicographic.
     constexpr unsigned int gmsh_corner[8] = {0, 1, 3, 2, 4, 5, 7, 6};
 
-    constexpr int gmsh_hexahedron = 5, gmsh_quadrilateral = 3;
+    constexpr int gmsh_triangle = 2, gmsh_quadrilateral = 3, gmsh_tetrahedron = 4, gmsh_hexahedron = 5;
 
     std::string element_name(const int type)
     {
@@ -40,21 +54,20 @@ namespace Signorini
       return name.empty() ? std::to_string(std::abs(groups[0])) : name;
     }
 
-    unsigned int index_of(std::vector<std::string> &names, const std::string &name)
+    /// Elements of one entity: its number, the vertices of an element, and the node tags.
+    struct Elements
     {
-      const auto it = std::find(names.begin(), names.end(), name);
-      if (it != names.end())
-        return static_cast<unsigned int>(it - names.begin());
-      names.push_back(name);
-      return static_cast<unsigned int>(names.size()) - 1;
-    }
+      int                      entity;
+      unsigned int             n_vertices;
+      std::vector<std::size_t> nodes;
+    };
 
-    /// Elements of one type of all entities of a dimension: entity and node tags. Other types are refused.
-    std::vector<std::pair<int, std::vector<std::size_t>>> elements(const int dimension, const int wanted,
-                                                                   const std::string &file)
+    /// Elements of two types, with n_first and n_second nodes. Others are refused.
+    std::vector<Elements> elements(const int dimension, const int first, const unsigned int n_first,
+                                   const int second, const unsigned int n_second, const std::string &file)
     {
-      std::vector<std::pair<int, std::vector<std::size_t>>> result;
-      gmsh::vectorpair                                      entities;
+      std::vector<Elements> result;
+      gmsh::vectorpair      entities;
       gmsh::model::getEntities(entities, dimension);
       for (const auto &entity : entities)
         {
@@ -62,19 +75,19 @@ namespace Signorini
           std::vector<std::vector<std::size_t>> tags, nodes;
           gmsh::model::mesh::getElements(types, tags, nodes, dimension, entity.second);
           for (std::size_t t = 0; t < types.size(); ++t)
-            if (types[t] == wanted)
-              result.emplace_back(entity.second, nodes[t]);
+            if (types[t] == first || types[t] == second)
+              result.push_back({entity.second, types[t] == first ? n_first : n_second, nodes[t]});
             else
               throw InputError("Mesh file \"" + file + "\": elements of type \"" + element_name(types[t]) +
-                               "\" are not supported; use hexahedra with 8 nodes.");
+                               "\" are not supported; use tetrahedra with 4 nodes or hexahedra with 8.");
         }
       return result;
     }
 
-    HexahedralMesh read_with_gmsh(const std::string &file)
+    VolumeMesh read_with_gmsh(const std::string &file)
     {
       const GmshSession session(file);
-      HexahedralMesh    mesh;
+      VolumeMesh        mesh;
 
       std::vector<std::size_t> tags;
       std::vector<double>      coordinates, parametric;
@@ -83,108 +96,87 @@ namespace Signorini
       for (std::size_t i = 0; i < tags.size(); ++i)
         position[tags[i]] = i;
       std::unordered_map<std::size_t, unsigned int> number;
-      const auto                                    vertex = [&](const std::size_t tag) {
+
+      const auto vertex = [&](const std::size_t tag) {
         const auto at = position.find(tag);
         if (at == position.end())
           throw InputError("Mesh file \"" + file +
-                                                              "\": an element refers to a node that is missing. Is the file cut off?");
+                           "\": an element refers to a node that is missing. Is the file cut off?");
         const auto [it, is_new] = number.insert({tag, static_cast<unsigned int>(mesh.vertices.size())});
         if (is_new)
           mesh.vertices.emplace_back(coordinates[3 * at->second], coordinates[3 * at->second + 1],
-                                                                        coordinates[3 * at->second + 2]);
+                                     coordinates[3 * at->second + 2]);
         return it->second;
       };
-
-      for (const auto &[entity, nodes] : elements(3, gmsh_hexahedron, file))
+      for (const auto &[entity, n, nodes] : elements(3, gmsh_tetrahedron, 4, gmsh_hexahedron, 8, file))
         {
           const unsigned int volume = index_of(mesh.volume_names, group_name(3, entity, "unnamed"));
-          for (std::size_t k = 0; k + 8 <= nodes.size(); k += 8)
+          for (std::size_t k = 0; k + n <= nodes.size(); k += n)
             {
-              mesh.cells.emplace_back();
-              for (unsigned int v = 0; v < 8; ++v)
-                mesh.cells.back()[v] = vertex(nodes[k + gmsh_corner[v]]);
-              mesh.cell_volume.push_back(volume);
+              mesh.cells.push_back({{}, n, volume});
+              for (unsigned int v = 0; v < n; ++v)
+                mesh.cells.back().vertices[v] = vertex(nodes[k + (n == 8 ? gmsh_corner[v] : v)]);
             }
         }
       if (mesh.cells.empty())
-        throw InputError("Mesh file \"" + file + "\": it contains no hexahedra.");
+        throw InputError("Mesh file \"" + file + "\": it contains neither tetrahedra nor hexahedra.");
 
-      std::map<std::array<unsigned int, 4>, std::string> named;
-      for (const auto &[entity, nodes] : elements(2, gmsh_quadrilateral, file))
-        for (std::size_t k = 0; k + 4 <= nodes.size(); k += 4)
+      std::map<VolumeMesh::Face, std::string> named;
+      for (const auto &[entity, n, nodes] : elements(2, gmsh_triangle, 3, gmsh_quadrilateral, 4, file))
+        for (std::size_t k = 0; k + n <= nodes.size(); k += n)
           {
-            std::array<unsigned int, 4> key;
-            bool                        known = true;
-            for (unsigned int v = 0; v < 4; ++v)
+            VolumeMesh::Face face;
+            face.fill(VolumeMesh::no_vertex);
+            bool known = true;
+            for (unsigned int v = 0; v < n; ++v)
               {
                 const auto it = number.find(nodes[k + v]);
                 known         = known && it != number.end();
-                key[v]        = known ? it->second : 0;
+                face[v]       = known ? it->second : 0;
               }
-            std::sort(key.begin(), key.end());
             if (known)
-              named[key] = group_name(2, entity, "unnamed");
+              named[face_key(face)] = group_name(2, entity, "unnamed");
           }
-      for (const auto &face : find_boundary_faces(mesh))
-        {
-          std::array<unsigned int, 4> key = face.first;
-          std::sort(key.begin(), key.end());
-          const auto it = named.find(key);
-          mesh.faces.push_back(
-              {face.first, index_of(mesh.boundary_names, it == named.end() ? "unnamed" : it->second)});
-        }
+      name_faces(mesh, named);
       return mesh;
-    }
-
-    /// Turns mirrored cells over; refuses twisted ones.
-    void mend_orientation(HexahedralMesh &mesh, const std::string &file)
-    {
-      std::size_t n_mended = 0;
-      for (auto &cell : mesh.cells)
-        {
-          std::array<Point<3>, 8> corners;
-          const auto              quality = [&]() {
-            for (unsigned int v = 0; v < 8; ++v)
-              corners[v] = mesh.vertices[cell[v]];
-            return scaled_jacobian(corners);
-          };
-          if (quality() > 0.)
-            continue;
-          for (unsigned int v = 0; v < 4; ++v)
-            std::swap(cell[v], cell[v + 4]);
-          if (!(quality() > 0.))
-            {
-              std::ostringstream message;
-              message << "Mesh file \"" << file << "\": inverted or degenerate cell near (" << corners[0]
-                      << "). Mend the mesh.";
-              throw InputError(message.str());
-            }
-          ++n_mended;
-        }
-      if (n_mended > 0)
-        mesh.notes.push_back("Mesh file \"" + file + "\": " + std::to_string(n_mended) +
-                             " cells of mirrored orientation mended.");
     }
   } // namespace
 
 
 
-  HexahedralMesh read_hexahedral_mesh(const std::string &file, const MPI_Comm communicator)
+  void name_faces(VolumeMesh &mesh, const std::map<VolumeMesh::Face, std::string> &named)
   {
-    HexahedralMesh mesh;
-    std::string    error;
+    mesh.faces.clear();
+    for (const auto &face : find_boundary_faces(mesh))
+      {
+        const auto it = named.find(face_key(face.first));
+        mesh.faces.push_back(
+            {face.first, index_of(mesh.boundary_names, it == named.end() ? "unnamed" : it->second)});
+      }
+  }
+
+
+
+  VolumeMesh read_volume_mesh(const std::string &file, const MPI_Comm communicator)
+  {
+    VolumeMesh  mesh;
+    std::string error;
     if (Utilities::MPI::this_mpi_process(communicator) == 0)
       {
         try
           {
             if (!std::ifstream(file))
               throw InputError("Mesh file \"" + file + "\" cannot be opened.");
-            mesh = read_with_gmsh(file);
-            mend_orientation(mesh, file);
+            std::string extension = std::filesystem::path(file).extension().string();
+            std::transform(extension.begin(), extension.end(), extension.begin(), ::tolower);
+            mesh = extension == ".inp" ? read_abaqus_mesh(file) : read_with_gmsh(file);
+            mend_orientation(mesh, "Mesh file \"" + file + "\"");
           }
         catch (const InputError &e)
           {
             error = e.what();
+            if (error.find(file) == std::string::npos)
+              error = "Mesh file \"" + file + "\": " + error;
           }
         catch (const std::exception &e)
           {

@@ -4,57 +4,336 @@
 #include <signorini/algebra/node_partition.h>
 #include <signorini/mesh/nodal_space.h>
 
+#include <deal.II/base/geometry_info.h>
 #include <deal.II/base/mpi.h>
+#include <deal.II/dofs/dof_handler.h>
 #include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/fe_q.h>
+
+#include <numeric>
 
 namespace Signorini
 {
   using namespace dealii;
 
-  NodalSpace::NodalSpace(const Triangulation<3> &triangulation)
-    : fe(1)
-    , dofs(triangulation)
+  namespace
   {
-    dofs.distribute_dofs(fe);
-    DoFTools::extract_locally_relevant_dofs(dofs, relevant_nodes);
-    constraints.reinit(relevant_nodes);
-    DoFTools::make_hanging_node_constraints(dofs, constraints);
-    constraints.close();
+    /// The hanging vertex in the middle of an edge of a cell, or invalid_node.
+    NodeIndex hanging_vertex(const DoFHandler<3>::active_cell_iterator &cell, const unsigned int line)
+    {
+      if (!cell->line(line)->has_children())
+        return invalid_node;
+      return cell->line(line)->child(0)->vertex_dof_index(1, 0, 0);
+    }
 
-    // Parents of hanging nodes can lie outside of the cells this rank sees.
-    std::vector<NodeIndex> parents;
-    for (const auto &line : constraints.get_lines())
-      for (const auto &entry : line.entries)
-        if (!relevant_nodes.is_element(entry.first))
-          parents.push_back(entry.first);
-    std::sort(parents.begin(), parents.end());
-    parents.erase(std::unique(parents.begin(), parents.end()), parents.end());
-    relevant_nodes.add_indices(parents.begin(), parents.end());
+    /// The line of a hexahedron between two of its vertices.
+    unsigned int line_between(const unsigned int a, const unsigned int b)
+    {
+      for (unsigned int l = 0; l < GeometryInfo<3>::lines_per_cell; ++l)
+        {
+          const unsigned int v0 = GeometryInfo<3>::line_to_cell_vertices(l, 0);
+          const unsigned int v1 = GeometryInfo<3>::line_to_cell_vertices(l, 1);
+          if ((v0 == a && v1 == b) || (v0 == b && v1 == a))
+            return l;
+        }
+      Assert(false, ExcInternalError());
+      return 0;
+    }
+
+    /// Sorted and without copies.
+    void make_unique(std::vector<NodeIndex> &list)
+    {
+      std::sort(list.begin(), list.end());
+      list.erase(std::unique(list.begin(), list.end()), list.end());
+    }
+  } // namespace
+
+
+
+  /// The nodes of the hexahedra as deal.II numbers them.
+  struct NodalSpace::Hexahedra
+  {
+    explicit Hexahedra(const parallel::distributed::Triangulation<3> &mesh)
+      : fe(1)
+      , dofs(mesh)
+    {
+      dofs.distribute_dofs(fe);
+      DoFTools::extract_locally_relevant_dofs(dofs, relevant);
+      constraints.reinit(relevant);
+      DoFTools::make_hanging_node_constraints(dofs, constraints);
+      constraints.close();
+    }
+
+    const FE_Q<3>             fe;
+    DoFHandler<3>             dofs;
+    IndexSet                  relevant;
+    AffineConstraints<double> constraints;
+  };
+
+
+
+  /// Which cells of the forest this rank sees, and who owns the vertices.
+  struct NodalSpace::Tetrahedra
+  {
+    Tetrahedra(const TetrahedralForest &forest, const unsigned int level, const unsigned int rank,
+               const unsigned int n_ranks)
+      : first_on_rank(n_ranks + 1, 0)
+      , number(forest.n_vertices(level), numbers::invalid_unsigned_int)
+    {
+      // Vertices are numbered in the order of the cells, and belong to the first rank that has one of their
+      // cells: numbers of a rank are contiguous.
+      unsigned int n = 0;
+      for (unsigned int r = 0; r < n_ranks; ++r)
+        {
+          first_on_rank[r]         = n;
+          const auto [first, last] = forest.owned_cells(level, r, n_ranks);
+          for (std::size_t c = first; c < last; ++c)
+            for (const unsigned int v : forest.cells(level)[c].vertices)
+              if (number[v] == numbers::invalid_unsigned_int)
+                number[v] = n++;
+        }
+      first_on_rank[n_ranks] = n;
+
+      const auto [first, last] = forest.owned_cells(level, rank, n_ranks);
+      std::vector<bool> near(number.size(), false);
+      for (std::size_t c = first; c < last; ++c)
+        for (const unsigned int v : forest.cells(level)[c].vertices)
+          near[v] = true;
+      for (unsigned int c = 0; c < forest.cells(level).size(); ++c)
+        {
+          const auto &v = forest.cells(level)[c].vertices;
+          if (near[v[0]] || near[v[1]] || near[v[2]] || near[v[3]])
+            cells.push_back(c);
+        }
+    }
+
+    std::vector<unsigned int> first_on_rank;
+    /// Of each vertex.
+    std::vector<unsigned int> number;
+    /// Owned and ghost cells.
+    std::vector<unsigned int> cells;
+  };
+
+
+
+  /// From the numbers of each kind to those of both: on every rank the nodes of hexahedra come first.
+  struct NodalSpace::Numbering
+  {
+    explicit Numbering(const unsigned int n_ranks)
+      : hexahedral_begin(n_ranks + 1, 0)
+      , tetrahedral_begin(n_ranks + 1, 0)
+    {
+    }
+
+    static std::size_t rank_of(const std::vector<NodeIndex> &begin, const NodeIndex n)
+    {
+      return std::upper_bound(begin.begin(), begin.end(), n) - begin.begin() - 1;
+    }
+
+    NodeIndex of_hexahedra(const NodeIndex n) const
+    {
+      return tetrahedral_begin.back() == 0 ? n : n + tetrahedral_begin[rank_of(hexahedral_begin, n)];
+    }
+
+    NodeIndex of_tetrahedra(const NodeIndex n) const
+    {
+      return hexahedral_begin.back() == 0 ? n : n + hexahedral_begin[rank_of(tetrahedral_begin, n) + 1];
+    }
+
+    std::vector<NodeIndex> hexahedral_begin, tetrahedral_begin;
+  };
+
+
+
+  NodalSpace::NodalSpace(const MPI_Comm communicator, const MeshView &mesh)
+    : comm(communicator)
+  {
+    const unsigned int                rank    = Utilities::MPI::this_mpi_process(comm);
+    const unsigned int                n_ranks = Utilities::MPI::n_mpi_processes(comm);
+    std::unique_ptr<const Hexahedra>  hexahedra;
+    std::unique_ptr<const Tetrahedra> tetrahedra;
+    if (mesh.hexahedra != nullptr)
+      hexahedra = std::make_unique<Hexahedra>(*mesh.hexahedra);
+    if (mesh.tetrahedra != nullptr)
+      tetrahedra = std::make_unique<Tetrahedra>(*mesh.tetrahedra, mesh.tetrahedral_level, rank, n_ranks);
+
+    Numbering numbering(n_ranks);
+    if (hexahedra)
+      {
+        const auto counts = Utilities::MPI::all_gather(comm, hexahedra->dofs.n_locally_owned_dofs());
+        std::partial_sum(counts.begin(), counts.end(), numbering.hexahedral_begin.begin() + 1);
+        n_cells_of_all += mesh.hexahedra->n_global_active_cells();
+      }
+    if (tetrahedra)
+      {
+        std::copy(tetrahedra->first_on_rank.begin(), tetrahedra->first_on_rank.end(),
+                  numbering.tetrahedral_begin.begin());
+        n_cells_of_all += mesh.tetrahedra->cells(mesh.tetrahedral_level).size();
+      }
+    const NodeIndex begin = numbering.hexahedral_begin[rank] + numbering.tetrahedral_begin[rank];
+    const NodeIndex end   = numbering.hexahedral_begin[rank + 1] + numbering.tetrahedral_begin[rank + 1];
+    owned_nodes.set_size(numbering.hexahedral_begin[n_ranks] + numbering.tetrahedral_begin[n_ranks]);
+    owned_nodes.add_range(begin, end);
+
+    std::vector<Point<3>> corner_points;
+    if (hexahedra)
+      add_hexahedra(corner_points, mesh, *hexahedra, numbering);
+    if (tetrahedra)
+      add_tetrahedra(corner_points, mesh, *tetrahedra, numbering);
+    std::vector<NodeIndex> relevant;
+    for (const NodeIndex node : cell_nodes)
+      if (node < begin || node >= end)
+        relevant.push_back(node);
+    if (hexahedra)
+      for (const auto &line : hexahedra->constraints.get_lines())
+        {
+          relevant.push_back(numbering.of_hexahedra(line.index));
+          for (const auto &entry : line.entries)
+            relevant.push_back(numbering.of_hexahedra(entry.first));
+        }
+    make_unique(relevant);
+    relevant_nodes = owned_nodes;
+    relevant_nodes.add_indices(relevant.begin(), relevant.end());
     relevant_nodes.compress();
+    constraints.reinit(relevant_nodes);
+    if (hexahedra)
+      for (const auto &line : hexahedra->constraints.get_lines())
+        {
+          const NodeIndex node = numbering.of_hexahedra(line.index);
+          constraints.add_line(node);
+          for (const auto &[parent, weight] : line.entries)
+            constraints.add_entry(node, numbering.of_hexahedra(parent), weight);
+        }
+    constraints.close();
+    set_positions(corner_points);
 
-    set_positions();
     NodeIndex hanging = 0;
     for (const auto &line : constraints.get_lines())
-      hanging += dofs.locally_owned_dofs().is_element(line.index);
-    n_conforming = dofs.n_dofs() - Utilities::MPI::sum(hanging, dofs.get_communicator());
+      hanging += owned_nodes.is_element(line.index);
+    n_conforming = n_nodes() - Utilities::MPI::sum(hanging, comm);
   }
 
 
 
-  void NodalSpace::set_positions()
+  void NodalSpace::add_hexahedra(std::vector<Point<3>> &corner_points, const MeshView &mesh,
+                                 const Hexahedra &part, const Numbering &numbering)
   {
-    positions.resize(relevant_nodes.n_elements());
-    std::array<NodeIndex, 8> nodes;
-    for (const auto &cell : dofs.active_cell_iterators())
+    using Iterator = DoFHandler<3>::active_cell_iterator;
+    std::vector<unsigned int> number(mesh.hexahedra->n_active_cells(), numbers::invalid_unsigned_int);
+    std::vector<Iterator>     seen;
+    for (const auto &cell : part.dofs.active_cell_iterators())
       if (!cell->is_artificial())
         {
-          cell_nodes(cell, nodes);
+          number[cell->active_cell_index()] = static_cast<unsigned int>(cell_list.size());
+          const CellId id                   = cell->id();
+          Cell         data{id.get_coarse_cell_id(),
+                    1,
+                    static_cast<unsigned int>(cell_nodes.size()),
+                    8,
+                    cell->is_locally_owned(),
+                    static_cast<unsigned char>(cell->level()),
+                    cell->material_id()};
+          for (const std::uint8_t child : id.get_child_indices())
+            data.path = data.path << 3 | child;
+          cell_list.push_back(data);
+          seen.push_back(cell);
           for (unsigned int v = 0; v < 8; ++v)
-            positions[relevant_nodes.index_within_set(nodes[v])] = cell->vertex(v);
+            {
+              cell_nodes.push_back(numbering.of_hexahedra(cell->vertex_dof_index(v, 0)));
+              corner_points.push_back(cell->vertex(v));
+            }
         }
-    if (Utilities::MPI::n_mpi_processes(dofs.get_communicator()) > 1)
+
+    for (unsigned int c = 0; c < seen.size(); ++c)
+      for (const unsigned int f : seen[c]->face_indices())
+        if (const Iterator &cell = seen[c]; cell->face(f)->at_boundary())
+          {
+            BoundaryFace data{c, static_cast<unsigned char>(f), cell->face(f)->boundary_id(), {}};
+            data.hanging.fill(invalid_node);
+            const auto corners = CellShape::face(8, f);
+            for (unsigned int v = 0; v < 4 && cell_list[c].is_owned; ++v)
+              if (const NodeIndex node = hanging_vertex(cell, line_between(corners[v], corners[(v + 1) % 4]));
+                  node != invalid_node)
+                data.hanging[v] = numbering.of_hexahedra(node);
+            boundary.push_back(data);
+          }
+        else if (const auto neighbor = cell->neighbor(f); neighbor->is_active())
+          {
+            // Smaller cells see their larger neighbours; of equal ones that with the smaller number counts.
+            const unsigned int other = number[neighbor->active_cell_index()];
+            if (other != numbers::invalid_unsigned_int && (neighbor->level() < cell->level() || c < other) &&
+                (cell_list[c].is_owned || cell_list[other].is_owned))
+              inner.push_back({c, other, static_cast<unsigned char>(f)});
+          }
+  }
+
+
+
+  void NodalSpace::add_tetrahedra(std::vector<Point<3>> &corner_points, const MeshView &mesh,
+                                  const Tetrahedra &part, const Numbering &numbering)
+  {
+    const unsigned int rank   = Utilities::MPI::this_mpi_process(comm);
+    const auto        &forest = *mesh.tetrahedra;
+    const auto        &cells  = forest.cells(mesh.tetrahedral_level);
+    const auto         owned =
+        forest.owned_cells(mesh.tetrahedral_level, rank, Utilities::MPI::n_mpi_processes(comm));
+    const std::uint64_t first_name = mesh.hexahedra != nullptr ? mesh.hexahedra->n_global_coarse_cells() : 0;
+    node_of_vertex.reserve(part.number.size());
+    for (const unsigned int n : part.number)
+      node_of_vertex.push_back(numbering.of_tetrahedra(n));
+    owned_vertices.resize(part.first_on_rank[rank + 1] - part.first_on_rank[rank]);
+    for (unsigned int v = 0; v < part.number.size(); ++v)
+      if (part.number[v] >= part.first_on_rank[rank] && part.number[v] < part.first_on_rank[rank + 1])
+        owned_vertices[part.number[v] - part.first_on_rank[rank]] = v;
+
+    std::vector<std::pair<std::array<unsigned int, 3>, std::pair<unsigned int, unsigned char>>> faces;
+    for (const unsigned int c : part.cells)
       {
-        const NodePartition partition(dofs.locally_owned_dofs(), relevant_nodes, dofs.get_communicator());
+        const unsigned int local = static_cast<unsigned int>(cell_list.size());
+        cell_list.push_back({first_name + c, 1, static_cast<unsigned int>(cell_nodes.size()), 4,
+                             c >= owned.first && c < owned.second,
+                             static_cast<unsigned char>(cells[c].generation / 3), cells[c].material});
+        for (const unsigned int v : cells[c].vertices)
+          {
+            cell_nodes.push_back(node_of_vertex[v]);
+            corner_points.push_back(forest.vertices()[v]);
+          }
+        for (unsigned char f = 0; f < 4; ++f)
+          if (cells[c].boundary[f] != TetrahedralForest::inner)
+            {
+              boundary.push_back({local, f, cells[c].boundary[f], {}});
+              boundary.back().hanging.fill(invalid_node);
+            }
+          else
+            {
+              std::array<unsigned int, 3> key;
+              for (unsigned int i = 0; i < 3; ++i)
+                key[i] = cells[c].vertices[CellShape::face(4, f)[i]];
+              std::sort(key.begin(), key.end());
+              faces.push_back({key, {local, f}});
+            }
+      }
+    std::sort(faces.begin(), faces.end());
+    for (std::size_t i = 0; i + 1 < faces.size(); ++i)
+      if (faces[i].first == faces[i + 1].first)
+        {
+          const auto [cell, face]  = faces[i].second;
+          const unsigned int other = faces[i + 1].second.first;
+          if (cell_list[cell].is_owned || cell_list[other].is_owned)
+            inner.push_back({cell, other, face});
+        }
+  }
+
+
+
+  void NodalSpace::set_positions(const std::vector<Point<3>> &corner_points)
+  {
+    positions.resize(relevant_nodes.n_elements());
+    for (std::size_t k = 0; k < cell_nodes.size(); ++k)
+      positions[relevant_nodes.index_within_set(cell_nodes[k])] = corner_points[k];
+    if (Utilities::MPI::n_mpi_processes(comm) > 1)
+      {
+        const NodePartition partition(owned_nodes, relevant_nodes, comm);
         Vector              field;
         partition.reinit(field);
         for (unsigned int i = 0; i < partition.n_owned(); ++i)
@@ -74,14 +353,5 @@ namespace Signorini
           mean += weight * position(parent);
         positions[relevant_nodes.index_within_set(line.index)] = mean;
       }
-  }
-
-
-
-  void NodalSpace::cell_nodes(const DoFHandler<3>::active_cell_iterator &cell,
-                              std::array<NodeIndex, 8>                  &nodes) const
-  {
-    for (unsigned int v = 0; v < 8; ++v)
-      nodes[v] = cell->vertex_dof_index(v, 0);
   }
 } // namespace Signorini

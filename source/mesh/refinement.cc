@@ -5,7 +5,6 @@
 #include <signorini/mesh/expression.h>
 #include <signorini/mesh/refinement.h>
 
-#include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
 
 namespace Signorini
@@ -21,6 +20,18 @@ namespace Signorini
         "Regions", regions,
         "Balls and boxes with the number of levels their cells are refined beyond the global levels, one "
         "level per cycle: \"ball: (x, y, z), radius, levels; box: (x, y, z), (x, y, z), levels; ...\".");
+    prm.add_parameter("Adaptive cycles", adaptive_cycles,
+                      "Cycles, after the regions have been worked through, that refine where the residual "
+                      "error indicator is large.");
+    prm.add_parameter("Marking", marking,
+                      "What an adaptive cycle refines: the cells with the largest indicators that have the "
+                      "marking fraction of the (squared) error together, or that fraction of all cells.",
+                      Patterns::Selection("error|cells"));
+    prm.add_parameter("Marking fraction", marking_fraction, "Share of the error or of the cells.",
+                      Patterns::Double(0., 1.));
+    prm.add_parameter("Max dofs", max_dofs,
+                      "No adaptive cycle is begun that would have more unknowns; 0 for no limit.",
+                      Patterns::Double(0.));
     prm.add_parameter(
         "Final global cycles", final_global_cycles,
         "Cycles, each with one global refinement, after the regions have been worked through. "
@@ -96,46 +107,42 @@ namespace Signorini
         regions.push_back(parse_region(kind, text));
         cycles = std::max(cycles, parameters.global_cycles + regions.back().levels);
       }
+    first_adaptive_cycle = cycles + 1;
+    cycles += parameters.adaptive_cycles;
     first_final_cycle = cycles + 1;
     cycles += parameters.final_global_cycles;
   }
 
 
 
-  bool Refinement::mark(parallel::distributed::Triangulation<3> &triangulation,
-                        const unsigned int                       cycle) const
+  std::vector<bool> Refinement::mark(const NodalSpace &space, const unsigned int cycle) const
   {
+    std::vector<bool> marked(space.cells().size(), false);
     if (cycle > cycles)
-      return false;
-    const bool global = cycle <= parameters.global_cycles || cycle >= first_final_cycle;
+      return marked;
+    if (cycle <= parameters.global_cycles || cycle >= first_final_cycle)
+      {
+        marked.assign(marked.size(), true);
+        return marked;
+      }
     // Local refinement follows the global cycles. Regions may be nested: each cycle brings every region one
     // level further until it has its levels.
     const unsigned int base   = parameters.initial_global + parameters.global_cycles;
-    bool               marked = false;
-    for (const auto &cell : triangulation.active_cell_iterators())
-      if (cell->is_locally_owned())
-        {
-          bool refine = global;
-          if (!global)
+    const unsigned int wanted = base + (cycle - parameters.global_cycles);
+    for (std::size_t c = 0; c < marked.size(); ++c)
+      {
+        const auto nodes = space.nodes(space.cells()[c]);
+        Point<3>   low = space.position(nodes[0]), high = low;
+        for (const NodeIndex node : nodes)
+          for (unsigned int d = 0; d < 3; ++d)
             {
-              Point<3> low = cell->vertex(0), high = cell->vertex(0);
-              for (const unsigned int v : cell->vertex_indices())
-                for (unsigned int c = 0; c < 3; ++c)
-                  {
-                    low[c]  = std::min(low[c], cell->vertex(v)[c]);
-                    high[c] = std::max(high[c], cell->vertex(v)[c]);
-                  }
-              const int wanted = base + (cycle - parameters.global_cycles);
-              for (const RefinementRegion &region : regions)
-                refine = refine || (cell->level() < std::min<int>(wanted, base + region.levels) &&
-                                    region.touches(low, high));
+              low[d]  = std::min(low[d], space.position(node)[d]);
+              high[d] = std::max(high[d], space.position(node)[d]);
             }
-          if (refine)
-            {
-              cell->set_refine_flag();
-              marked = true;
-            }
-        }
-    return Utilities::MPI::max(static_cast<int>(marked), triangulation.get_communicator()) == 1;
+        for (const RefinementRegion &region : regions)
+          if (space.cells()[c].level < std::min(wanted, base + region.levels) && region.touches(low, high))
+            marked[c] = true;
+      }
+    return marked;
   }
 } // namespace Signorini

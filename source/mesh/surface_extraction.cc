@@ -54,65 +54,22 @@ namespace Signorini
       }
     };
 
-    using Cell = DoFHandler<3>::active_cell_iterator;
-
-    /// The hanging vertex in the middle of an edge of an owned cell, or invalid_node.
-    NodeIndex hanging_vertex(const Cell &cell, const unsigned int line)
-    {
-      if (!cell->line(line)->has_children())
-        return invalid_node;
-      return cell->line(line)->child(0)->vertex_dof_index(1, 0, 0);
-    }
-
-    /// The line of a cell between two of its vertices.
-    unsigned int line_between(const unsigned int a, const unsigned int b)
-    {
-      for (unsigned int l = 0; l < GeometryInfo<3>::lines_per_cell; ++l)
-        {
-          const unsigned int v0 = GeometryInfo<3>::line_to_cell_vertices(l, 0);
-          const unsigned int v1 = GeometryInfo<3>::line_to_cell_vertices(l, 1);
-          if ((v0 == a && v1 == b) || (v0 == b && v1 == a))
-            return l;
-        }
-      Assert(false, ExcInternalError());
-      return 0;
-    }
-
-    PackedFace pack(const Cell &cell, const unsigned int face, const NodalSpace &space,
+    PackedFace pack(const NodalSpace::BoundaryFace &face, const NodalSpace &space,
                     const std::function<FixedMask(const NodeIndex)> &fixed)
     {
-      PackedFace   packed;
-      const CellId id    = cell->id();
-      packed.coarse_cell = id.get_coarse_cell_id();
-      packed.path        = 1;
-      for (const std::uint8_t child : id.get_child_indices())
-        packed.path = packed.path << 3 | child;
-      packed.face_number = face;
+      const NodalSpace::Cell &cell = space.cells()[face.cell];
+      PackedFace              packed;
+      packed.coarse_cell = cell.coarse_cell;
+      packed.path        = cell.path;
+      packed.face_number = face.face;
       packed.owner       = Utilities::MPI::this_mpi_process(space.communicator());
-
-      // deal.II's face vertices in reference order (lexicographic); the faces x = 0, y = 1, z = 0 are seen
-      // from inside when run through counterclockwise.
-      std::array<unsigned int, 4> loop;
-      static const unsigned int   ccw[4] = {0, 1, 3, 2};
-      for (unsigned int v = 0; v < 4; ++v)
-        loop[v] = GeometryInfo<3>::face_to_cell_vertices(face, ccw[v]);
-      std::array<NodeIndex, 8> nodes;
-      space.cell_nodes(cell, nodes);
-      Point<3> cell_centre, face_centre;
-      for (const NodeIndex node : nodes)
-        cell_centre += .125 * space.position(node);
-      for (const unsigned int v : loop)
-        face_centre += .25 * space.position(nodes[v]);
-      const Tensor<1, 3> normal =
-          cross_product_3d(space.position(nodes[loop[2]]) - space.position(nodes[loop[0]]),
-                           space.position(nodes[loop[3]]) - space.position(nodes[loop[1]]));
-      if (normal * (face_centre - cell_centre) < 0.)
-        std::swap(loop[1], loop[3]);
-
-      for (unsigned int v = 0; v < 4; ++v)
+      packed.nodes.fill(invalid_node);
+      const auto nodes   = space.nodes(cell);
+      const auto corners = CellShape::face(cell.n_vertices, face.face);
+      for (unsigned int v = 0; v < corners.size(); ++v)
         {
-          packed.nodes[2 * v]     = nodes[loop[v]];
-          packed.nodes[2 * v + 1] = hanging_vertex(cell, line_between(loop[v], loop[(v + 1) % 4]));
+          packed.nodes[2 * v]     = nodes[corners[v]];
+          packed.nodes[2 * v + 1] = face.hanging[v];
         }
       for (unsigned int v = 0; v < 8; ++v)
         if (packed.nodes[v] != invalid_node)
@@ -290,26 +247,25 @@ namespace Signorini
   {
     std::vector<PackedFace>   mine;
     std::vector<PackedParent> my_parents;
-    for (const auto &cell : space.dof_handler().active_cell_iterators())
-      if (cell->is_locally_owned() && cell->at_boundary())
-        for (const unsigned int face : cell->face_indices())
-          if (cell->face(face)->at_boundary() && ids.count(cell->face(face)->boundary_id()) > 0)
+    for (const NodalSpace::BoundaryFace &face : space.boundary_faces())
+      if (space.cells()[face.cell].is_owned && ids.count(face.id) > 0)
+        {
+          const PackedFace packed    = pack(face, space, fixed);
+          const double     n_corners = packed.nodes[6] == invalid_node ? 3. : 4.;
+          bool             inside    = !region;
+          Point<3>         centre;
+          for (unsigned int v = 0; v < 2 * n_corners && !inside; v += 2)
             {
-              const PackedFace packed = pack(cell, face, space, fixed);
-              bool             inside = !region;
-              Point<3>         centre;
-              for (unsigned int v = 0; v < 8 && !inside; v += 2)
-                {
-                  const Point<3> corner(packed.points[v][0], packed.points[v][1], packed.points[v][2]);
-                  centre += .25 * corner;
-                  inside = region(corner);
-                }
-              if (inside || region(centre))
-                {
-                  mine.push_back(packed);
-                  pack_parents(my_parents, packed, space, fixed);
-                }
+              const Point<3> corner(packed.points[v][0], packed.points[v][1], packed.points[v][2]);
+              centre += Tensor<1, 3>(corner) / n_corners;
+              inside = region(corner);
             }
+          if (inside || region(centre))
+            {
+              mine.push_back(packed);
+              pack_parents(my_parents, packed, space, fixed);
+            }
+        }
 
     ContactSurface                              surface;
     std::unordered_map<NodeIndex, unsigned int> number;
@@ -338,6 +294,11 @@ namespace Signorini
               if (v % 2 == 0)
                 surface.faces.back().corners[v / 2] = vertex;
             }
+        if (face.nodes[6] == invalid_node)
+          {
+            surface.faces.back().n_corners  = 3;
+            surface.faces.back().corners[3] = surface.faces.back().corners[0];
+          }
         PolygonTriangulation(surface.mesh.triangles, polygon, surface.mesh.vertices);
         surface.triangle_face.resize(surface.mesh.triangles.size(),
                                      static_cast<unsigned int>(surface.faces.size() - 1));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
-#include <signorini/mortar/bilinear_face.h>
+#include <signorini/mortar/face_map.h>
 #include <signorini/mortar/face_moments.h>
 #include <signorini/surface/contact_mapping.h>
 
@@ -77,7 +77,7 @@ namespace Signorini
     class ShapeOnTriangle
     {
     public:
-      ShapeOnTriangle(const BilinearFace &face, const Corners &x)
+      ShapeOnTriangle(const FaceMap &face, const Corners &x)
         : face(face)
       {
         if (face.is_parallelogram())
@@ -88,15 +88,14 @@ namespace Signorini
       std::array<double, 4> operator()(const std::array<double, 3> &w, const Point<3> &p)
       {
         if (face.is_parallelogram())
-          return BilinearFace::shape(w[0] * s[0] + w[1] * s[1] + w[2] * s[2],
-                                     w[0] * t[0] + w[1] * t[1] + w[2] * t[2]);
+          return face.shape(w[0] * s[0] + w[1] * s[1] + w[2] * s[2], w[0] * t[0] + w[1] * t[1] + w[2] * t[2]);
         // The last point is a good guess for the next one.
         face.invert(s[0], t[0], p);
-        return BilinearFace::shape(s[0], t[0]);
+        return face.shape(s[0], t[0]);
       }
 
     private:
-      const BilinearFace   &face;
+      const FaceMap        &face;
       std::array<double, 3> s = {{.5, .5, .5}}, t = {{.5, .5, .5}};
     };
 
@@ -213,7 +212,7 @@ namespace Signorini
         if (index == mortar_index)
           return;
         mortar_index = index;
-        mortar_face  = BilinearFace(mortar, index);
+        mortar_face  = FaceMap(mortar, index);
         for (unsigned int b = 0; b < 4; ++b)
           {
             const unsigned int vertex = mortar.faces[index].corners[b];
@@ -227,8 +226,8 @@ namespace Signorini
 
       const ContactSurface      &nonmortar, &mortar;
       const GapFunction         &prescribed_gap;
-      const BilinearFace         face;
-      BilinearFace               mortar_face;
+      const FaceMap              face;
+      FaceMap                    mortar_face;
       unsigned int               mortar_index = numbers::invalid_unsigned_int;
       std::array<std::size_t, 4> slots        = {};
     };

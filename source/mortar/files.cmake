@@ -1,7 +1,8 @@
 signorini_add_layer(mortar
-  bilinear_face.cc
   contact_forces.cc
+  contact_indicator.cc
   dual_basis.cc
+  face_map.cc
   face_moments.cc
   geometric_penetration.cc
   pair_conflicts.cc

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
-#include <signorini/mortar/bilinear_face.h>
+#include <signorini/mortar/face_map.h>
 #include <signorini/mortar/geometric_penetration.h>
 
 #include <deal.II/base/mpi.h>
@@ -65,7 +65,7 @@ namespace Signorini
         const unsigned int f = surface.triangle_face[triangle];
         double             s = .5, t = .5;
         faces[f].invert(s, t, p);
-        const auto phi = BilinearFace::shape(s, t);
+        const auto phi = faces[f].shape(s, t);
         Vector3    u;
         for (unsigned int a = 0; a < 4; ++a)
           u += phi[a] * displacement[surface.faces[f].corners[a]];
@@ -75,7 +75,7 @@ namespace Signorini
     private:
       const ContactSurface       &surface;
       const std::vector<Vector3> &displacement;
-      std::vector<BilinearFace>   faces;
+      std::vector<FaceMap>        faces;
     };
   } // namespace
 

@@ -284,7 +284,7 @@ namespace Signorini
             const auto         &corners = non.faces[m.face].corners;
             std::array<bool, 4> in_v;
             for (unsigned int a = 0; a < 4; ++a)
-              in_v[a] = !nodes.is_in_r(corners[a]);
+              in_v[a] = a < non.faces[m.face].n_corners && !nodes.is_in_r(corners[a]);
             const DualBasis psi = compute_dual_basis(m.mass, in_v);
             if (psi.n_functions == 0)
               result.lost_area += m.covered;

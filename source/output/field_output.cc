@@ -3,6 +3,7 @@
 
 #include <signorini/algebra/input_error.h>
 #include <signorini/algebra/node_partition.h>
+#include <signorini/discretization/element.h>
 #include <signorini/output/field_output.h>
 #include <signorini/surface/contact_mapping.h>
 
@@ -41,6 +42,17 @@ namespace Signorini
 
       std::vector<Patch>       patches;
       std::vector<std::string> names;
+
+      Patch &add_patch(const ReferenceCell &shape)
+      {
+        patches.emplace_back();
+        Patch &patch         = patches.back();
+        patch.patch_index    = static_cast<unsigned int>(patches.size() - 1);
+        patch.n_subdivisions = 1;
+        patch.reference_cell = shape;
+        patch.data.reinit(names.size(), shape.n_vertices());
+        return patch;
+      }
 
       void write(const std::string &folder, const std::string &name, const MPI_Comm comm)
       {
@@ -118,22 +130,18 @@ namespace Signorini
   {
     PatchOutput<3> output(fields);
     output.names.push_back("body");
-    std::array<NodeIndex, 8> nodes;
-    for (const auto &cell : space.dof_handler().active_cell_iterators())
-      if (cell->is_locally_owned())
+    for (const NodalSpace::Cell &cell : space.cells())
+      if (cell.is_owned)
         {
-          space.cell_nodes(cell, nodes);
-          output.patches.emplace_back();
-          auto &patch          = output.patches.back();
-          patch.patch_index    = static_cast<unsigned int>(output.patches.size() - 1);
-          patch.n_subdivisions = 1;
-          patch.reference_cell = ReferenceCells::Hexahedron;
-          patch.data.reinit(output.names.size(), 8);
-          for (unsigned int v = 0; v < 8; ++v)
+          const auto nodes = space.nodes(cell);
+          auto      &patch =
+              output.add_patch(cell.n_vertices == CellShape::hexahedron ? ReferenceCells::Hexahedron
+                                                                        : ReferenceCells::Tetrahedron);
+          for (unsigned int v = 0; v < nodes.size(); ++v)
             {
               patch.vertices[v] = space.position(nodes[v]);
               fill(patch, v, fields, space.relevant().index_within_set(nodes[v]));
-              patch.data(output.names.size() - 1, v) = static_cast<float>(body(cell->material_id()));
+              patch.data(output.names.size() - 1, v) = static_cast<float>(body(cell.material));
             }
         }
     output.write(folder, name, space.communicator());
@@ -150,15 +158,11 @@ namespace Signorini
     for (const auto &face : surface.faces)
       if (face.owner == rank)
         {
-          output.patches.emplace_back();
-          auto &patch          = output.patches.back();
-          patch.patch_index    = static_cast<unsigned int>(output.patches.size() - 1);
-          patch.n_subdivisions = 1;
-          patch.reference_cell = ReferenceCells::Quadrilateral;
-          patch.data.reinit(output.names.size(), 4);
-          for (unsigned int v = 0; v < 4; ++v)
+          auto &patch = output.add_patch(face.n_corners == 4 ? ReferenceCells::Quadrilateral
+                                                             : ReferenceCells::Triangle);
+          for (unsigned int v = 0; v < face.n_corners; ++v)
             {
-              const unsigned int vertex = face.corners[lexicographic[v]];
+              const unsigned int vertex = face.corners[face.n_corners == 4 ? lexicographic[v] : v];
               patch.vertices[v]         = surface.mesh.vertices[vertex];
               fill(patch, v, fields, vertex);
             }
@@ -206,68 +210,38 @@ namespace Signorini
 
 
 
-  namespace
-  {
-    /// Stress at the centre of a trilinear cell (the most accurate point), and the volume.
-    std::pair<std::array<double, 6>, double> centre_stress(const std::array<Point<3>, 8> &x,
-                                                           const std::array<Vector3, 8>  &u,
-                                                           const double young, const double poisson)
-    {
-      Tensor<2, 3> jacobian, slope;
-      for (unsigned int v = 0; v < 8; ++v)
-        for (unsigned int d = 0; d < 3; ++d)
-          {
-            const double g = (v >> d & 1) ? .25 : -.25;
-            for (unsigned int c = 0; c < 3; ++c)
-              {
-                jacobian[c][d] += x[v][c] * g;
-                slope[c][d] += u[v][c] * g;
-              }
-          }
-      const Tensor<2, 3> gradient = slope * invert(jacobian);
-      const double       mu       = .5 * young / (1. + poisson);
-      const double pressure = young * poisson / ((1. + poisson) * (1. - 2. * poisson)) * trace(gradient);
-      const auto   shear    = [&](const unsigned int a, const unsigned int b) {
-        return mu * (gradient[a][b] + gradient[b][a]);
-      };
-      return {{{shear(0, 0) + pressure, shear(1, 1) + pressure, shear(2, 2) + pressure, shear(0, 1),
-                shear(1, 2), shear(2, 0)}},
-              determinant(jacobian)};
-    }
-  } // namespace
-
-
-
   std::vector<OutputField>
   nodal_stress(const NodalSpace &space, const std::vector<double> &displacement,
                const std::function<std::pair<double, double>(const types::material_id material)> &material)
   {
-    const NodePartition      partition(space.owned(), space.relevant(), space.communicator());
-    Vector                   normal, shear, weight;
-    std::array<NodeIndex, 8> nodes;
+    const NodePartition partition(space.owned(), space.relevant(), space.communicator());
+    Vector              normal, shear, weight;
     for (Vector *v : {&normal, &shear, &weight})
       partition.reinit(*v);
-    for (const auto &cell : space.dof_handler().active_cell_iterators())
-      if (cell->is_locally_owned())
+    for (const NodalSpace::Cell &cell : space.cells())
+      if (cell.is_owned)
         {
-          space.cell_nodes(cell, nodes);
-          std::array<Point<3>, 8> x;
-          std::array<Vector3, 8>  u;
-          for (unsigned int v = 0; v < 8; ++v)
-            {
-              x[v] = space.position(nodes[v]);
-              for (unsigned int c = 0; c < 3; ++c)
-                u[v][c] = displacement[3 * space.relevant().index_within_set(nodes[v]) + c];
-            }
-          const auto [young, poisson] = material(cell->material_id());
-          const auto [stress, volume] = centre_stress(x, u, young, poisson);
+          const auto                                   nodes = space.nodes(cell);
+          const Element                                element(space, cell);
+          std::array<Vector3, CellShape::max_vertices> gradients;
+          // The centre is the most accurate point of a hexahedron.
+          element.shape_gradients(gradients, Point<3>(.5, .5, .5));
+          Block gradient;
+          for (unsigned int v = 0; v < nodes.size(); ++v)
+            for (unsigned int c = 0; c < 3; ++c)
+              for (unsigned int d = 0; d < 3; ++d)
+                gradient[c][d] +=
+                    displacement[3 * space.relevant().index_within_set(nodes[v]) + c] * gradients[v][d];
+          const auto [young, poisson] = material(cell.material);
+          const Block  sigma          = stress(gradient, young, poisson);
+          const double volume         = element.volume();
           for (const NodeIndex node : nodes)
             {
               const unsigned int i = partition.to_local(node);
               for (unsigned int c = 0; c < 3; ++c)
                 {
-                  normal.local_element(3 * i + c) += volume * stress[c];
-                  shear.local_element(3 * i + c) += volume * stress[3 + c];
+                  normal.local_element(3 * i + c) += volume * sigma[c][c];
+                  shear.local_element(3 * i + c) += volume * sigma[c][(c + 1) % 3];
                 }
               weight.local_element(3 * i) += volume;
             }

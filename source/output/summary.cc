@@ -42,6 +42,8 @@ namespace Signorini
       json.number("contact_nodes", cycle.contact_nodes);
       json.number("active_nodes", cycle.active_nodes);
       json.number("energy", cycle.nonlinear.energy);
+      if (cycle.indicator > 0.)
+        json.number("indicator", cycle.indicator);
       json.begin('{', "nonlinear");
       write_solver(json, cycle.nonlinear);
       json.number("hierarchy_updates", cycle.nonlinear.hierarchy_updates);

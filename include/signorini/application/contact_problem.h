@@ -29,6 +29,8 @@ namespace Signorini
     unsigned int   nonmortar_body, mortar_body;
     std::string    nonmortar_name, mortar_name;
     ContactSurface nonmortar, mortar;
+    /// Boundary ids of the two sides.
+    std::set<dealii::types::boundary_id> nonmortar_ids, mortar_ids;
     /// With a rigid obstacle the mortar surface is empty and there is no mapping.
     std::unique_ptr<ContactMapping> mapping;
     std::unique_ptr<RigidObstacle>  obstacle;
@@ -60,6 +62,9 @@ namespace Signorini
     std::vector<double>        pressure, opening;
     std::vector<unsigned char> active;
   };
+
+  /// The contact stress lambda n (force per area) of a pair at all vertices of its nonmortar surface.
+  std::vector<Vector3> contact_stress(const Discretization &discretization, const unsigned int pair);
 
   /// Reads a problem, runs the nested iteration, collects results. Owns the objects; the algorithms are
   /// elsewhere.
@@ -129,13 +134,16 @@ namespace Signorini
     void evaluate_contact(const Vector &v, const ObstacleProblem &problem, const NodeBlockMatrix &matrix,
                           const std::vector<double> &gaps, const std::vector<unsigned char> &active);
     void solve_linear(CycleResult &cycle, const LevelSpaces &levels, const Vector &start);
-    void refine();
-    void finish();
-    void certify();
-    void collect_pairs();
-    void collect_reactions();
-    void collect_probes();
-    void note(const std::string &text);
+    bool refine(const std::vector<bool> &marked);
+    /// Squared error indicators of the cells of the space; the cells that a cycle refines (adaptivity.cc).
+    std::vector<double> estimate();
+    std::vector<bool>   mark(const unsigned int cycle, const std::vector<double> &indicator);
+    void                finish();
+    void                certify();
+    void                collect_pairs();
+    void                collect_reactions();
+    void                collect_probes();
+    void                note(const std::string &text);
     /// A line on the terminal of rank 0.
     void print(const std::string &line);
 

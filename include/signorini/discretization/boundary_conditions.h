@@ -43,6 +43,9 @@ namespace Signorini
     bool                                 is_pressure;
     /// Three components, or the pressure in the first one.
     std::array<Expression, 3> values;
+
+    /// Force on a piece of the boundary, given its outward area vector.
+    Vector3 force(const dealii::Point<3> &position, const Vector3 &area) const;
   };
 
   /// All conditions and loads of all bodies.

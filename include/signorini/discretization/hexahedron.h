@@ -26,6 +26,9 @@ namespace Signorini
     /// Values of the 8 shape functions at a point of the reference cell.
     std::array<double, 8> shape_values(const dealii::Point<3> &reference);
 
+    /// Gradients of the 8 shape functions in the reference cell.
+    std::array<Vector3, 8> reference_gradients(const dealii::Point<3> &reference);
+
     /// The 8 Gauss points in the reference cell.
     const std::array<dealii::Point<3>, 8> &gauss_points();
 

@@ -13,8 +13,8 @@
 
 namespace Signorini
 {
-  /// A cell of a coarse space as a fine one sees it: for each of its 8 vertices the conforming nodes and
-  /// weights it depends on (hanging vertices resolved).
+  /// A hexahedron of a coarse space as a fine one sees it: for each of its 8 vertices the conforming nodes
+  /// and weights it depends on (hanging vertices resolved).
   struct CellInterpolation
   {
     std::array<unsigned int, 9> start;
@@ -30,7 +30,7 @@ namespace Signorini
     }
   };
 
-  /// Finds, for owned cells of a fine space, the cell of a coarse space that contains them: the same cell
+  /// Finds, for owned hexahedra of a fine space, the cell of a coarse space that contains them: the same cell
   /// or its parent. Cells that live on another rank are looked up through a directory: the rank that a
   /// hash of the cell's name points to knows the owner.
   class ParentLookup
@@ -40,8 +40,7 @@ namespace Signorini
     ParentLookup(const NodalSpace &fine, const NodalSpace &coarse);
 
     /// The coarse cell and which child of it the given owned fine cell is (-1: the same cell).
-    std::pair<const CellInterpolation *, int>
-    find(const dealii::DoFHandler<3>::active_cell_iterator &cell) const;
+    std::pair<const CellInterpolation *, int> find(const NodalSpace::Cell &cell) const;
 
     /// A cell's name: coarse cell and path of children, with a leading 1.
     struct Key

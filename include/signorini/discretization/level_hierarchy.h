@@ -8,7 +8,7 @@
 #include <signorini/algebra/replicated_data.h>
 #include <signorini/discretization/elasticity.h>
 #include <signorini/discretization/rigid_support.h>
-#include <signorini/mesh/coarsening_sequence.h>
+#include <signorini/mesh/coarser_meshes.h>
 #include <signorini/solvers/multigrid_hierarchy.h>
 
 #include <memory>
@@ -18,16 +18,18 @@ namespace Signorini
 {
   /// Collective. Nodal interpolation between two nested spaces: for every owned fine node its weights on
   /// conforming coarse nodes (empty for hanging fine nodes). The fine mesh must come from the coarse one
-  /// by refining cells at most once; the two may be partitioned differently.
-  NodeRows interpolation_rows(const NodalSpace &fine, const NodalSpace &coarse);
+  /// by refining hexahedra at most once; the two may be partitioned differently.
+  /// @param forest of the tetrahedra, if there are any
+  NodeRows interpolation_rows(const NodalSpace &fine, const NodalSpace &coarse,
+                              const TetrahedralForest *const forest);
 
-  /// The meshes of global coarsening with their nodal spaces, and the
-  /// interpolation between consecutive levels.
+  /// The nodal spaces on the meshes of the hierarchy (coarser_spaces()), and the interpolation between
+  /// consecutive levels.
   class LevelSpaces
   {
   public:
-    /// Collective. The finest space must outlive the object.
-    LevelSpaces(const NodalSpace &finest, const Loads &loads);
+    /// Collective. The finest space must be that of the bodies as they are, and outlive the object.
+    LevelSpaces(const NodalSpace &finest, const Bodies &bodies, const Loads &loads);
 
     /// Level 0 is the coarsest.
     unsigned int n_levels() const
@@ -53,11 +55,10 @@ namespace Signorini
     }
 
   private:
-    const NodalSpace                                                             &finest;
-    std::vector<std::unique_ptr<dealii::parallel::distributed::Triangulation<3>>> triangulations;
-    std::vector<std::unique_ptr<NodalSpace>>                                      coarse;
-    std::vector<NodeRows>                                                         rows;
-    std::vector<std::vector<FixedMask>>                                           masks;
+    const NodalSpace                        &finest;
+    std::vector<std::unique_ptr<NodalSpace>> coarse;
+    std::vector<NodeRows>                    rows;
+    std::vector<std::vector<FixedMask>>      masks;
   };
 
   /// The transfer operator on the next coarser level (method.md, section 5):

@@ -5,17 +5,23 @@
 #define signorini_mesh_bodies_h
 
 #include <signorini/mesh/generated_mesh.h>
-#include <signorini/mesh/hexahedral_mesh.h>
+#include <signorini/mesh/tetrahedral_forest.h>
+#include <signorini/mesh/volume_mesh.h>
 
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/distributed/tria.h>
 
+#include <algorithm>
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
 
 namespace Signorini
 {
+  struct MeshView;
+  class NodalSpace;
+
   /// Shape, place and material of a body, as a user writes them.
   struct BodyParameters
   {
@@ -26,6 +32,7 @@ namespace Signorini
     std::string translation = "0, 0, 0", rotation_axis = "0, 0, 1";
     double      rotation_angle = 0.;
     double      young = 1., poisson = .3;
+    bool        convert_to_hexahedra = false, convert_to_tetrahedra = false;
     std::string volumes, volume_materials;
 
     /// Declares the parameters in the current subsection.
@@ -40,8 +47,9 @@ namespace Signorini
     double young, poisson;
   };
 
-  /// All bodies in one distributed triangulation (one p4est forest). Bodies never share vertices, also where
-  /// they touch. Boundary ids and material ids are unique over all bodies.
+  /// All bodies: those of hexahedra in one distributed triangulation (one p4est forest), those of tetrahedra
+  /// in one TetrahedralForest. Bodies never share vertices, also where they touch. Boundary ids and material
+  /// ids are unique over all bodies.
   class Bodies
   {
   public:
@@ -50,15 +58,36 @@ namespace Signorini
     Bodies(const MPI_Comm communicator, const std::vector<BodyParameters> &parameters,
            const std::string &base_folder);
 
+    MPI_Comm communicator() const
+    {
+      return comm;
+    }
+
+    /// The current mesh.
+    MeshView mesh() const;
+
+    /// The hexahedra; only if there are any.
     dealii::parallel::distributed::Triangulation<3> &triangulation()
     {
-      return tria;
+      AssertThrow(tria, dealii::ExcMessage("There are no hexahedra."));
+      return *tria;
     }
 
     const dealii::parallel::distributed::Triangulation<3> &triangulation() const
     {
-      return tria;
+      AssertThrow(tria, dealii::ExcMessage("There are no hexahedra."));
+      return *tria;
     }
+
+    /// The tetrahedra, or null.
+    const TetrahedralForest *tetrahedra() const
+    {
+      return forest.get();
+    }
+
+    /// Collective. Refines marked cells of the space of the current mesh (marks of ghost cells do not count),
+    /// and others as the two kinds of meshes need it. False if nothing is marked on any rank.
+    bool refine(const NodalSpace &space, const std::vector<bool> &marked);
 
     unsigned int n_bodies() const
     {
@@ -76,6 +105,13 @@ namespace Signorini
     const Material &material(const dealii::types::material_id id) const
     {
       return materials[id];
+    }
+
+    /// The material of a body where its volumes have none of their own.
+    const Material &material_of_body(const unsigned int body) const
+    {
+      return *std::find_if(materials.begin(), materials.end(),
+                           [body](const Material &m) { return m.body == body; });
     }
 
     unsigned int body_of_material(const dealii::types::material_id id) const
@@ -109,13 +145,17 @@ namespace Signorini
     struct Placed;
 
     void create(const std::vector<Placed> &placed);
+    void create_hexahedra(const std::vector<Placed> &placed);
+    void create_tetrahedra(const std::vector<Placed> &placed);
 
-    dealii::parallel::distributed::Triangulation<3> tria;
-    std::vector<std::string>                        names;
-    std::vector<Material>                           materials;
-    std::vector<std::vector<std::string>>           boundaries;
-    std::vector<dealii::types::boundary_id>         first_boundary;
-    std::vector<std::string>                        remarks;
+    const MPI_Comm                                                   comm;
+    std::unique_ptr<dealii::parallel::distributed::Triangulation<3>> tria;
+    std::unique_ptr<TetrahedralForest>                               forest;
+    std::vector<std::string>                                         names;
+    std::vector<Material>                                            materials;
+    std::vector<std::vector<std::string>>                            boundaries;
+    std::vector<dealii::types::boundary_id>                          first_boundary;
+    std::vector<std::string>                                         remarks;
   };
 } // namespace Signorini
 

@@ -19,14 +19,16 @@ namespace Signorini
   /// does not depend on the number of ranks.
   struct ContactSurface
   {
-    /// A boundary face of a cell (a bilinear quadrilateral).
+    /// A boundary face of a cell: a bilinear quadrilateral or a triangle.
     struct Face
     {
-      /// Corners as indices of mesh.vertices, counterclockwise seen from outside the body
-      /// (reference corners (0,0), (1,0), (1,1), (0,1)).
+      /// Corners as indices of mesh.vertices, counterclockwise seen from outside the body (reference corners
+      /// (0,0), (1,0), (1,1), (0,1); of a triangle (0,0), (1,0), (0,1)). A triangle has its first corner
+      /// again in the fourth place, where its function is zero.
       std::array<unsigned int, 4> corners;
       /// The rank that owns the cell.
       unsigned int owner;
+      unsigned int n_corners = 4;
     };
 
     /// Triangles of all faces. Hanging vertices on the edges of a face are corners of its triangles:

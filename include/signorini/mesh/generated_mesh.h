@@ -4,7 +4,7 @@
 #ifndef signorini_mesh_generated_mesh_h
 #define signorini_mesh_generated_mesh_h
 
-#include <signorini/mesh/hexahedral_mesh.h>
+#include <signorini/mesh/volume_mesh.h>
 
 #include <memory>
 #include <string>
@@ -36,7 +36,7 @@ namespace Signorini
 
   struct GeneratedMesh
   {
-    HexahedralMesh              mesh;
+    VolumeMesh                  mesh;
     std::vector<CurvedBoundary> curved;
   };
 

@@ -4,20 +4,28 @@
 #ifndef signorini_mesh_mesh_input_h
 #define signorini_mesh_mesh_input_h
 
-#include <signorini/mesh/hexahedral_mesh.h>
+#include <signorini/mesh/volume_mesh.h>
 
 #include <mpi.h>
 
+#include <map>
 #include <string>
 
 namespace Signorini
 {
-  /// Collective. Reads hexahedra from a file with gmsh's own library (which keeps physical names and does not
-  /// join coincident nodes): rank 0 reads, all get plain arrays. Boundary faces and volumes get the names of
-  /// their physical groups, or the ids as text where there is no name; faces without a group are "unnamed".
-  /// Cells of mirrored orientation are mended, with a note.
-  /// Errors: InputError for missing or broken files, unsupported elements (by name) and inverted cells.
-  HexahedralMesh read_hexahedral_mesh(const std::string &file, const MPI_Comm communicator);
+  /// Collective. Reads tetrahedra and hexahedra: Abaqus files (.inp) by read_abaqus_mesh(), all others with
+  /// gmsh's own library (which keeps physical names and does not join coincident nodes). Rank 0 reads, all
+  /// get plain arrays. Boundary faces and volumes get the names of their physical groups, or the ids as text
+  /// where there is no name; faces without a group are "unnamed". Cells of mirrored orientation are mended,
+  /// with a note. Errors: InputError for missing or broken files, unsupported elements (by name) and inverted
+  /// cells.
+  VolumeMesh read_volume_mesh(const std::string &file, const MPI_Comm communicator);
+
+  /// The index of a name, appended if new.
+  unsigned int index_of(std::vector<std::string> &names, const std::string &name);
+
+  /// Makes the boundary faces of a mesh, given the names of some of them by face_key(); others are "unnamed".
+  void name_faces(VolumeMesh &mesh, const std::map<VolumeMesh::Face, std::string> &named);
 } // namespace Signorini
 
 #endif

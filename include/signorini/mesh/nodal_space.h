@@ -5,20 +5,31 @@
 #define signorini_mesh_nodal_space_h
 
 #include <signorini/algebra/types.h>
+#include <signorini/mesh/cell_shape.h>
+#include <signorini/mesh/tetrahedral_forest.h>
 
+#include <deal.II/base/array_view.h>
 #include <deal.II/base/index_set.h>
 #include <deal.II/base/point.h>
-#include <deal.II/dofs/dof_handler.h>
-#include <deal.II/fe/fe_q.h>
-#include <deal.II/grid/tria.h>
+#include <deal.II/distributed/tria.h>
 #include <deal.II/lac/affine_constraints.h>
 
 #include <vector>
 
 namespace Signorini
 {
-  /// Trilinear nodal space on a triangulation: numbers the nodes (one scalar dof of FE_Q(1) each,
-  /// hanging ones included), keeps the hanging node constraints and the node positions.
+  /// One mesh of the hierarchy: hexahedra, tetrahedra or both. What is missing is null.
+  struct MeshView
+  {
+    const dealii::parallel::distributed::Triangulation<3> *hexahedra  = nullptr;
+    const TetrahedralForest                               *tetrahedra = nullptr;
+    /// Which mesh of the forest.
+    unsigned int tetrahedral_level = 0;
+  };
+
+  /// (Tri)linear nodal space on a mesh: the cells this rank sees as plain data, the numbering of the nodes
+  /// (hanging ones included), hanging node constraints and node positions. The layers above know
+  /// meshes only through it, and it needs neither triangulation nor forest once it is built.
   ///
   /// Positions are a field of our own, because moved vertices do not survive refinement on a
   /// distributed triangulation: a conforming node lies at its mesh vertex, a hanging node at the
@@ -26,16 +37,66 @@ namespace Signorini
   class NodalSpace
   {
   public:
-    explicit NodalSpace(const dealii::Triangulation<3> &triangulation);
-
-    const dealii::DoFHandler<3> &dof_handler() const
+    struct Cell
     {
-      return dofs;
-    }
+      /// A name that does not depend on the number of ranks: coarse cell and path of children with a leading
+      /// 1 (hexahedra); a number beyond the coarse hexahedra and 1 (tetrahedra).
+      std::uint64_t coarse_cell, path;
+      unsigned int  first_node;
+      unsigned char n_vertices;
+      bool          is_owned;
+      /// How many times the cell was refined to half the size (three bisections of a tetrahedron).
+      unsigned char level;
+      unsigned int  material;
+    };
+
+    /// A face of an owned or ghost cell on the boundary.
+    struct BoundaryFace
+    {
+      unsigned int               cell;
+      unsigned char              face;
+      dealii::types::boundary_id id;
+      /// Of owned cells: behind each corner (CellShape::face) the hanging vertex on the edge to the next, or
+      /// invalid_node.
+      std::array<NodeIndex, 4> hanging;
+    };
+
+    /// A face between two cells, of which at least one is owned. With a hanging face it is that of the
+    /// smaller cell.
+    struct InnerFace
+    {
+      unsigned int  cell, other;
+      unsigned char face;
+    };
+
+    /// Collective.
+    NodalSpace(const MPI_Comm communicator, const MeshView &mesh);
 
     MPI_Comm communicator() const
     {
-      return dofs.get_communicator();
+      return comm;
+    }
+
+    /// Owned and ghost cells.
+    const std::vector<Cell> &cells() const
+    {
+      return cell_list;
+    }
+
+    /// The 4 or 8 nodes of a cell.
+    dealii::ArrayView<const NodeIndex> nodes(const Cell &cell) const
+    {
+      return {cell_nodes.data() + cell.first_node, cell.n_vertices};
+    }
+
+    const std::vector<BoundaryFace> &boundary_faces() const
+    {
+      return boundary;
+    }
+
+    const std::vector<InnerFace> &inner_faces() const
+    {
+      return inner;
     }
 
     /// Closed hanging node constraints u_h = sum_k C_hk u_k of the locally relevant nodes.
@@ -46,7 +107,7 @@ namespace Signorini
 
     NodeIndex n_nodes() const
     {
-      return dofs.n_dofs();
+      return owned_nodes.size();
     }
 
     /// Number of nodes that are not hanging, over all ranks.
@@ -55,9 +116,15 @@ namespace Signorini
       return n_conforming;
     }
 
+    /// Number of cells over all ranks.
+    std::uint64_t n_global_cells() const
+    {
+      return n_cells_of_all;
+    }
+
     const dealii::IndexSet &owned() const
     {
-      return dofs.locally_owned_dofs();
+      return owned_nodes;
     }
 
     /// Owned nodes, nodes of ghost cells, and parents of hanging ones among them.
@@ -72,19 +139,47 @@ namespace Signorini
       return positions[relevant_nodes.index_within_set(node)];
     }
 
-    /// The 8 nodes of an owned or ghost cell, in deal.II's vertex order.
-    void cell_nodes(const dealii::DoFHandler<3>::active_cell_iterator &cell,
-                    std::array<NodeIndex, 8>                          &nodes) const;
+    /// Nodes of the vertices of the mesh of the forest (on all ranks); empty without tetrahedra.
+    const std::vector<NodeIndex> &forest_nodes() const
+    {
+      return node_of_vertex;
+    }
+
+    /// Number of the owned nodes of tetrahedra; they come after those of hexahedra.
+    NodeIndex n_owned_forest_nodes() const
+    {
+      return owned_vertices.size();
+    }
+
+    /// Vertices of the owned nodes of tetrahedra, in their order.
+    const std::vector<unsigned int> &owned_forest_vertices() const
+    {
+      return owned_vertices;
+    }
 
   private:
-    void set_positions();
+    struct Hexahedra;
+    struct Tetrahedra;
+    struct Numbering;
 
-    const dealii::FE_Q<3>             fe;
-    dealii::DoFHandler<3>             dofs;
-    dealii::IndexSet                  relevant_nodes;
+    void add_hexahedra(std::vector<dealii::Point<3>> &corner_points, const MeshView &mesh,
+                       const Hexahedra &part, const Numbering &numbering);
+    void add_tetrahedra(std::vector<dealii::Point<3>> &corner_points, const MeshView &mesh,
+                        const Tetrahedra &part, const Numbering &numbering);
+    void set_positions(const std::vector<dealii::Point<3>> &corner_points);
+
+    const MPI_Comm                    comm;
+    std::vector<Cell>                 cell_list;
+    std::vector<NodeIndex>            cell_nodes;
+    std::vector<BoundaryFace>         boundary;
+    std::vector<InnerFace>            inner;
+    dealii::IndexSet                  owned_nodes, relevant_nodes;
     dealii::AffineConstraints<double> constraints;
     std::vector<dealii::Point<3>>     positions;
-    NodeIndex                         n_conforming = 0;
+    std::vector<NodeIndex>            node_of_vertex;
+    std::vector<unsigned int>         owned_vertices;
+    NodeIndex                         n_conforming   = 0;
+    std::uint64_t                     n_cells_of_all = 0;
   };
 } // namespace Signorini
 

@@ -4,7 +4,7 @@
 #ifndef signorini_mesh_refinement_h
 #define signorini_mesh_refinement_h
 
-#include <signorini/mesh/bodies.h>
+#include <signorini/mesh/nodal_space.h>
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -16,8 +16,11 @@ namespace Signorini
   /// Prescribed refinement, worked through one level per cycle of the nested iteration.
   struct RefinementParameters
   {
-    unsigned int initial_global = 0, global_cycles = 0, final_global_cycles = 0;
+    unsigned int initial_global = 0, global_cycles = 0, adaptive_cycles = 0, final_global_cycles = 0;
     std::string  regions;
+    std::string  marking          = "error";
+    double       marking_fraction = .5;
+    double       max_dofs         = 0.;
 
     void add_parameters(dealii::ParameterHandler &prm);
   };
@@ -46,14 +49,19 @@ namespace Signorini
       return cycles;
     }
 
-    /// Marks the cells that cycle `cycle` (1, 2, ...) refines. Returns whether any cell of any rank is
-    /// marked. The caller prepares, executes, and transfers what it needs.
-    bool mark(dealii::parallel::distributed::Triangulation<3> &triangulation, const unsigned int cycle) const;
+    /// Whether a cycle is refined where the error indicator is large.
+    bool is_adaptive(const unsigned int cycle) const
+    {
+      return cycle >= first_adaptive_cycle && cycle < first_final_cycle;
+    }
+
+    /// Which cells of a space cycle `cycle` (1, 2, ...), if it is not adaptive, refines (Bodies::refine()).
+    std::vector<bool> mark(const NodalSpace &space, const unsigned int cycle) const;
 
   private:
     RefinementParameters          parameters;
     std::vector<RefinementRegion> regions;
-    unsigned int                  cycles, first_final_cycle;
+    unsigned int                  cycles, first_adaptive_cycle, first_final_cycle;
   };
 } // namespace Signorini
 

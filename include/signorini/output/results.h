@@ -26,7 +26,9 @@ namespace Signorini
     ConvergenceReport nonlinear, linear;
     bool              has_linear = false;
     /// Relative difference of the linear and the nonlinear solution (energy norm).
-    double           difference = 0.;
+    double difference = 0.;
+    /// Estimate of the energy norm of the error; 0 if it was not computed.
+    double           indicator = 0.;
     SweepMeasurement sweeps;
     /// Seconds.
     std::map<std::string, double> times;

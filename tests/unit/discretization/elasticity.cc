@@ -64,7 +64,7 @@ namespace
 TEST(Elasticity, LoadsAddUpToForces)
 {
   Block123         block;
-  const NodalSpace space(block.bodies.triangulation());
+  const NodalSpace space(MPI_COMM_WORLD, block.bodies.mesh());
   const auto       partition = partition_of(space);
   Vector           u;
   partition.reinit(u);
@@ -88,7 +88,7 @@ TEST(Elasticity, LoadsAddUpToForces)
 TEST(Elasticity, PatchTestWithHangingNodes)
 {
   Block123         block;
-  const NodalSpace space(block.bodies.triangulation());
+  const NodalSpace space(MPI_COMM_WORLD, block.bodies.mesh());
   const auto       partition = partition_of(space);
   EXPECT_LT(space.n_conforming_nodes(), space.n_nodes());
   Vector u;
@@ -120,7 +120,7 @@ TEST(Elasticity, PatchTestWithHangingNodes)
 TEST(Elasticity, FreeMotions)
 {
   Block123         block;
-  const NodalSpace space(block.bodies.triangulation());
+  const NodalSpace space(MPI_COMM_WORLD, block.bodies.mesh());
   const auto       n_free = [&](const std::string &conditions) {
     Loads          loads;
     LoadParameters p;

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Signorini authors
 
 #include <signorini/algebra/input_error.h>
+#include <signorini/mesh/bodies.h>
 #include <signorini/mesh/expression.h>
 #include <signorini/mesh/refinement.h>
 
@@ -92,10 +93,11 @@ TEST(Refinement, WorksThroughTheCycles)
   std::vector<std::size_t> cells;
   for (unsigned int cycle = 1; cycle <= refinement.n_cycles(); ++cycle)
     {
-      EXPECT_TRUE(refinement.mark(bodies.triangulation(), cycle));
-      bodies.triangulation().execute_coarsening_and_refinement();
+      const NodalSpace space(MPI_COMM_WORLD, bodies.mesh());
+      EXPECT_TRUE(bodies.refine(space, refinement.mark(space, cycle)));
       cells.push_back(bodies.triangulation().n_global_active_cells());
     }
   EXPECT_EQ(cells, (std::vector<std::size_t>{64, 71, 78, 624}));
-  EXPECT_FALSE(refinement.mark(bodies.triangulation(), refinement.n_cycles() + 1));
+  const NodalSpace space(MPI_COMM_WORLD, bodies.mesh());
+  EXPECT_FALSE(bodies.refine(space, refinement.mark(space, refinement.n_cycles() + 1)));
 }

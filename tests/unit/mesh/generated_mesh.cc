@@ -2,8 +2,9 @@
 // Copyright (C) 2026 by the Signorini authors
 
 #include <signorini/algebra/input_error.h>
+#include <signorini/discretization/element.h>
 #include <signorini/mesh/bodies.h>
-#include <signorini/mesh/coarsening_sequence.h>
+#include <signorini/mesh/coarser_meshes.h>
 #include <signorini/mesh/nodal_space.h>
 
 #include <deal.II/grid/grid_tools.h>
@@ -40,9 +41,9 @@ namespace
   double volume(const NodalSpace &space)
   {
     double sum = 0.;
-    for (const auto &cell : space.dof_handler().active_cell_iterators())
-      if (cell->is_locally_owned())
-        sum += cell->measure();
+    for (const NodalSpace::Cell &cell : space.cells())
+      if (cell.is_owned)
+        sum += Element(space, cell).volume();
     return Utilities::MPI::sum(sum, space.communicator());
   }
 
@@ -93,7 +94,7 @@ TEST_P(GeneratedMeshes, HaveVolumesAndAreasThatConverge)
             EXPECT_GT(scaled_jacobian(corners), .2) << shape.kind;
             EXPECT_LT(longest, 4. * shortest) << shape.kind;
           }
-      const NodalSpace space(bodies.triangulation());
+      const NodalSpace space(MPI_COMM_WORLD, bodies.mesh());
       const double     error = std::abs(volume(space) / shape.volume - 1.);
       if (level > 0)
         {
@@ -169,7 +170,11 @@ TEST(CoarseningSequence, HasTheMeshesOfDealII)
 {
   Bodies bodies(MPI_COMM_WORLD, {body("half ball")}, ".");
   refine_near_pole(bodies);
-  const auto ours = create_coarsening_sequence(bodies.triangulation());
+  CoarseningSequence                                                sequence(bodies.triangulation());
+  std::vector<std::unique_ptr<CoarseningSequence::DistributedMesh>> ours;
+  while (auto mesh = sequence.next())
+    ours.push_back(std::move(mesh));
+  std::reverse(ours.begin(), ours.end());
   const auto expected =
       MGTransferGlobalCoarseningTools::create_geometric_coarsening_sequence(bodies.triangulation());
   ASSERT_EQ(ours.size() + 1, expected.size());
@@ -204,33 +209,27 @@ TEST(NodalSpace, NodesLieOnTheSphere)
 {
   Bodies bodies(MPI_COMM_WORLD, {body("half ball")}, ".");
   refine_near_pole(bodies);
-  const NodalSpace                   space(bodies.triangulation());
-  const std::set<types::boundary_id> sphere = bodies.boundary_ids(0, "sphere");
-  std::array<NodeIndex, 8>           nodes;
+  const NodalSpace                   space(MPI_COMM_WORLD, bodies.mesh());
+  const std::set<types::boundary_id> sphere    = bodies.boundary_ids(0, "sphere");
   unsigned int                       n_hanging = 0;
-  for (const auto &cell : space.dof_handler().active_cell_iterators())
-    if (cell->is_locally_owned())
-      {
-        space.cell_nodes(cell, nodes);
-        for (const unsigned int f : cell->face_indices())
-          if (cell->face(f)->at_boundary() && sphere.count(cell->face(f)->boundary_id()) > 0)
-            for (unsigned int v = 0; v < 4; ++v)
-              {
-                const NodeIndex node = nodes[GeometryInfo<3>::face_to_cell_vertices(f, v)];
-                if (space.hanging_nodes().is_constrained(node))
-                  {
-                    // Without cracks: at the mean of the parents.
-                    Point<3> mean;
-                    for (const auto &[parent, weight] : *space.hanging_nodes().get_constraint_entries(node))
-                      mean += weight * space.position(parent);
-                    EXPECT_LT(mean.distance(space.position(node)), 1e-14);
-                    ++n_hanging;
-                  }
-                else
-                  {
-                    EXPECT_NEAR(space.position(node).norm(), 2., 1e-14);
-                  }
-              }
-      }
+  for (const NodalSpace::BoundaryFace &face : space.boundary_faces())
+    if (const NodalSpace::Cell &cell = space.cells()[face.cell]; cell.is_owned && sphere.count(face.id) > 0)
+      for (const unsigned int v : CellShape::face(8, face.face))
+        {
+          const NodeIndex node = space.nodes(cell)[v];
+          if (space.hanging_nodes().is_constrained(node))
+            {
+              // Without cracks: at the mean of the parents.
+              Point<3> mean;
+              for (const auto &[parent, weight] : *space.hanging_nodes().get_constraint_entries(node))
+                mean += weight * space.position(parent);
+              EXPECT_LT(mean.distance(space.position(node)), 1e-14);
+              ++n_hanging;
+            }
+          else
+            {
+              EXPECT_NEAR(space.position(node).norm(), 2., 1e-14);
+            }
+        }
   EXPECT_GT(Utilities::MPI::sum(n_hanging, MPI_COMM_WORLD), 0u);
 }

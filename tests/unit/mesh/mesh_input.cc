@@ -24,7 +24,7 @@ namespace
     const TemporaryFile file(content);
     try
       {
-        read_hexahedral_mesh(file.path, MPI_COMM_WORLD);
+        read_volume_mesh(file.path, MPI_COMM_WORLD);
       }
     catch (const InputError &e)
       {
@@ -46,7 +46,7 @@ namespace
 TEST(MeshInput, KeepsPhysicalNames)
 {
   const TemporaryFile file(gmsh_text(cube(), {bottom, hexahedron}, names));
-  const auto          mesh = read_hexahedral_mesh(file.path, MPI_COMM_WORLD);
+  const auto          mesh = read_volume_mesh(file.path, MPI_COMM_WORLD);
   EXPECT_EQ(mesh.cells.size(), 1u);
   EXPECT_EQ(mesh.vertices.size(), 8u);
   ASSERT_EQ(mesh.volume_names, std::vector<std::string>{"bone"});
@@ -69,7 +69,7 @@ TEST(MeshInput, KeepsPhysicalNames)
 TEST(MeshInput, TakesIdsWhereThereAreNoNames)
 {
   const TemporaryFile file(gmsh_text(cube(), {bottom, hexahedron}));
-  const auto          mesh = read_hexahedral_mesh(file.path, MPI_COMM_WORLD);
+  const auto          mesh = read_volume_mesh(file.path, MPI_COMM_WORLD);
   EXPECT_EQ(mesh.volume_names, std::vector<std::string>{"7"});
   EXPECT_NE(std::find(mesh.boundary_names.begin(), mesh.boundary_names.end(), "11"),
             mesh.boundary_names.end());
@@ -83,7 +83,7 @@ TEST(MeshInput, DoesNotJoinCoincidentNodes)
   const auto upper  = cube(1.);
   points.insert(points.end(), upper.begin(), upper.end());
   const TemporaryFile file(gmsh_text(points, {"5 2 7 1 1 2 3 4 5 6 7 8", "5 2 8 2 9 10 11 12 13 14 15 16"}));
-  const auto          mesh = read_hexahedral_mesh(file.path, MPI_COMM_WORLD);
+  const auto          mesh = read_volume_mesh(file.path, MPI_COMM_WORLD);
   EXPECT_EQ(mesh.vertices.size(), 16u);
   EXPECT_EQ(mesh.faces.size(), 12u);
   EXPECT_EQ(mesh.volume_names.size(), 2u);
@@ -109,7 +109,7 @@ TEST(MeshInput, ReadsOtherVersionsAndBinaryFiles)
             gmsh::finalize();
           }
         MPI_Barrier(MPI_COMM_WORLD);
-        const auto mesh = read_hexahedral_mesh(file.path, MPI_COMM_WORLD);
+        const auto mesh = read_volume_mesh(file.path, MPI_COMM_WORLD);
         EXPECT_EQ(mesh.cells.size(), 1u) << version << " " << binary;
         EXPECT_EQ(mesh.volume_names, std::vector<std::string>{"bone"}) << version << " " << binary;
         EXPECT_EQ(std::count(mesh.boundary_names.begin(), mesh.boundary_names.end(), "bottom"), 1);
@@ -121,12 +121,9 @@ TEST(MeshInput, ReadsOtherVersionsAndBinaryFiles)
 TEST(MeshInput, TurnsMirroredCellsOver)
 {
   const TemporaryFile file(gmsh_text(cube(), {"5 2 7 1 5 6 7 8 1 2 3 4"}));
-  const auto          mesh = read_hexahedral_mesh(file.path, MPI_COMM_WORLD);
+  const auto          mesh = read_volume_mesh(file.path, MPI_COMM_WORLD);
   ASSERT_EQ(mesh.notes.size(), 1u);
-  std::array<Point<3>, 8> corners;
-  for (unsigned int v = 0; v < 8; ++v)
-    corners[v] = mesh.vertices[mesh.cells[0][v]];
-  EXPECT_NEAR(scaled_jacobian(corners), 1., 1e-14);
+  EXPECT_NEAR(scaled_jacobian(mesh.corners(mesh.cells[0])), 1., 1e-14);
 }
 
 
@@ -136,8 +133,10 @@ TEST(MeshInput, RefusesWhatItCannotUse)
   auto points = cube();
   points[7]   = Point<3>(.2, .2, -.5);
   expect_in(error_of(gmsh_text(points, {hexahedron})), "inverted");
-  expect_in(error_of(gmsh_text(cube(), {"4 2 7 1 1 2 3 5"})), "Tetrahedron");
-  expect_in(error_of(gmsh_text(cube(), {bottom})), "no hexahedra");
+  expect_in(error_of(gmsh_text(cube(), {"6 2 7 1 1 2 3 5 6 7"})), "Prism");
+  expect_in(error_of(gmsh_text(cube(), {bottom})), "neither tetrahedra nor hexahedra");
+  expect_in(error_of(gmsh_text(cube(), {"4 2 7 1 1 2 3 4"})), "degenerate");
+  expect_in(error_of(gmsh_text(cube(), {hexahedron, hexahedron, hexahedron})), "belongs to 3 cells");
   std::vector<Point<3>> quadratic(20);
   std::string           nodes = "17 2 7 1";
   for (unsigned int i = 0; i < 20; ++i)
@@ -149,5 +148,5 @@ TEST(MeshInput, RefusesWhatItCannotUse)
   const std::string good = gmsh_text(cube(), {bottom, hexahedron});
   error_of(good.substr(0, good.size() / 2));
   error_of("this is not a mesh\n");
-  EXPECT_THROW(read_hexahedral_mesh("/nonexistent/file.msh", MPI_COMM_WORLD), InputError);
+  EXPECT_THROW(read_volume_mesh("/nonexistent/file.msh", MPI_COMM_WORLD), InputError);
 }

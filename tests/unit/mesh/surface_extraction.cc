@@ -77,7 +77,7 @@ TEST(SurfaceExtraction, TopOfABlockWithHangingNodes)
   p.divisions = "3, 3, 3";
   Bodies bodies(MPI_COMM_WORLD, {p}, ".");
   refine_near(bodies, Point<3>(.5, .5, 1.), .2);
-  const NodalSpace space(bodies.triangulation());
+  const NodalSpace space(MPI_COMM_WORLD, bodies.mesh());
   const auto       surface = extract(bodies, space, "top");
   EXPECT_EQ(surface.faces.size(), 8u + 4u);
   EXPECT_NEAR(area(surface), 1., 1e-14);
@@ -103,7 +103,7 @@ TEST(SurfaceExtraction, HangingNodesAtTheBorderOfARegion)
   p.divisions = "3, 3, 3";
   Bodies bodies(MPI_COMM_WORLD, {p}, ".");
   refine_near(bodies, Point<3>(.5, .5, 1.), .2);
-  const NodalSpace space(bodies.triangulation());
+  const NodalSpace space(MPI_COMM_WORLD, bodies.mesh());
   const auto       surface =
       extract(bodies, space, "top", [](const Point<3> &x) { return x.distance(Point<3>(.5, .5, 1.)) < .15; });
   EXPECT_EQ(surface.faces.size(), 4u);
@@ -131,7 +131,7 @@ TEST(SurfaceExtraction, ParentsWithoutFaces)
   p.divisions = "3, 3, 3";
   Bodies bodies(MPI_COMM_WORLD, {p}, ".");
   refine_near(bodies, Point<3>(.5, .5, 1.), .2);
-  const NodalSpace space(bodies.triangulation());
+  const NodalSpace space(MPI_COMM_WORLD, bodies.mesh());
   // The one fine face at the corner (2/3, 2/3).
   const auto surface =
       extract(bodies, space, "top", [](const Point<3> &x) { return x.distance(Point<3>(.6, .6, 1.)) < .04; });
@@ -157,7 +157,7 @@ TEST(SurfaceExtraction, SkewFacesWithAHangingNodeHaveNoFlatTriangles)
   p.mesh = file.path;
   Bodies bodies(MPI_COMM_WORLD, {p}, ".");
   refine_near(bodies, Point<3>(.5, -.5, .5), .1);
-  const NodalSpace space(bodies.triangulation());
+  const NodalSpace space(MPI_COMM_WORLD, bodies.mesh());
   const auto       surface = extract(bodies, space, "9");
   EXPECT_EQ(surface.faces.size(), 5u);
   EXPECT_NEAR(area(surface), 2.2, 1e-14);

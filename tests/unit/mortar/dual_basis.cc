@@ -3,8 +3,8 @@
 
 // The dual basis of a single face and the inverse of the bilinear map.
 
-#include <signorini/mortar/bilinear_face.h>
 #include <signorini/mortar/dual_basis.h>
+#include <signorini/mortar/face_map.h>
 
 #include <deal.II/base/quadrature_lib.h>
 
@@ -20,13 +20,14 @@ namespace
   /// Mass matrix of the corner functions over a rectangle of the unit square.
   std::array<double, 16> mass_matrix(const double s0, const double s1, const double t0, const double t1)
   {
+    const FaceMap           face(std::array<Point<3>, 4>{
+                  {Point<3>(0., 0., 0.), Point<3>(1., 0., 0.), Point<3>(1., 1., 0.), Point<3>(0., 1., 0.)}});
     const dealii::QGauss<1> gauss(3);
     std::array<double, 16>  mass = {};
     for (unsigned int i = 0; i < 3; ++i)
       for (unsigned int j = 0; j < 3; ++j)
         {
-          const auto phi =
-              BilinearFace::shape(s0 + (s1 - s0) * gauss.point(i)[0], t0 + (t1 - t0) * gauss.point(j)[0]);
+          const auto phi = face.shape(s0 + (s1 - s0) * gauss.point(i)[0], t0 + (t1 - t0) * gauss.point(j)[0]);
           for (unsigned int a = 0; a < 4; ++a)
             for (unsigned int b = 0; b < 4; ++b)
               mass[4 * a + b] += (s1 - s0) * (t1 - t0) * gauss.weight(i) * gauss.weight(j) * phi[a] * phi[b];
@@ -89,7 +90,7 @@ TEST(DualBasis, FullFaceIsTensorProduct)
                   one_d[corner[i][0]][corner[a][0]] * one_d[corner[i][1]][corner[a][1]], 1e-13);
 }
 
-TEST(BilinearFace, InvertsParallelogramsAndOthers)
+TEST(FaceMap, InvertsParallelogramsAndOthers)
 {
   for (const double scale : {1e-7, 1., 1e7})
     for (const double move : {0., .3})
@@ -97,13 +98,13 @@ TEST(BilinearFace, InvertsParallelogramsAndOthers)
         const std::array<Point<3>, 4> x = {{Point<3>(5., 1., 2.) * scale, Point<3>(6.1, 1.2, 2.) * scale,
                                             Point<3>(6.4 + move, 2.1, 2.) * scale,
                                             Point<3>(5.3, 1.9, 2.) * scale}};
-        const BilinearFace            face(x);
+        const FaceMap                 face(x);
         EXPECT_EQ(face.is_parallelogram(), move == 0.);
         for (const double s : {0., .2, 1.})
           for (const double t : {0., .7, 1.})
             {
               Point<3>   p;
-              const auto phi = BilinearFace::shape(s, t);
+              const auto phi = face.shape(s, t);
               for (unsigned int a = 0; a < 4; ++a)
                 p += phi[a] * x[a];
               double found_s = .5, found_t = .5;
@@ -115,29 +116,29 @@ TEST(BilinearFace, InvertsParallelogramsAndOthers)
 }
 
 // Off a warped face: the residual is normal to the face.
-TEST(BilinearFace, NearestPointOfWarpedFace)
+TEST(FaceMap, NearestPointOfWarpedFace)
 {
   const std::array<Point<3>, 4> x = {
       {Point<3>(0., 0., 0.), Point<3>(1., 0., .2), Point<3>(1.1, 1., -.1), Point<3>(0., .9, .15)}};
-  const BilinearFace face(x);
-  double             s = .5, t = .5;
-  const Point<3>     p(.4, .3, .1);
+  const FaceMap  face(x);
+  double         s = .5, t = .5;
+  const Point<3> p(.4, .3, .1);
   ASSERT_TRUE(face.invert(s, t, p));
   Point<3>             q;
   dealii::Tensor<1, 3> ds  = (1. - t) * (x[1] - x[0]) + t * (x[2] - x[3]);
   dealii::Tensor<1, 3> dt  = (1. - s) * (x[3] - x[0]) + s * (x[2] - x[1]);
-  const auto           phi = BilinearFace::shape(s, t);
+  const auto           phi = face.shape(s, t);
   for (unsigned int a = 0; a < 4; ++a)
     q += phi[a] * x[a];
   EXPECT_NEAR((p - q) * ds, 0., 1e-14);
   EXPECT_NEAR((p - q) * dt, 0., 1e-14);
 }
 
-TEST(BilinearFace, DegenerateFaceIsReported)
+TEST(FaceMap, DegenerateFaceIsReported)
 {
   const Point<3>                o(1., 1., 1.);
   const std::array<Point<3>, 4> corners = {{o, o, o, o}};
-  const BilinearFace            point(corners);
+  const FaceMap                 point(corners);
   double                        s = .5, t = .5;
   EXPECT_FALSE(point.invert(s, t, o));
 }

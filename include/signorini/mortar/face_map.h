@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
-#ifndef signorini_mortar_bilinear_face_h
-#define signorini_mortar_bilinear_face_h
+#ifndef signorini_mortar_face_map_h
+#define signorini_mortar_face_map_h
 
 #include <signorini/mesh/contact_surface.h>
 
@@ -12,22 +12,24 @@
 
 namespace Signorini
 {
-  /// A bilinear quadrilateral in space, with the inverse of its map.
+  /// A face in space, bilinear quadrilateral or triangle, with the inverse of its map.
   ///
   /// Corner functions must be evaluated at the true reference point: through the affine halves they are wrong
   /// by 1-3 % on faces that are no parallelograms (method.md, section 3, Integration).
-  class BilinearFace
+  class FaceMap
   {
   public:
     /// Corners in the order (0,0), (1,0), (1,1), (0,1) of the unit square.
-    explicit BilinearFace(const std::array<dealii::Point<3>, 4> &corners);
+    explicit FaceMap(const std::array<dealii::Point<3>, 4> &corners);
 
     /// A face of a surface.
-    BilinearFace(const ContactSurface &surface, const unsigned int face);
+    FaceMap(const ContactSurface &surface, const unsigned int face);
 
-    /// The four corner functions at a point of the unit square.
-    static std::array<double, 4> shape(const double s, const double t)
+    /// The corner functions at a point of the unit square; the fourth of a triangle is zero.
+    std::array<double, 4> shape(const double s, const double t) const
     {
+      if (triangle)
+        return {{1. - s - t, s, t, 0.}};
       return {{(1. - s) * (1. - t), s * (1. - t), s * t, (1. - s) * t}};
     }
 
@@ -47,7 +49,7 @@ namespace Signorini
     /// The map: origin + s * edge_s + t * edge_t + s * t * twist.
     dealii::Point<3>     origin;
     dealii::Tensor<1, 3> edge_s, edge_t, twist;
-    bool                 parallelogram, planar;
+    bool                 parallelogram, planar, triangle = false;
     /// For parallelograms: s = dual_s * (p - origin), likewise t; zero for degenerate ones.
     dealii::Tensor<1, 3> dual_s, dual_t;
   };

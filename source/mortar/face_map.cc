@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
-#include <signorini/mortar/bilinear_face.h>
+#include <signorini/mortar/face_map.h>
 
 #include <cmath>
 
@@ -11,25 +11,34 @@ namespace Signorini
 
   namespace
   {
+    /// Corners of the parallelogram that a triangle is half of, or those of a quadrilateral.
     std::array<Point<3>, 4> face_corners(const ContactSurface &surface, const unsigned int face)
     {
       std::array<Point<3>, 4> x;
+      const auto             &f = surface.faces[face];
       for (unsigned int v = 0; v < 4; ++v)
-        x[v] = surface.mesh.vertices[surface.faces[face].corners[v]];
+        x[v] = surface.mesh.vertices[f.corners[v]];
+      if (f.n_corners == 3)
+        {
+          x[3] = x[2];
+          x[2] = x[1] + (x[3] - x[0]);
+        }
       return x;
     }
   } // namespace
 
 
 
-  BilinearFace::BilinearFace(const ContactSurface &surface, const unsigned int face)
-    : BilinearFace(face_corners(surface, face))
+  FaceMap::FaceMap(const ContactSurface &surface, const unsigned int face)
+    : FaceMap(face_corners(surface, face))
   {
+    if (surface.faces[face].n_corners == 3)
+      triangle = parallelogram = planar = true;
   }
 
 
 
-  BilinearFace::BilinearFace(const std::array<Point<3>, 4> &corners)
+  FaceMap::FaceMap(const std::array<Point<3>, 4> &corners)
     : origin(corners[0])
     , edge_s(corners[1] - corners[0])
     , edge_t(corners[3] - corners[0])
@@ -48,7 +57,7 @@ namespace Signorini
 
 
 
-  bool BilinearFace::invert_affine(double &s, double &t, const Tensor<1, 3> &from_origin) const
+  bool FaceMap::invert_affine(double &s, double &t, const Tensor<1, 3> &from_origin) const
   {
     s = dual_s * from_origin;
     t = dual_t * from_origin;
@@ -57,7 +66,7 @@ namespace Signorini
 
 
 
-  bool BilinearFace::invert(double &s, double &t, const Point<3> &p) const
+  bool FaceMap::invert(double &s, double &t, const Point<3> &p) const
   {
     const Tensor<1, 3> target = p - origin;
     if (parallelogram)

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_discretization_element_h
+#define signorini_discretization_element_h
+
+#include <signorini/discretization/hexahedron.h>
+#include <signorini/mesh/nodal_space.h>
+
+namespace Signorini
+{
+  /// A cell of either shape with its kernels: trilinear hexahedra (Hexahedron) and linear tetrahedra.
+  /// Arrays are filled up to the number of vertices.
+  class Element
+  {
+  public:
+    using Shape = std::array<double, CellShape::max_vertices>;
+
+    Element() = default;
+    Element(const NodalSpace &space, const NodalSpace::Cell &cell);
+
+    unsigned int n_vertices() const
+    {
+      return n;
+    }
+
+    const dealii::Point<3> &corner(const unsigned int v) const
+    {
+      return corners[v];
+    }
+
+    dealii::Point<3> centre() const;
+
+    /// Stiffness of isotropic linear elasticity: blocks[n_vertices * a + b], nine numbers each, row by row
+    /// (E times length). False if the Jacobian is not positive.
+    bool stiffness(std::array<double, 576> &blocks, const double young, const double poisson) const;
+
+    /// Points of a quadrature that is exact for products of the shape functions and linear data on
+    /// parallelepipeds and tetrahedra.
+    unsigned int n_points() const
+    {
+      return n == CellShape::tetrahedron ? 4 : 8;
+    }
+
+    /// Jacobian determinant times weight, and the point in space.
+    std::pair<double, dealii::Point<3>> volume_element(const unsigned int point) const;
+
+    Shape shape_at_point(const unsigned int point) const;
+
+    Shape shape_values(const dealii::Point<3> &reference) const;
+
+    /// Gradients of the shape functions in space. False if the Jacobian is not positive there.
+    bool shape_gradients(std::array<Vector3, CellShape::max_vertices> &gradients,
+                         const dealii::Point<3>                       &reference) const;
+
+    /// Reference coordinates of a point in space; false if there are none.
+    bool invert_map(dealii::Point<3> &reference, const dealii::Point<3> &point) const;
+
+    /// How far reference coordinates lie outside of the cell; 0 inside.
+    double outside(const dealii::Point<3> &reference) const;
+
+    double volume() const;
+
+    /// Length of the longest edge or diagonal.
+    double diameter() const;
+
+  private:
+    dealii::Point<3> reference_point(const unsigned int point) const;
+
+    unsigned int        n = 0;
+    Hexahedron::Corners corners;
+  };
+
+  /// Stress lambda tr(eps) I + 2 mu eps of a displacement gradient.
+  Block stress(const Block &gradient, const double young, const double poisson);
+
+  /// A face of a cell: its corners (in the order of CellShape::face), and Gauss points (2x2 on
+  /// quadrilaterals, three on triangles: exact for polynomials of degree two).
+  class ElementFace
+  {
+  public:
+    ElementFace(const Element &cell, const unsigned int face);
+
+    struct PointData
+    {
+      dealii::Point<3> position;
+      /// Outward normal times area times weight.
+      Vector3 area;
+      /// Of the corners of the face.
+      std::array<double, 4> shape;
+    };
+
+    unsigned int n_corners() const
+    {
+      return static_cast<unsigned int>(vertices.size());
+    }
+
+    /// Which vertex of the cell a corner is.
+    unsigned int vertex(const unsigned int corner) const
+    {
+      return vertices[corner];
+    }
+
+    unsigned int n_points() const
+    {
+      return n_corners();
+    }
+
+    PointData point(const unsigned int q) const;
+
+    /// Length of the longest edge.
+    double diameter() const;
+
+  private:
+    const dealii::ArrayView<const unsigned int> vertices;
+    std::array<dealii::Point<3>, 4>             x;
+  };
+} // namespace Signorini
+
+#endif

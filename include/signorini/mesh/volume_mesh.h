@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_mesh_volume_mesh_h
+#define signorini_mesh_volume_mesh_h
+
+#include <deal.II/base/point.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace Signorini
+{
+  /// A mesh of hexahedra or tetrahedra as plain arrays, with named boundaries and volumes.
+  struct VolumeMesh
+  {
+    /// Vertex numbers of a face; the fourth of a triangle is no_vertex.
+    using Face                              = std::array<unsigned int, 4>;
+    static constexpr unsigned int no_vertex = static_cast<unsigned int>(-1);
+
+    struct Cell
+    {
+      /// 8 in deal.II's order (lexicographic), or 4.
+      std::array<unsigned int, 8> vertices;
+      unsigned int                n_vertices;
+      /// Index into volume_names.
+      unsigned int volume;
+
+      template <class Archive>
+      void serialize(Archive &archive, const unsigned int)
+      {
+        archive &vertices &n_vertices &volume;
+      }
+    };
+
+    struct BoundaryFace
+    {
+      Face vertices;
+      /// Index into boundary_names.
+      unsigned int name;
+
+      template <class Archive>
+      void serialize(Archive &archive, const unsigned int)
+      {
+        archive &vertices &name;
+      }
+    };
+
+    std::vector<dealii::Point<3>> vertices;
+    std::vector<Cell>             cells;
+    std::vector<BoundaryFace>     faces;
+    std::vector<std::string>      boundary_names;
+    std::vector<std::string>      volume_names;
+    /// Remarks for the user, e.g. on mended cells.
+    std::vector<std::string> notes;
+
+    template <class Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &vertices &cells &faces &boundary_names &volume_names &notes;
+    }
+
+    std::array<dealii::Point<3>, 8> corners(const Cell &cell) const;
+  };
+
+  /// The same vertices in ascending order: what identifies a face.
+  VolumeMesh::Face face_key(VolumeMesh::Face face);
+
+  /// Faces that belong to one cell only (hexahedra: vertices in deal.II's face order), and that cell.
+  /// Errors: InputError for faces that belong to more than two cells.
+  std::vector<std::pair<VolumeMesh::Face, unsigned int>> find_boundary_faces(const VolumeMesh &mesh);
+
+  /// Turns mirrored cells over, with a note; `where` names the mesh. Errors: InputError for degenerate and
+  /// twisted cells.
+  void mend_orientation(VolumeMesh &mesh, const std::string &where);
+
+  /// Cuts every tetrahedron into four hexahedra (at the middles of edges, faces and cells); others stay.
+  VolumeMesh split_into_hexahedra(const VolumeMesh &mesh);
+
+  /// Cuts every hexahedron into twelve tetrahedra around its centre; the faces are cut along the diagonal
+  /// from their smallest vertex number, so that the mesh is conforming. Tetrahedra stay.
+  VolumeMesh split_into_tetrahedra(const VolumeMesh &mesh);
+
+  /// Smallest of the 8 corner Jacobians of a hexahedron, each scaled by the product of its edge lengths: 1
+  /// for a brick, not positive for an inverted cell.
+  double scaled_jacobian(const std::array<dealii::Point<3>, 8> &corners);
+} // namespace Signorini
+
+#endif

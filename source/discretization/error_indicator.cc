@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/algebra/node_partition.h>
+#include <signorini/discretization/element.h>
+#include <signorini/discretization/error_indicator.h>
+
+#include <deal.II/base/mpi.h>
+
+namespace Signorini
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Stress of the discrete solution in one cell.
+    class CellStress
+    {
+    public:
+      CellStress(const Bodies &bodies, const NodalSpace &space, const NodePartition &partition,
+                 const Vector &displacement, const NodalSpace::Cell &cell)
+        : element(space, cell)
+        , material(bodies.material(cell.material))
+      {
+        const auto nodes = space.nodes(cell);
+        for (unsigned int v = 0; v < nodes.size(); ++v)
+          for (unsigned int c = 0; c < dim; ++c)
+            u[v][c] = displacement.local_element(dim * partition.to_local(nodes[v]) + c);
+      }
+
+      Block at(const Point<3> &reference) const
+      {
+        std::array<Vector3, CellShape::max_vertices> g;
+        if (!element.shape_gradients(g, reference))
+          return Block();
+        Block gradient;
+        for (unsigned int v = 0; v < element.n_vertices(); ++v)
+          gradient += outer_product(u[v], g[v]);
+        return stress(gradient, material.young, material.poisson);
+      }
+
+      /// At a point in space.
+      Block at_point(const Point<3> &point) const
+      {
+        Point<3> reference(.25, .25, .25);
+        if (element.n_vertices() == CellShape::hexahedron && !element.invert_map(reference, point))
+          reference = Point<3>(.5, .5, .5);
+        return at(reference);
+      }
+
+      /// At the centre, by differences of the stress between opposite faces (exact where the stress is
+      /// quadratic in reference coordinates, as on parallelepipeds). Zero on tetrahedra.
+      Vector3 divergence() const
+      {
+        Vector3 result;
+        if (element.n_vertices() == CellShape::tetrahedron)
+          return result;
+        Block jacobian;
+        for (unsigned int d = 0; d < dim; ++d)
+          for (unsigned int v = 0; v < 8; ++v)
+            for (unsigned int c = 0; c < dim; ++c)
+              jacobian[c][d] += ((v >> d & 1) ? .25 : -.25) * element.corner(v)[c];
+        if (!(determinant(jacobian) > 0.))
+          return result;
+        const Block inverse = invert(jacobian);
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            Point<3> low(.5, .5, .5), high = low;
+            low[d]  = 0.;
+            high[d] = 1.;
+            result += (at(high) - at(low)) * Vector3(inverse[d]);
+          }
+        return result;
+      }
+
+      double shear_modulus() const
+      {
+        return .5 * material.young / (1. + material.poisson);
+      }
+
+      const Element   element;
+      const Material &material;
+
+    private:
+      std::array<Vector3, CellShape::max_vertices> u;
+    };
+
+
+
+    double cell_residual(const CellStress &cell, const std::array<Expression, 3> &force)
+    {
+      const Vector3 divergence = cell.divergence();
+      double        sum        = 0.;
+      for (unsigned int q = 0; q < cell.element.n_points(); ++q)
+        {
+          const auto [weight, point] = cell.element.volume_element(q);
+          Vector3 residual           = divergence;
+          for (unsigned int c = 0; c < dim; ++c)
+            residual[c] += force[c](point);
+          sum += weight * residual.norm_square();
+        }
+      const double h = cell.element.diameter();
+      return h * h * sum / (2. * cell.shear_modulus());
+    }
+
+
+
+    /// The squared norm of sigma n - t on a boundary face, without the components in `fixed`.
+    double boundary_residual(const CellStress &cell, const unsigned int face, const FaceTraction &traction,
+                             const FixedMask fixed)
+    {
+      const ElementFace shape(cell.element, face);
+      double            square = traction.square;
+      Vector3           normal;
+      for (unsigned int q = 0; q < shape.n_points(); ++q)
+        {
+          const auto    point = shape.point(q);
+          const double  da    = point.area.norm();
+          const Vector3 t     = cell.at_point(point.position) * point.area / da;
+          square += da * project_free(fixed, t).norm_square();
+          normal += point.area;
+        }
+      normal /= normal.norm();
+      // The product with t: with sigma n as the combination of its values at the corners.
+      for (unsigned int v = 0; v < shape.n_corners(); ++v)
+        {
+          const Vector3 t = cell.at_point(cell.element.corner(shape.vertex(v))) * normal;
+          square -= 2. * (project_free(fixed, t) * traction.moments[v]);
+        }
+      return std::max(0., square);
+    }
+
+
+
+    /// The loads on a face in the free components.
+    void add_load(FaceTraction &sum, const ElementFace &shape, const Traction &traction,
+                  const FixedMask fixed)
+    {
+      for (unsigned int q = 0; q < shape.n_points(); ++q)
+        {
+          const auto    point = shape.point(q);
+          const Vector3 force = project_free(fixed, traction.force(point.position, point.area));
+          for (unsigned int v = 0; v < shape.n_corners(); ++v)
+            sum.moments[v] += point.shape[v] * force;
+          sum.square += force.norm_square() / point.area.norm();
+        }
+    }
+  } // namespace
+
+
+
+  std::vector<double> residual_indicator(const Bodies &bodies, const NodalSpace &space,
+                                         const NodePartition &partition, const Loads &loads,
+                                         const Vector                               &displacement,
+                                         const std::map<unsigned int, FaceTraction> &contact)
+  {
+    const auto         &cells = space.cells();
+    std::vector<double> indicator(cells.size(), 0.);
+    const auto          stress_in = [&](const unsigned int cell) {
+      return CellStress(bodies, space, partition, displacement, cells[cell]);
+    };
+    for (unsigned int c = 0; c < cells.size(); ++c)
+      if (cells[c].is_owned)
+        indicator[c] =
+            cell_residual(stress_in(c), loads.volume_forces[bodies.body_of_material(cells[c].material)]);
+
+    for (const NodalSpace::InnerFace &face : space.inner_faces())
+      {
+        const CellStress  inside = stress_in(face.cell), outside = stress_in(face.other);
+        const ElementFace shape(inside.element, face.face);
+        double            square = 0.;
+        for (unsigned int q = 0; q < shape.n_points(); ++q)
+          {
+            const auto    point = shape.point(q);
+            const Vector3 jump =
+                (inside.at_point(point.position) - outside.at_point(point.position)) * point.area;
+            square += jump.norm_square() / point.area.norm();
+          }
+        const double share =
+            .5 * shape.diameter() * square / (inside.shear_modulus() + outside.shear_modulus());
+        indicator[face.cell] += share;
+        indicator[face.other] += share;
+      }
+
+    for (unsigned int f = 0; f < space.boundary_faces().size(); ++f)
+      {
+        const NodalSpace::BoundaryFace &face = space.boundary_faces()[f];
+        if (!cells[face.cell].is_owned)
+          continue;
+        FixedMask fixed = 0;
+        for (const DirichletCondition &condition : loads.dirichlet)
+          if (condition.ids.count(face.id) > 0)
+            for (unsigned int c = 0; c < dim; ++c)
+              if (condition.components[c])
+                fixed |= 1u << c;
+        const CellStress  cell = stress_in(face.cell);
+        const ElementFace shape(cell.element, face.face);
+        FaceTraction      traction;
+        if (const auto it = contact.find(f); it != contact.end())
+          traction = it->second;
+        for (const Traction &load : loads.tractions)
+          if (load.ids.count(face.id) > 0)
+            add_load(traction, shape, load, fixed);
+        indicator[face.cell] += shape.diameter() * boundary_residual(cell, face.face, traction, fixed) /
+                                (2. * cell.shear_modulus());
+      }
+    return indicator;
+  }
+
+
+
+  namespace
+  {
+    /// The largest threshold for which `measure` (falling with the threshold) is at least `wanted`: by
+    /// bisection of its exponent.
+    template <typename Measure>
+    double find_threshold(const double largest, const double wanted, const Measure &measure)
+    {
+      double low = 0., high = largest;
+      if (!(largest > 0.))
+        return 0.;
+      for (unsigned int i = 0; i < 60; ++i)
+        {
+          const double middle = low > 0. ? std::sqrt(low * high) : high * 1e-3;
+          if (low == 0. && high < 1e-30 * largest)
+            break;
+          if (measure(middle) >= wanted)
+            low = middle;
+          else
+            high = middle;
+        }
+      return low;
+    }
+
+    std::vector<bool> mark_above(const NodalSpace &space, const std::vector<double> &indicator,
+                                 const double threshold)
+    {
+      std::vector<bool> marked(indicator.size());
+      for (std::size_t c = 0; c < indicator.size(); ++c)
+        marked[c] = space.cells()[c].is_owned && indicator[c] > 0. && indicator[c] >= threshold;
+      return marked;
+    }
+
+    /// Over the owned cells of all ranks.
+    template <typename Value>
+    double sum_over_cells(const NodalSpace &space, const Value &value)
+    {
+      double sum = 0.;
+      for (std::size_t c = 0; c < space.cells().size(); ++c)
+        if (space.cells()[c].is_owned)
+          sum += value(c);
+      return Utilities::MPI::sum(sum, space.communicator());
+    }
+
+    double largest_of(const NodalSpace &space, const std::vector<double> &indicator)
+    {
+      double largest = 0.;
+      for (std::size_t c = 0; c < indicator.size(); ++c)
+        if (space.cells()[c].is_owned)
+          largest = std::max(largest, indicator[c]);
+      return Utilities::MPI::max(largest, space.communicator());
+    }
+  } // namespace
+
+
+
+  std::vector<bool> mark_share_of_error(const NodalSpace &space, const std::vector<double> &indicator,
+                                        const double fraction)
+  {
+    const double total = sum_over_cells(space, [&](const std::size_t c) { return indicator[c]; });
+    return mark_above(
+        space, indicator, find_threshold(largest_of(space, indicator), fraction * total, [&](const double t) {
+          return sum_over_cells(space,
+                                [&](const std::size_t c) { return indicator[c] >= t ? indicator[c] : 0.; });
+        }));
+  }
+
+
+
+  std::vector<bool> mark_share_of_cells(const NodalSpace &space, const std::vector<double> &indicator,
+                                        const double fraction)
+  {
+    return mark_above(space, indicator,
+                      find_threshold(largest_of(space, indicator),
+                                     fraction * static_cast<double>(space.n_global_cells()),
+                                     [&](const double t) {
+                                       return sum_over_cells(space, [&](const std::size_t c) {
+                                         return indicator[c] >= t ? 1. : 0.;
+                                       });
+                                     }));
+  }
+} // namespace Signorini

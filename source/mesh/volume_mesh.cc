@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/algebra/input_error.h>
+#include <signorini/mesh/cell_shape.h>
+#include <signorini/mesh/tetrahedral_forest.h>
+#include <signorini/mesh/volume_mesh.h>
+
+#include <deal.II/base/geometry_info.h>
+
+#include <algorithm>
+#include <map>
+#include <sstream>
+
+namespace Signorini
+{
+  using namespace dealii;
+
+  std::array<Point<3>, 8> VolumeMesh::corners(const Cell &cell) const
+  {
+    std::array<Point<3>, 8> x;
+    for (unsigned int v = 0; v < cell.n_vertices; ++v)
+      x[v] = vertices[cell.vertices[v]];
+    return x;
+  }
+
+
+
+  VolumeMesh::Face face_key(VolumeMesh::Face face)
+  {
+    std::sort(face.begin(), face.end());
+    return face;
+  }
+
+
+
+  std::vector<std::pair<VolumeMesh::Face, unsigned int>> find_boundary_faces(const VolumeMesh &mesh)
+  {
+    struct Entry
+    {
+      VolumeMesh::Face key, face;
+      unsigned int     cell;
+    };
+    std::vector<Entry> entries;
+    for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+      {
+        const VolumeMesh::Cell &cell = mesh.cells[c];
+        for (unsigned int f = 0; f < CellShape::n_faces(cell.n_vertices); ++f)
+          {
+            VolumeMesh::Face face;
+            face[3] = VolumeMesh::no_vertex;
+            if (cell.n_vertices == CellShape::hexahedron)
+              for (unsigned int v = 0; v < 4; ++v)
+                face[v] = cell.vertices[GeometryInfo<3>::face_to_cell_vertices(f, v)];
+            else
+              for (unsigned int v = 0; v < 3; ++v)
+                face[v] = cell.vertices[CellShape::face(4, f)[v]];
+            entries.push_back({face_key(face), face, c});
+          }
+      }
+    std::sort(entries.begin(), entries.end(), [](const Entry &a, const Entry &b) {
+      return std::tie(a.key, a.cell) < std::tie(b.key, b.cell);
+    });
+    std::vector<std::pair<VolumeMesh::Face, unsigned int>> faces;
+    for (std::size_t i = 0, j; i < entries.size(); i = j)
+      {
+        for (j = i + 1; j < entries.size() && entries[j].key == entries[i].key;)
+          ++j;
+        if (j - i > 2)
+          {
+            std::ostringstream message;
+            message << "a face near (" << mesh.vertices[entries[i].face[0]] << ") belongs to " << j - i
+                    << " cells. Are there cells twice in the mesh?";
+            throw InputError(message.str());
+          }
+        if (j - i == 1)
+          faces.emplace_back(entries[i].face, entries[i].cell);
+      }
+    return faces;
+  }
+
+
+
+  void mend_orientation(VolumeMesh &mesh, const std::string &where)
+  {
+    std::size_t n_mended = 0;
+    for (VolumeMesh::Cell &cell : mesh.cells)
+      {
+        const bool is_hexahedron = cell.n_vertices == CellShape::hexahedron;
+        const auto quality       = [&]() {
+          const auto x = mesh.corners(cell);
+          return is_hexahedron ? scaled_jacobian(x) : tetrahedron_quality({{x[0], x[1], x[2], x[3]}});
+        };
+        // Rounding of the coordinates alone gives a flat cell a quality of this order.
+        constexpr double flat = 1e-12;
+        if (quality() > flat)
+          continue;
+        if (is_hexahedron)
+          std::swap_ranges(cell.vertices.begin(), cell.vertices.begin() + 4, cell.vertices.begin() + 4);
+        else
+          std::swap(cell.vertices[0], cell.vertices[1]);
+        if (!(quality() > flat))
+          {
+            std::ostringstream message;
+            message << where << ": inverted or degenerate cell near (" << mesh.vertices[cell.vertices[0]]
+                    << "). Mend the mesh.";
+            throw InputError(message.str());
+          }
+        ++n_mended;
+      }
+    if (n_mended > 0)
+      mesh.notes.push_back(where + ": " + std::to_string(n_mended) +
+                           " cells of mirrored orientation mended.");
+  }
+
+
+
+  VolumeMesh split_into_hexahedra(const VolumeMesh &mesh)
+  {
+    VolumeMesh result = mesh;
+    result.cells      = {};
+    result.faces      = {};
+    std::map<std::vector<unsigned int>, unsigned int> middles;
+    const auto                                        middle = [&](std::vector<unsigned int> corners) {
+      std::sort(corners.begin(), corners.end());
+      const auto [it, is_new] = middles.insert({corners, static_cast<unsigned int>(result.vertices.size())});
+      if (is_new)
+        {
+          Point<3> p;
+          for (const unsigned int v : corners)
+            p += mesh.vertices[v] / static_cast<double>(corners.size());
+          result.vertices.push_back(p);
+        }
+      return it->second;
+    };
+    for (const VolumeMesh::Cell &cell : mesh.cells)
+      if (cell.n_vertices == CellShape::hexahedron)
+        result.cells.push_back(cell);
+      else
+        {
+          const auto &v = cell.vertices;
+          // At corner a the edges to b, c, d are right-handed.
+          constexpr unsigned int around[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+          for (unsigned int i = 0; i < 4; ++i)
+            {
+              const unsigned int a = v[i], b = v[around[i][0]], c = v[around[i][1]], d = v[around[i][2]];
+              result.cells.push_back({{{a, middle({a, b}), middle({a, c}), middle({a, b, c}), middle({a, d}),
+                                        middle({a, b, d}), middle({a, c, d}), middle({a, b, c, d})}},
+                                      8,
+                                      cell.volume});
+            }
+        }
+    for (const VolumeMesh::BoundaryFace &face : mesh.faces)
+      if (face.vertices[3] != VolumeMesh::no_vertex)
+        result.faces.push_back(face);
+      else
+        for (unsigned int i = 0; i < 3; ++i)
+          {
+            const unsigned int a = face.vertices[i], b = face.vertices[(i + 1) % 3],
+                               c = face.vertices[(i + 2) % 3];
+            // Lexicographic: the centre is opposite to the corner.
+            result.faces.push_back({{{a, middle({a, b}), middle({a, c}), middle({a, b, c})}}, face.name});
+          }
+    return result;
+  }
+
+
+
+  namespace
+  {
+    /// The two triangles of a quadrilateral that is run through in a circle.
+    std::array<std::array<unsigned int, 3>, 2> halves(std::array<unsigned int, 4> loop)
+    {
+      std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
+      return {{{{loop[0], loop[1], loop[2]}}, {{loop[0], loop[2], loop[3]}}}};
+    }
+  } // namespace
+
+
+
+  VolumeMesh split_into_tetrahedra(const VolumeMesh &mesh)
+  {
+    VolumeMesh result = mesh;
+    result.cells      = {};
+    result.faces      = {};
+    for (const VolumeMesh::Cell &cell : mesh.cells)
+      {
+        if (cell.n_vertices == CellShape::tetrahedron)
+          {
+            result.cells.push_back(cell);
+            continue;
+          }
+        Point<3> middle;
+        for (const unsigned int v : cell.vertices)
+          middle += .125 * mesh.vertices[v];
+        const unsigned int centre = static_cast<unsigned int>(result.vertices.size());
+        result.vertices.push_back(middle);
+        for (unsigned int f = 0; f < 6; ++f)
+          {
+            const auto corners = CellShape::face(8, f);
+            for (const auto &[a, b, c] : halves({{cell.vertices[corners[0]], cell.vertices[corners[1]],
+                                                  cell.vertices[corners[2]], cell.vertices[corners[3]]}}))
+              // Seen from outside counterclockwise: the centre lies behind.
+              result.cells.push_back({{{a, c, b, centre, 0, 0, 0, 0}}, 4, cell.volume});
+          }
+      }
+    for (const VolumeMesh::BoundaryFace &face : mesh.faces)
+      if (face.vertices[3] == VolumeMesh::no_vertex)
+        result.faces.push_back(face);
+      else
+        for (const auto &[a, b, c] :
+             halves({{face.vertices[0], face.vertices[1], face.vertices[3], face.vertices[2]}}))
+          result.faces.push_back({{{a, b, c, VolumeMesh::no_vertex}}, face.name});
+    return result;
+  }
+
+
+
+  double scaled_jacobian(const std::array<Point<3>, 8> &corners)
+  {
+    double smallest = std::numeric_limits<double>::max();
+    for (unsigned int v = 0; v < 8; ++v)
+      {
+        std::array<Tensor<1, 3>, 3> edges;
+        double                      sign = 1., lengths = 1.;
+        for (unsigned int c = 0; c < 3; ++c)
+          {
+            edges[c] = corners[v ^ (1u << c)] - corners[v];
+            sign *= (v & (1u << c)) ? -1. : 1.;
+            lengths *= edges[c].norm();
+          }
+        const double volume = sign * (cross_product_3d(edges[0], edges[1]) * edges[2]);
+        smallest            = std::min(smallest, lengths > 0. ? volume / lengths : 0.);
+      }
+    return smallest;
+  }
+} // namespace Signorini

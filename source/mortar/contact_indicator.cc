@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/mortar/contact_indicator.h>
+#include <signorini/mortar/face_map.h>
+#include <signorini/surface/contact_mapping.h>
+
+#include <deal.II/base/mpi.h>
+
+namespace Signorini
+{
+  using namespace dealii;
+
+  namespace
+  {
+    using FaceKey = std::array<NodeIndex, 4>;
+
+    FaceKey sorted(FaceKey key)
+    {
+      std::sort(key.begin(), key.end());
+      return key;
+    }
+
+    /// Three points in a triangle, exact for degree two.
+    constexpr std::array<double, 3> points[3] = {{{2. / 3., 1. / 6., 1. / 6.}},
+                                                 {{1. / 6., 2. / 3., 1. / 6.}},
+                                                 {{1. / 6., 1. / 6., 2. / 3.}}};
+
+    std::array<double, 3> compose(const std::array<std::array<double, 3>, 3> &corners,
+                                  const std::array<double, 3>                &weights)
+    {
+      std::array<double, 3> result = {{0., 0., 0.}};
+      for (unsigned int c = 0; c < 3; ++c)
+        for (unsigned int i = 0; i < 3; ++i)
+          result[i] += weights[c] * corners[c][i];
+      return result;
+    }
+
+    /// Nodal fields on a surface, at points of its triangles.
+    class SurfaceValues
+    {
+    public:
+      explicit SurfaceValues(const ContactSurface &surface)
+        : surface(surface)
+      {
+        for (unsigned int f = 0; f < surface.faces.size(); ++f)
+          maps.emplace_back(surface, f);
+      }
+
+      std::array<double, 4> shape(const unsigned int triangle, const Point<3> &p) const
+      {
+        const FaceMap &map = maps[surface.triangle_face[triangle]];
+        double         s = .5, t = .5;
+        map.invert(s, t, p);
+        return map.shape(s, t);
+      }
+
+      Vector3 value(const std::vector<Vector3> &field, const unsigned int triangle,
+                    const std::array<double, 4> &phi) const
+      {
+        Vector3     sum;
+        const auto &face = surface.faces[surface.triangle_face[triangle]];
+        for (unsigned int a = 0; a < 4; ++a)
+          sum += phi[a] * field[face.corners[a]];
+        return sum;
+      }
+
+    private:
+      const ContactSurface &surface;
+      std::vector<FaceMap>  maps;
+    };
+
+    double longest_edge(const ContactSurface &surface, const unsigned int face)
+    {
+      const auto &f       = surface.faces[face];
+      double      longest = 0.;
+      for (unsigned int v = 0; v < f.n_corners; ++v)
+        longest = std::max(longest, surface.mesh.vertices[f.corners[v]].distance(
+                                        surface.mesh.vertices[f.corners[(v + 1) % f.n_corners]]));
+      return longest;
+    }
+  } // namespace
+
+
+
+  ContactFaces::ContactFaces(const NodalSpace &space, const ContactSurface &surface,
+                             const std::set<types::boundary_id> &ids)
+    : space(space)
+    , surface(surface)
+    , boundary_face(surface.faces.size(), -1)
+  {
+    std::map<FaceKey, unsigned int> index;
+    for (unsigned int f = 0; f < surface.faces.size(); ++f)
+      {
+        FaceKey key;
+        key.fill(invalid_node);
+        for (unsigned int v = 0; v < surface.faces[f].n_corners; ++v)
+          key[v] = surface.vertex_node[surface.faces[f].corners[v]];
+        index[sorted(key)] = f;
+      }
+    for (unsigned int b = 0; b < space.boundary_faces().size(); ++b)
+      {
+        const NodalSpace::BoundaryFace &face = space.boundary_faces()[b];
+        const NodalSpace::Cell         &cell = space.cells()[face.cell];
+        if (!cell.is_owned || ids.count(face.id) == 0)
+          continue;
+        FaceKey key;
+        key.fill(invalid_node);
+        const auto corners = CellShape::face(cell.n_vertices, face.face);
+        for (unsigned int v = 0; v < corners.size(); ++v)
+          key[v] = space.nodes(cell)[corners[v]];
+        if (const auto it = index.find(sorted(key)); it != index.end())
+          boundary_face[it->second] = static_cast<int>(b);
+      }
+  }
+
+
+
+  void ContactFaces::add(std::map<unsigned int, FaceTraction> &tractions, const unsigned int f,
+                         const FaceTraction &traction) const
+  {
+    if (boundary_face[f] < 0 || traction.square == 0.)
+      return;
+    const NodalSpace::BoundaryFace &face    = space.boundary_faces()[boundary_face[f]];
+    const NodalSpace::Cell         &cell    = space.cells()[face.cell];
+    const auto                      corners = CellShape::face(cell.n_vertices, face.face);
+    FaceTraction                   &sum     = tractions[boundary_face[f]];
+    sum.square += traction.square;
+    for (unsigned int v = 0; v < corners.size(); ++v)
+      for (unsigned int a = 0; a < surface.faces[f].n_corners; ++a)
+        if (surface.vertex_node[surface.faces[f].corners[a]] == space.nodes(cell)[corners[v]])
+          sum.moments[v] += traction.moments[a];
+  }
+
+
+
+  std::vector<FaceTraction> nonmortar_tractions(const ContactSurface           &nonmortar,
+                                                const std::vector<FaceMoments> &moments,
+                                                const std::vector<Vector3>     &stress)
+  {
+    std::vector<FaceTraction> result(nonmortar.faces.size());
+    for (const FaceMoments &m : moments)
+      {
+        const auto   &face     = nonmortar.faces[m.face];
+        FaceTraction &traction = result[m.face];
+        for (unsigned int a = 0; a < face.n_corners; ++a)
+          {
+            for (unsigned int b = 0; b < face.n_corners; ++b)
+              traction.moments[a] -= m.mass[4 * a + b] * stress[face.corners[b]];
+            traction.square -= traction.moments[a] * stress[face.corners[a]];
+          }
+      }
+    return result;
+  }
+
+
+
+  std::vector<FaceTraction> mortar_tractions(const ContactSurface &nonmortar, const ContactSurface &mortar,
+                                             const std::vector<OverlayTriangle> &overlay,
+                                             const std::vector<Vector3> &stress, const MPI_Comm communicator)
+  {
+    const SurfaceValues    non(nonmortar), mor(mortar);
+    constexpr unsigned int n_numbers = 13;
+    std::vector<double>    sums(n_numbers * mortar.faces.size(), 0.);
+    for (const OverlayTriangle &cell : overlay)
+      {
+        const unsigned int      f = mortar.triangle_face[cell.mortar_triangle];
+        std::array<Point<3>, 3> y;
+        for (unsigned int c = 0; c < 3; ++c)
+          y[c] = evaluate(mortar.mesh, cell.mortar_triangle, cell.mortar[c]);
+        const double area = cell.share() * Signorini::triangle_area(nonmortar.mesh, cell.nonmortar_triangle);
+        const double image_area = .5 * cross_product_3d(y[1] - y[0], y[2] - y[0]).norm();
+        for (const auto &point : points)
+          {
+            const auto     w = compose(cell.nonmortar, point), w_image = compose(cell.mortar, point);
+            const Point<3> x     = evaluate(nonmortar.mesh, cell.nonmortar_triangle, w);
+            const Point<3> image = evaluate(mortar.mesh, cell.mortar_triangle, w_image);
+            const Vector3  force = (area / 3.) * non.value(stress, cell.nonmortar_triangle,
+                                                           non.shape(cell.nonmortar_triangle, x));
+            const auto     theta = mor.shape(cell.mortar_triangle, image);
+            for (unsigned int a = 0; a < 4; ++a)
+              for (unsigned int c = 0; c < dim; ++c)
+                sums[n_numbers * f + dim * a + c] += theta[a] * force[c];
+            if (image_area > 0.)
+              sums[n_numbers * f + 12] += 3. * force.norm_square() / image_area;
+          }
+      }
+    Utilities::MPI::sum(sums, communicator, sums);
+    std::vector<FaceTraction> result(mortar.faces.size());
+    for (unsigned int f = 0; f < result.size(); ++f)
+      {
+        for (unsigned int a = 0; a < 4; ++a)
+          for (unsigned int c = 0; c < dim; ++c)
+            result[f].moments[a][c] = sums[n_numbers * f + dim * a + c];
+        result[f].square = sums[n_numbers * f + 12];
+      }
+    return result;
+  }
+
+
+
+  std::vector<double> contact_violation(const ContactSurface &nonmortar, const ContactSurface &mortar,
+                                        const std::vector<OverlayTriangle> &overlay,
+                                        const std::vector<Vector3>         &stress,
+                                        const std::vector<Vector3>         &displacement_nonmortar,
+                                        const std::vector<Vector3>         &displacement_mortar,
+                                        const GapFunction &prescribed_gap, const double shear_modulus)
+  {
+    const SurfaceValues non(nonmortar), mor(mortar);
+    std::vector<double> penetration(nonmortar.faces.size(), 0.), complementarity(penetration);
+    for (const OverlayTriangle &cell : overlay)
+      {
+        const unsigned int f = nonmortar.triangle_face[cell.nonmortar_triangle];
+        const double area = cell.share() * Signorini::triangle_area(nonmortar.mesh, cell.nonmortar_triangle);
+        const auto  &t    = nonmortar.mesh.triangles[cell.nonmortar_triangle];
+        for (const auto &point : points)
+          {
+            const auto     w = compose(cell.nonmortar, point), w_image = compose(cell.mortar, point);
+            const Point<3> x     = evaluate(nonmortar.mesh, cell.nonmortar_triangle, w);
+            const Point<3> image = evaluate(mortar.mesh, cell.mortar_triangle, w_image);
+            Vector3        n;
+            for (unsigned int i = 0; i < 3; ++i)
+              n += w[i] * nonmortar.mesh.vertex_normals[t[i]];
+            if (!(n.norm() > 0.))
+              continue;
+            n /= n.norm();
+            const auto   phi = non.shape(cell.nonmortar_triangle, x);
+            const double gap = prescribed_gap ? prescribed_gap(x) : (image - x) * n;
+            const double opening =
+                gap - n * (non.value(displacement_nonmortar, cell.nonmortar_triangle, phi) -
+                           mor.value(displacement_mortar, cell.mortar_triangle,
+                                     mor.shape(cell.mortar_triangle, image)));
+            const double weight = std::abs(area) / 3.;
+            const double depth  = std::max(0., -opening);
+            penetration[f] += weight * depth * depth;
+            complementarity[f] += weight * opening * (n * non.value(stress, cell.nonmortar_triangle, phi));
+          }
+      }
+    for (unsigned int f = 0; f < penetration.size(); ++f)
+      penetration[f] =
+          shear_modulus / longest_edge(nonmortar, f) * penetration[f] + std::abs(complementarity[f]);
+    return penetration;
+  }
+} // namespace Signorini
