@@ -109,10 +109,18 @@ namespace Signorini
     const NodalSpace &space = *discretization.space;
     if (!refinement.is_adaptive(cycle))
       return refinement.mark(space, cycle);
-    const RefinementParameters &p      = parameters.refinement;
-    const std::vector<bool>     marked = p.marking == "cells"
-                                             ? mark_share_of_cells(space, indicator, p.marking_fraction)
-                                             : mark_share_of_error(space, indicator, p.marking_fraction);
+    const CycleResult          &last = results.cycles[results.cycles.size() - 2];
+    const RefinementParameters &p    = parameters.refinement;
+    // The indicator of an exact solution is rounding: 1e-8 of what a difference of squares consists of.
+    if (last.indicator * last.indicator <= 1e-14 * std::abs(last.nonlinear.energy))
+      {
+        note("cycle " + std::to_string(last.cycle) +
+             ": the error indicator is at the level of rounding, there is nothing to refine.");
+        return std::vector<bool>(space.cells().size(), false);
+      }
+    const std::vector<bool> marked = p.marking == "cells"
+                                         ? mark_share_of_cells(space, indicator, p.marking_fraction)
+                                         : mark_share_of_error(space, indicator, p.marking_fraction);
     if (p.max_dofs > 0)
       {
         // Each marked cell becomes about eight.

@@ -8,6 +8,8 @@
 
 #include <deal.II/base/utilities.h>
 
+#include <iomanip>
+
 namespace Signorini
 {
   using namespace dealii;
@@ -25,12 +27,28 @@ namespace Signorini
       loads.add(bodies, b, parameters.loads[b]);
     for (const std::string &text : bodies.notes())
       note(text);
+    note_movement();
     define_pairs();
     for (unsigned int i = 0; i < parameters.refinement.initial_global; ++i)
       {
         const NodalSpace space(comm, bodies.mesh());
         bodies.refine(space, std::vector<bool>(space.cells().size(), true));
       }
+  }
+
+
+
+  void ContactProblem::note_movement()
+  {
+    const MovementReport &m = bodies.movement();
+    if (m.n_damped == 0)
+      return;
+    std::ostringstream text;
+    text << std::setprecision(3) << m.n_damped << " of " << m.n_moved
+         << " boundary nodes are not on their boundary shape yet, to keep cells from degenerating (worst "
+            "quality "
+         << m.quality_before << " before moving, " << m.quality_after << " after).";
+    note(text.str());
   }
 
 
@@ -277,6 +295,7 @@ namespace Signorini
     Discretization &d = discretization;
     if (!bodies.refine(*d.space, marked))
       return false;
+    note_movement();
     const auto   old_space     = std::move(d.space);
     const auto   old_partition = std::move(d.partition);
     const Vector old           = d.displacement;

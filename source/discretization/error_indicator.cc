@@ -235,9 +235,11 @@ namespace Signorini
     std::vector<bool> mark_above(const NodalSpace &space, const std::vector<double> &indicator,
                                  const double threshold)
     {
+      // Cells that are equal but for rounding are marked together, on any number of ranks.
+      constexpr double  equal = 1. - 1e-6;
       std::vector<bool> marked(indicator.size());
       for (std::size_t c = 0; c < indicator.size(); ++c)
-        marked[c] = space.cells()[c].is_owned && indicator[c] > 0. && indicator[c] >= threshold;
+        marked[c] = space.cells()[c].is_owned && indicator[c] > 0. && indicator[c] >= equal * threshold;
       return marked;
     }
 

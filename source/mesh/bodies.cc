@@ -3,6 +3,7 @@
 
 #include <signorini/algebra/input_error.h>
 #include <signorini/mesh/bodies.h>
+#include <signorini/mesh/expression.h>
 #include <signorini/mesh/mesh_input.h>
 #include <signorini/mesh/nodal_space.h>
 
@@ -33,6 +34,19 @@ namespace Signorini
     prm.add_parameter("Lower corner", lower_corner, "Corner of a block, \"x, y, z\" (length).");
     prm.add_parameter("Upper corner", upper_corner, "Opposite corner of a block (length).");
     prm.add_parameter("Divisions", divisions, "Cells of a block in x, y, z.");
+    prm.add_parameter(
+        "Boundary shapes", shapes,
+        "True shapes that new nodes of boundaries move to, in the frame of the mesh: \"boundary: sphere: "
+        "centre, "
+        "radius; boundary: cylinder: point, axis, radius; boundary: torus: centre, axis, radius, radius of "
+        "the "
+        "tube; boundary: plane: point, normal; boundary: file: NAME\" (a triangulated surface, .stl, .obj, "
+        ".off, "
+        ".ply), with points as (x, y, z). Nodes on several such boundaries move to their common edge.");
+    prm.add_parameter("Sharp edges", sharp_edges,
+                      "Pairs of boundaries whose common edges stay straight: \"boundary + boundary; ...\".");
+    prm.add_parameter("Snap boundary vertices", snap,
+                      "Moves the vertices of the coarse mesh onto the boundary shapes, too.");
     prm.add_parameter("Translation", translation, "Moves the body after rotation, \"x, y, z\" (length).");
     prm.add_parameter("Rotation axis", rotation_axis, "Axis through the origin, \"x, y, z\".");
     prm.add_parameter("Rotation angle", rotation_angle, "Angle in degrees.");
@@ -163,8 +177,8 @@ namespace Signorini
     VolumeMesh                  mesh;
     std::vector<CurvedBoundary> curved;
     std::vector<unsigned int>   material_of_volume;
-    Point<3>                    centre;
-    Tensor<1, 3>                axis;
+    Placement                   placement;
+    dealii::types::boundary_id  first_boundary;
   };
 
 
@@ -174,6 +188,7 @@ namespace Signorini
     : comm(communicator)
   {
     std::vector<Placed> placed(parameters.size());
+    types::boundary_id  next_boundary = 0;
     for (unsigned int b = 0; b < parameters.size(); ++b)
       {
         const BodyParameters &p       = parameters[b];
@@ -181,7 +196,8 @@ namespace Signorini
         names.push_back(p.name);
         check_material(p.young, p.poisson, section, "");
 
-        Placed           &body  = placed[b];
+        Placed &body            = placed[b];
+        body.first_boundary     = next_boundary;
         const std::string kinds = "|" + generated_mesh_kinds() + "|";
         const std::string kind  = Utilities::trim(p.mesh);
         if (kinds.find("|" + kind + "|") != std::string::npos)
@@ -261,22 +277,23 @@ namespace Signorini
                 static_cast<unsigned int>(materials.size() - 1);
           }
 
-        body.axis = Tensor<1, 3>({0., 0., 1.});
         if (p.rotation_angle != 0.)
           {
             const Tensor<1, 3> axis = point_in(p.rotation_axis, section + "Rotation axis");
             if (!(axis.norm() > 0.))
               throw InputError(section + "Rotation axis: it must not be zero.");
-            const Tensor<2, 3> rotation = Physics::Transformations::Rotations::rotation_matrix_3d(
+            body.placement.rotation = Physics::Transformations::Rotations::rotation_matrix_3d(
                 Point<3>(axis / axis.norm()), p.rotation_angle * numbers::PI / 180.);
-            for (Point<3> &v : body.mesh.vertices)
-              v = Point<3>(rotation * v);
-            body.axis = rotation * body.axis;
           }
-        body.centre = point_in(p.translation, section + "Translation");
+        body.placement.translation = point_in(p.translation, section + "Translation");
+        first_boundary.push_back(body.first_boundary);
+        read_shapes(p, body, base_folder);
         for (Point<3> &v : body.mesh.vertices)
-          v += body.centre;
+          v = body.placement(v);
+        if (p.snap)
+          snap_vertices(body, section + "Snap boundary vertices");
         boundaries.push_back(body.mesh.boundary_names);
+        next_boundary += body.mesh.boundary_names.size();
       }
     create(placed);
   }
@@ -285,7 +302,6 @@ namespace Signorini
 
   void Bodies::create(const std::vector<Placed> &placed)
   {
-    types::boundary_id next_boundary = 0;
     for (unsigned int b = 0; b < placed.size(); ++b)
       {
         const VolumeMesh  &mesh   = placed[b].mesh;
@@ -295,8 +311,6 @@ namespace Signorini
                         [&](const VolumeMesh::Cell &cell) { return cell.n_vertices != n; }))
           throw InputError(prefix + "the mesh has both tetrahedra and hexahedra; use one kind for each body "
                                     "(or Convert to hexahedra).");
-        first_boundary.push_back(next_boundary);
-        next_boundary += mesh.boundary_names.size();
       }
     create_hexahedra(placed);
     create_tetrahedra(placed);
@@ -358,12 +372,54 @@ namespace Signorini
             for (const unsigned int f : cell->face_indices())
               if (cell->face(f)->at_boundary() && ids.count(cell->face(f)->boundary_id()) > 0)
                 cell->face(f)->set_all_manifold_ids(next_manifold);
+          const Placement &placement = placed[b].placement;
+          const Point<3>   centre(placement.translation);
           if (curved.shape == CurvedBoundary::sphere)
-            tria->set_manifold(next_manifold, SphericalManifold<3>(placed[b].centre));
+            tria->set_manifold(next_manifold, SphericalManifold<3>(centre));
           else
-            tria->set_manifold(next_manifold, CylindricalManifold<3>(placed[b].axis, placed[b].centre));
+            tria->set_manifold(next_manifold, CylindricalManifold<3>(
+                                                  placement.rotation * Tensor<1, 3>({0., 0., 1.}), centre));
           ++next_manifold;
         }
+    set_manifolds(next_manifold);
+  }
+
+
+
+  void Bodies::set_manifolds(types::manifold_id next)
+  {
+    if (std::all_of(is_user_shape.begin(), is_user_shape.end(), [](const bool is) { return !is; }))
+      return;
+    using Ids = std::set<types::boundary_id>;
+    std::map<unsigned int, Ids>       ids_of_line;
+    std::map<Ids, types::manifold_id> manifold_of;
+    const auto                        manifold = [&](const Ids &ids) {
+      const auto on = shapes_of(ids);
+      if (on.empty())
+        return numbers::flat_manifold_id;
+      const auto [it, is_new] = manifold_of.insert({ids, next});
+      if (is_new)
+        tria->set_manifold(next++, ShapeManifold(on));
+      return it->second;
+    };
+    const auto has_shape = [&](const Ids &ids) {
+      return std::any_of(ids.begin(), ids.end(), [&](const auto id) { return is_user_shape[id]; });
+    };
+    for (const auto &cell : tria->cell_iterators_on_level(0))
+      for (const unsigned int f : cell->face_indices())
+        if (cell->face(f)->at_boundary())
+          {
+            const types::boundary_id id = cell->face(f)->boundary_id();
+            if (is_user_shape[id])
+              cell->face(f)->set_manifold_id(manifold({id}));
+            for (unsigned int l = 0; l < 4; ++l)
+              ids_of_line[cell->face(f)->line_index(l)].insert(id);
+          }
+    for (const auto &cell : tria->cell_iterators_on_level(0))
+      for (const unsigned int l : cell->line_indices())
+        if (const auto it = ids_of_line.find(cell->line_index(l));
+            it != ids_of_line.end() && has_shape(it->second))
+          cell->line(l)->set_manifold_id(manifold(it->second));
   }
 
 
@@ -405,6 +461,134 @@ namespace Signorini
 
 
 
+  void Bodies::read_shapes(const BodyParameters &p, Placed &body, const std::string &base_folder)
+  {
+    const std::string section = "Body " + p.name + "/";
+    const auto       &known   = body.mesh.boundary_names;
+    const auto        index   = [&](const std::string &name, const std::string &where) {
+      const auto it = std::find(known.begin(), known.end(), name);
+      if (it == known.end())
+        throw InputError(where + ": the body has no boundary \"" + name + "\"; it has " + listed(known) +
+                                  ".");
+      return body.first_boundary + static_cast<types::boundary_id>(it - known.begin());
+    };
+    shapes.resize(body.first_boundary + known.size());
+    is_user_shape.resize(shapes.size(), false);
+    // Tetrahedra follow the shapes of generated meshes; hexahedra have deal.II's manifolds for them.
+    if (body.mesh.cells[0].n_vertices == CellShape::tetrahedron)
+      for (const CurvedBoundary &curved : body.curved)
+        {
+          const types::boundary_id id = index(curved.name, section + "Mesh");
+          for (const auto &face : body.mesh.faces)
+            if (body.first_boundary + face.name == id)
+              {
+                const Point<3> x         = body.mesh.vertices[face.vertices[0]];
+                const bool     is_sphere = curved.shape == CurvedBoundary::sphere;
+                shapes[id] = make_round_shape(is_sphere, is_sphere ? x.norm() : std::hypot(x[0], x[1]),
+                                              body.placement);
+                break;
+              }
+        }
+    std::map<std::string, BoundaryShapePointer> made;
+    for (const auto &[name, text] : split_named_entries(p.shapes, section + "Boundary shapes"))
+      {
+        const std::string        where = section + "Boundary shapes, \"" + name + "\"";
+        const types::boundary_id id    = index(name, where);
+        if (made.count(text) == 0)
+          {
+            made[text] = make_boundary_shape(text, body.placement, base_folder, where);
+            if (!made[text]->note().empty())
+              remarks.push_back(made[text]->note());
+          }
+        shapes[id]        = made[text];
+        is_user_shape[id] = true;
+      }
+    for (const std::string &entry : split_list(p.sharp_edges, ';', section + "Sharp edges"))
+      if (!entry.empty())
+        {
+          const auto parts = split_list(entry, '+', section + "Sharp edges");
+          if (parts.size() != 2)
+            throw InputError(section + "Sharp edges: \"" + entry + "\" should read \"boundary + boundary\".");
+          const auto a = index(parts[0], section + "Sharp edges"),
+                     b = index(parts[1], section + "Sharp edges");
+          sharp.insert({std::min(a, b), std::max(a, b)});
+        }
+  }
+
+
+
+  std::vector<BoundaryShapePointer> Bodies::shapes_of(const std::set<types::boundary_id> &ids) const
+  {
+    std::vector<BoundaryShapePointer> result;
+    for (const types::boundary_id a : ids)
+      for (const types::boundary_id b : ids)
+        if (sharp.count({a, b}) > 0)
+          return {};
+    for (const types::boundary_id id : ids)
+      if (shapes[id] && std::find(result.begin(), result.end(), shapes[id]) == result.end())
+        result.push_back(shapes[id]);
+    return result;
+  }
+
+
+
+  void Bodies::snap_vertices(Placed &body, const std::string &where)
+  {
+    VolumeMesh                                          &mesh = body.mesh;
+    std::map<unsigned int, std::set<types::boundary_id>> ids;
+    std::map<unsigned int, double>                       reach;
+    for (const auto &face : mesh.faces)
+      for (const unsigned int v : face.vertices)
+        if (v != VolumeMesh::no_vertex)
+          {
+            ids[v].insert(body.first_boundary + face.name);
+            for (const unsigned int w : face.vertices)
+              if (w != VolumeMesh::no_vertex)
+                reach[v] = std::max(reach[v], mesh.vertices[v].distance(mesh.vertices[w]));
+          }
+    std::vector<std::pair<unsigned int, Point<3>>> targets;
+    for (const auto &[v, on] : ids)
+      if (const auto list = shapes_of(on); !list.empty())
+        {
+          targets.emplace_back(v, project_onto(list, mesh.vertices[v]));
+          if (targets.back().second.distance(mesh.vertices[v]) > reach[v])
+            {
+              std::ostringstream message;
+              message << where << ": the boundary shape is farther from the vertex (" << mesh.vertices[v]
+                      << ") than the faces there are wide. Does the shape belong to this boundary?";
+              throw InputError(message.str());
+            }
+        }
+    std::vector<ArrayView<const unsigned int>> cells;
+    for (const VolumeMesh::Cell &cell : mesh.cells)
+      cells.emplace_back(cell.vertices.data(), cell.n_vertices);
+    std::vector<unsigned int> late;
+    last_movement.add(move_nodes(mesh.vertices, targets, cells, late));
+  }
+
+
+
+  void Bodies::follow_shapes()
+  {
+    for (const auto &[v, id] : forest->new_boundary_vertices())
+      late_vertices[v].insert(id);
+    std::vector<std::pair<unsigned int, Point<3>>> targets;
+    for (const auto &[v, ids] : late_vertices)
+      if (const auto list = shapes_of(ids); !list.empty())
+        targets.emplace_back(v, project_onto(list, forest->vertices()[v]));
+    std::vector<ArrayView<const unsigned int>> cells;
+    for (const auto &cell : forest->cells(forest->n_levels() - 1))
+      cells.emplace_back(cell.vertices.data(), 4);
+    std::vector<unsigned int> late;
+    last_movement.add(move_nodes(forest->vertices(), targets, cells, late));
+    std::map<unsigned int, std::set<types::boundary_id>> still;
+    for (const unsigned int v : late)
+      still[v] = late_vertices[v];
+    late_vertices = std::move(still);
+  }
+
+
+
   MeshView Bodies::mesh() const
   {
     return {tria.get(), forest.get(), forest ? forest->n_levels() - 1 : 0};
@@ -421,6 +605,7 @@ namespace Signorini
     if (Utilities::MPI::max(static_cast<int>(any), comm) == 0)
       return false;
     std::size_t c = 0;
+    last_movement = MovementReport();
     if (tria)
       {
         // The space has the cells in this order, hexahedra first.
@@ -443,7 +628,8 @@ namespace Signorini
         std::vector<bool> all;
         for (const auto &part : Utilities::MPI::all_gather(comm, mine))
           all.insert(all.end(), part.begin(), part.end());
-        forest->refine(all);
+        if (forest->refine(all))
+          follow_shapes();
       }
     return true;
   }

@@ -29,6 +29,40 @@ namespace Signorini
 
 
 
+  namespace
+  {
+    /// How often edges of mesh `coarse` of a forest were halved, one after the other, up to mesh `fine`.
+    unsigned int depth(const TetrahedralForest &forest, const unsigned int coarse, const unsigned int fine)
+    {
+      const unsigned int         first = forest.n_vertices(coarse);
+      std::vector<unsigned char> depths(forest.n_vertices(fine) - first);
+      unsigned int               largest = 0;
+      for (unsigned int v = first; v < forest.n_vertices(fine); ++v)
+        {
+          unsigned char d = 0;
+          for (const unsigned int parent : forest.parents(v))
+            if (parent >= first)
+              d = std::max(d, depths[parent - first]);
+          depths[v - first] = d + 1;
+          largest           = std::max<unsigned int>(largest, d + 1);
+        }
+      return largest;
+    }
+
+    /// The meshes below the finest that become levels, finest first: a mesh is left out where the next finer
+    /// level halves no edge more than once without it.
+    std::vector<unsigned int> select_levels(const TetrahedralForest &forest)
+    {
+      std::vector<unsigned int> levels;
+      for (unsigned int l = forest.n_levels() - 1, last = l; l-- > 0;)
+        if (l == 0 || depth(forest, l - 1, last) > 1)
+          levels.push_back(last = l);
+      return levels;
+    }
+  } // namespace
+
+
+
   struct CoarseningSequence::Forest
   {
     std::vector<Point<3>>                   vertices;
@@ -84,10 +118,7 @@ namespace Signorini
       hexahedra = std::make_unique<CoarseningSequence>(*view.hexahedra);
     std::vector<unsigned int> tetrahedral_levels;
     if (view.tetrahedra != nullptr)
-      for (unsigned int l = view.tetrahedral_level, last = l; l-- > 0;)
-        if (3 * static_cast<std::size_t>(view.tetrahedra->n_vertices(l)) <=
-            2 * static_cast<std::size_t>(view.tetrahedra->n_vertices(last)))
-          tetrahedral_levels.push_back(last = l);
+      tetrahedral_levels = select_levels(*view.tetrahedra);
 
     std::vector<std::unique_ptr<NodalSpace>>             spaces;
     std::unique_ptr<CoarseningSequence::DistributedMesh> mesh;

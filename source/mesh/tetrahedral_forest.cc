@@ -42,20 +42,13 @@ namespace Signorini
 
   double tetrahedron_quality(const std::array<Point<3>, 4> &x)
   {
-    const Tensor<1, 3> a = x[1] - x[0], b = x[2] - x[0], c = x[3] - x[0];
-    const double       six_volumes = cross_product_3d(a, b) * c;
-    double             area        = 0.;
-    for (unsigned int f = 0; f < 4; ++f)
-      {
-        const auto face = CellShape::face(4, f);
-        area += .5 * cross_product_3d(x[face[1]] - x[face[0]], x[face[2]] - x[face[0]]).norm();
-      }
-    const Tensor<1, 3> centre = a.norm_square() * cross_product_3d(b, c) +
-                                b.norm_square() * cross_product_3d(c, a) +
-                                c.norm_square() * cross_product_3d(a, b);
-    // Radii: six_volumes / (2 area) and |centre| / (2 six_volumes).
-    const double denominator = area * centre.norm();
-    return denominator > 0. ? 3. * six_volumes * std::abs(six_volumes) / denominator : 0.;
+    const double volume  = cross_product_3d(x[1] - x[0], x[2] - x[0]) * (x[3] - x[0]) / 6.;
+    double       squares = 0.;
+    for (unsigned int i = 0; i < 4; ++i)
+      for (unsigned int j = 0; j < i; ++j)
+        squares += (x[i] - x[j]).norm_square();
+    return squares > 0. ? 12. * std::copysign(std::pow(3. * std::abs(volume), 2. / 3.), volume) / squares
+                        : 0.;
   }
 
 

@@ -144,6 +144,7 @@ namespace Signorini
     void                collect_reactions();
     void                collect_probes();
     void                note(const std::string &text);
+    void                note_movement();
     /// A line on the terminal of rank 0.
     void print(const std::string &line);
 

@@ -4,7 +4,9 @@
 #ifndef signorini_mesh_bodies_h
 #define signorini_mesh_bodies_h
 
+#include <signorini/mesh/boundary_shape.h>
 #include <signorini/mesh/generated_mesh.h>
+#include <signorini/mesh/node_movement.h>
 #include <signorini/mesh/tetrahedral_forest.h>
 #include <signorini/mesh/volume_mesh.h>
 
@@ -12,6 +14,7 @@
 #include <deal.II/distributed/tria.h>
 
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <set>
 #include <string>
@@ -32,6 +35,8 @@ namespace Signorini
     std::string translation = "0, 0, 0", rotation_axis = "0, 0, 1";
     double      rotation_angle = 0.;
     double      young = 1., poisson = .3;
+    std::string shapes, sharp_edges;
+    bool        snap                 = false;
     bool        convert_to_hexahedra = false, convert_to_tetrahedra = false;
     std::string volumes, volume_materials;
 
@@ -135,6 +140,13 @@ namespace Signorini
     std::set<dealii::types::boundary_id> boundary_ids(const unsigned int body, const std::string &name,
                                                       const std::string &where = "") const;
 
+    /// What the last refinement (or the start, where vertices are snapped) did to the cells at boundaries
+    /// with shapes.
+    const MovementReport &movement() const
+    {
+      return last_movement;
+    }
+
     /// Remarks from reading the meshes.
     const std::vector<std::string> &notes() const
     {
@@ -144,9 +156,15 @@ namespace Signorini
   private:
     struct Placed;
 
-    void create(const std::vector<Placed> &placed);
-    void create_hexahedra(const std::vector<Placed> &placed);
-    void create_tetrahedra(const std::vector<Placed> &placed);
+    void read_shapes(const BodyParameters &parameters, Placed &placed, const std::string &base_folder);
+    void snap_vertices(Placed &placed, const std::string &where);
+    void follow_shapes();
+    void set_manifolds(dealii::types::manifold_id next);
+    /// The shapes that a point on the given boundaries has to lie on; none on sharp edges.
+    std::vector<BoundaryShapePointer> shapes_of(const std::set<dealii::types::boundary_id> &ids) const;
+    void                              create(const std::vector<Placed> &placed);
+    void                              create_hexahedra(const std::vector<Placed> &placed);
+    void                              create_tetrahedra(const std::vector<Placed> &placed);
 
     const MPI_Comm                                                   comm;
     std::unique_ptr<dealii::parallel::distributed::Triangulation<3>> tria;
@@ -156,6 +174,15 @@ namespace Signorini
     std::vector<std::vector<std::string>>                            boundaries;
     std::vector<dealii::types::boundary_id>                          first_boundary;
     std::vector<std::string>                                         remarks;
+    /// By boundary id; null where a boundary has no shape of its own.
+    std::vector<BoundaryShapePointer> shapes;
+    /// By boundary id: whether the shape is one of the parameters, not of a generated mesh.
+    std::vector<bool> is_user_shape;
+    /// Pairs of boundary ids whose common edges stay as they are, the smaller id first.
+    std::set<std::pair<dealii::types::boundary_id, dealii::types::boundary_id>> sharp;
+    /// Vertices of the forest that are not yet where their shapes want them.
+    std::map<unsigned int, std::set<dealii::types::boundary_id>> late_vertices;
+    MovementReport                                               last_movement;
   };
 } // namespace Signorini
 

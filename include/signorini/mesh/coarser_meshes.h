@@ -43,8 +43,9 @@ namespace Signorini
   };
 
   /// Collective. The nodal spaces of the multigrid hierarchy below the current mesh, coarsest first:
-  /// hexahedra by global coarsening, tetrahedra by the meshes they were refined from (those with at most
-  /// 2/3 of the vertices of the next finer one). The kind with fewer meshes keeps its coarsest.
+  /// hexahedra by global coarsening, tetrahedra by the meshes they were refined from (except those without
+  /// which the next finer level halves no edge more than once). The kind with fewer meshes keeps its
+  /// coarsest.
   std::vector<std::unique_ptr<NodalSpace>> coarser_spaces(const Bodies &bodies);
 } // namespace Signorini
 

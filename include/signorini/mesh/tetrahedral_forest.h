@@ -79,10 +79,10 @@ namespace Signorini
       return new_on_boundary;
     }
 
-    /// Moves a vertex.
-    void move(const unsigned int vertex, const dealii::Point<3> &to)
+    /// Vertices may be moved.
+    std::vector<dealii::Point<3>> &vertices()
     {
-      points[vertex] = to;
+      return points;
     }
 
     /// The part of the cells of a mesh that a rank owns: from first to second.
@@ -135,7 +135,7 @@ namespace Signorini
     BoundaryVertices                                new_on_boundary;
   };
 
-  /// 3 times the diameter of the inscribed over that of the circumscribed sphere: 1 for a regular
+  /// The mean ratio 12 (3 volume)^(2/3) / (sum of the squared edges) (Liu, Joe 1994): 1 for a regular
   /// tetrahedron, not positive for an inverted one.
   double tetrahedron_quality(const std::array<dealii::Point<3>, 4> &corners);
 } // namespace Signorini

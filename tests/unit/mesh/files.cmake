@@ -3,5 +3,6 @@ signorini_add_unit_tests(mesh RANKS "1;2;4"
   generated_mesh.cc
   mesh_input.cc
   surface_extraction.cc
+  tetrahedral_forest.cc
   surface_file.cc
 )

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_mesh_boundary_shape_h
+#define signorini_mesh_boundary_shape_h
+
+#include <deal.II/base/point.h>
+#include <deal.II/base/tensor.h>
+#include <deal.II/grid/manifold.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace Signorini
+{
+  /// The true shape of a boundary, to which new boundary nodes move: an analytic one or a triangulated
+  /// surface. Immutable.
+  class BoundaryShape
+  {
+  public:
+    virtual ~BoundaryShape() = default;
+
+    /// The point of the shape that belongs to a point near it.
+    virtual dealii::Point<3> project(const dealii::Point<3> &p) const = 0;
+
+    /// Remarks for the user; empty if there are none.
+    virtual std::string note() const
+    {
+      return "";
+    }
+  };
+
+  using BoundaryShapePointer = std::shared_ptr<const BoundaryShape>;
+
+  /// How a body was put into its place: rotation, then translation.
+  struct Placement
+  {
+    dealii::Tensor<2, 3> rotation = dealii::unit_symmetric_tensor<3>();
+    dealii::Tensor<1, 3> translation;
+
+    dealii::Point<3> operator()(const dealii::Point<3> &p) const
+    {
+      return dealii::Point<3>(rotation * p + translation);
+    }
+  };
+
+  /// "sphere: centre, radius", "cylinder: point, axis, radius", "torus: centre, axis, radius of the circle,
+  /// radius of the tube", "plane: point, normal" with points as (x, y, z), or "file: NAME" (see
+  /// read_surface()), all in the frame of the mesh before it is placed. Files are relative to base_folder.
+  /// Errors: InputError that begins with `where`: texts and files that cannot be understood, surfaces with
+  /// edges of more than two triangles.
+  BoundaryShapePointer make_boundary_shape(const std::string &text, const Placement &placement,
+                                           const std::string &base_folder, const std::string &where);
+
+  /// A sphere around the origin, or a cylinder around the z axis, through a point of it.
+  BoundaryShapePointer make_round_shape(const bool is_sphere, const double radius,
+                                        const Placement &placement);
+
+  /// Projects onto one shape, or onto the edge where several meet (by turns).
+  dealii::Point<3> project_onto(const std::vector<BoundaryShapePointer> &shapes, const dealii::Point<3> &p);
+
+  /// New points of deal.II's hexahedra on boundaries with shapes.
+  class ShapeManifold : public dealii::Manifold<3>
+  {
+  public:
+    explicit ShapeManifold(const std::vector<BoundaryShapePointer> &shapes)
+      : shapes(shapes)
+    {
+    }
+
+    std::unique_ptr<dealii::Manifold<3>> clone() const override
+    {
+      return std::make_unique<ShapeManifold>(shapes);
+    }
+
+    dealii::Point<3> get_new_point(const dealii::ArrayView<const dealii::Point<3>> &surrounding,
+                                   const dealii::ArrayView<const double>           &weights) const override;
+
+  private:
+    const std::vector<BoundaryShapePointer> shapes;
+  };
+} // namespace Signorini
+
+#endif

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_mesh_node_movement_h
+#define signorini_mesh_node_movement_h
+
+#include <deal.II/base/array_view.h>
+#include <deal.II/base/point.h>
+
+#include <utility>
+#include <vector>
+
+namespace Signorini
+{
+  /// What moving nodes did to the cells: worst quality (scaled Jacobian of hexahedra, mean ratio of
+  /// tetrahedra; 1 is best) of those around moved nodes, and the numbers of nodes.
+  struct MovementReport
+  {
+    double      quality_before = 1., quality_after = 1.;
+    std::size_t n_moved = 0, n_damped = 0;
+
+    void add(const MovementReport &other);
+  };
+
+  /// Moves vertices to their targets as far as no cell becomes bad: not worse than a third of what it was
+  /// (nor inverted). Where one would, the vertices of the cell that move go back half of the way, up to ten
+  /// times, then all of it. Vertices that did not reach their target are returned in `late`. Not collective.
+  /// @param cells each with the 4 or 8 vertices of a cell; those that contain no moved vertex do not matter
+  MovementReport move_nodes(std::vector<dealii::Point<3>>                                &positions,
+                            const std::vector<std::pair<unsigned int, dealii::Point<3>>> &targets,
+                            const std::vector<dealii::ArrayView<const unsigned int>>     &cells,
+                            std::vector<unsigned int>                                    &late);
+} // namespace Signorini
+
+#endif
