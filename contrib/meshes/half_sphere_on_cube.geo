@@ -21,5 +21,5 @@ Physical Surface("front")    = {Surface In BoundingBox{-1-e, -1-e, -2-e, 1+e, -1
 Physical Surface("back")     = {Surface In BoundingBox{-1-e, 1-e, -2-e, 1+e, 1+e, e}};
 Mesh.MeshSizeMin = h;
 Mesh.MeshSizeMax = h;
-Mesh.Algorithm3D = 10;
-Mesh.Optimize    = 1;
+Mesh.OptimizeThreshold = 0.6;
+Mesh.Optimize          = 1;
