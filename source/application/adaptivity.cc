@@ -138,4 +138,20 @@ namespace Signorini
       }
     return marked;
   }
+
+
+
+  void ContactProblem::compare_cycles()
+  {
+    Discretization &d = discretization;
+    for (std::size_t k = 0; k < earlier_displacements.size() && k + 1 < results.cycles.size(); ++k)
+      {
+        Vector &difference = earlier_displacements[k];
+        difference -= d.displacement;
+        difference.update_ghost_values();
+        results.cycles[k].error_to_last =
+          std::sqrt(2. * std::max(0., strain_energy(bodies, *d.space, *d.partition, difference)));
+      }
+    earlier_displacements.clear();
+  }
 } // namespace Signorini

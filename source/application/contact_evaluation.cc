@@ -156,6 +156,8 @@ namespace Signorini
     c.tension                   = largest > 0. ? tension / pressure_scale : 0.;
     c.complementarity           = u > 0. && largest > 0. ? product / (pressure_scale * u) : 0.;
     c.energy                    = results.cycles.back().nonlinear.energy;
+    c.potential_energy          = potential_energy(bodies, *d.space, *d.partition, loads, d.displacement);
+    results.cycles.back().potential_energy = c.potential_energy;
     for (const PairResult &pair : results.pairs)
       {
         // An obstacle takes what the body gives.
@@ -170,6 +172,24 @@ namespace Signorini
         if (active == 0)
           note("pair " + pair.name + ": the surfaces are separated, there is no contact force.");
       }
+  }
+
+
+
+  void ContactProblem::compare_with_exact(CycleResult &cycle)
+  {
+    Discretization &d = discretization;
+    for (unsigned int b = 0; b < bodies.n_bodies(); ++b)
+      if (const std::string &text = parameters.exact_displacements[b]; !text.empty())
+        {
+          const std::string         where   = "Body " + bodies.body_name(b) + "/Exact displacement";
+          const auto                entries = split_vector(text, where);
+          std::array<Expression, 3> exact;
+          for (unsigned int c = 0; c < dim; ++c)
+            exact[c] = Expression(entries[c], where);
+          cycle.exact_errors[bodies.body_name(b)] =
+            compute_exact_error(bodies, b, *d.space, *d.partition, d.displacement, exact);
+        }
   }
 
 

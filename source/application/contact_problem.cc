@@ -298,43 +298,52 @@ namespace Signorini
     note_movement();
     const auto   old_space     = std::move(d.space);
     const auto   old_partition = std::move(d.partition);
-    const Vector old           = d.displacement;
     d.transformation.reset();
     setup_space();
-    if (old.size() == 0)
+    if (d.displacement.size() == 0)
       return true;
+    const NodeRows rows = interpolation_rows(*d.space, *old_space, bodies.tetrahedra());
+    d.displacement      = interpolate(d.displacement, rows, *old_space);
+    for (Vector &displacement : earlier_displacements)
+      displacement = interpolate(displacement, rows, *old_space);
+    return true;
+  }
 
-    // Interpolate: the columns of the rows may belong to other ranks.
-    const NodeRows         rows = interpolation_rows(*d.space, *old_space, bodies.tetrahedra());
+
+
+  Vector ContactProblem::interpolate(const Vector &old, const NodeRows &rows, const NodalSpace &old_space) const
+  {
+    // The columns of the rows may belong to other ranks.
+    const Discretization  &d = discretization;
     std::vector<NodeIndex> columns;
     for (const NodeIndex column : rows.columns)
-      if (!old_space->owned().is_element(column))
+      if (!old_space.owned().is_element(column))
         columns.push_back(column);
     std::sort(columns.begin(), columns.end());
     columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
-    IndexSet needed = old_space->owned();
+    IndexSet needed = old_space.owned();
     needed.add_indices(columns.begin(), columns.end());
-    const NodePartition sources(old_space->owned(), needed, comm);
-    Vector              values;
+    const NodePartition sources(old_space.owned(), needed, comm);
+    Vector              values, result;
     sources.reinit(values);
     for (unsigned int i = 0; i < dim * sources.n_owned(); ++i)
       values.local_element(i) = old.local_element(i);
     values.update_ghost_values();
-    d.partition->reinit(d.displacement);
+    d.partition->reinit(result);
+    const auto add = [&](const NodeIndex to, const double weight, const Vector &from, const unsigned int i) {
+      for (unsigned int c = 0; c < dim; ++c)
+        result.local_element(dim * to + c) += weight * from.local_element(dim * i + c);
+    };
     for (unsigned int i = 0; i < d.partition->n_owned(); ++i)
       for (std::size_t k = rows.start[i]; k < rows.start[i + 1]; ++k)
-        for (unsigned int c = 0; c < dim; ++c)
-          d.displacement.local_element(dim * i + c) +=
-              rows.weights[k] * values.local_element(dim * sources.to_local(rows.columns[k]) + c);
-    d.displacement.update_ghost_values();
+        add(i, rows.weights[k], values, sources.to_local(rows.columns[k]));
+    result.update_ghost_values();
     for (const auto &line : d.space->hanging_nodes().get_lines())
       if (d.partition->owns(line.index))
         for (const auto &[parent, weight] : line.entries)
-          for (unsigned int c = 0; c < dim; ++c)
-            d.displacement.local_element(dim * d.partition->to_local(line.index) + c) +=
-                weight * d.displacement.local_element(dim * d.partition->to_local(parent) + c);
-    d.displacement.update_ghost_values();
-    return true;
+          add(d.partition->to_local(line.index), weight, result, d.partition->to_local(parent));
+    result.update_ghost_values();
+    return result;
   }
 
 
@@ -372,11 +381,14 @@ namespace Signorini
           line << " (linear multigrid " << result.linear.iterations << ", difference " << result.difference
                << ")";
         line << ", " << result.active_nodes << " of " << result.contact_nodes << " contact nodes active";
+        compare_with_exact(result);
         if (parameters.refinement.adaptive_cycles > 0)
           {
             progress.show("estimating the error");
             time.restart();
             indicator    = estimate();
+            result.potential_energy =
+              potential_energy(bodies, *discretization.space, *discretization.partition, loads, discretization.displacement);
             double total = 0.;
             for (std::size_t c = 0; c < indicator.size(); ++c)
               if (discretization.space->cells()[c].is_owned)
@@ -385,8 +397,11 @@ namespace Signorini
             result.times["estimate"] += time.wall_time();
             line << ", error indicator " << result.indicator;
           }
+        if (parameters.refinement.compare_cycles && cycle < refinement.n_cycles())
+          earlier_displacements.push_back(discretization.displacement);
         print(line.str());
       }
+    compare_cycles();
     progress.show("evaluating");
     finish();
     progress.clear();

@@ -160,6 +160,9 @@ namespace Signorini
         prm.add_parameter(
             "Probes", probes[b],
             "Points whose displacement is reported, \"name: (x, y, z); ...\" (length, undeformed).");
+        prm.add_parameter("Exact displacement", exact_displacements[b],
+                          "A known solution \"(u, v, w)\" in x, y, z; the distance from it is reported for every "
+                          "cycle (L2 and energy norms).");
         prm.leave_subsection();
       }
     for (PairParameters &pair : pairs)
@@ -220,6 +223,7 @@ namespace Signorini
       throw InputError("Bodies: name at least one body, e.g. \"set Bodies = ball, block\".");
     loads.resize(bodies.size());
     probes.resize(bodies.size());
+    exact_displacements.resize(bodies.size());
     for (const std::string &name : names(top.pairs, "Contact pairs"))
       {
         pairs.emplace_back();

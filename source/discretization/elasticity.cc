@@ -456,4 +456,40 @@ namespace Signorini
     residual.compress(VectorOperation::add);
     return residual;
   }
+
+
+
+  double potential_energy(const Bodies &bodies, const NodalSpace &space, const NodePartition &partition,
+                          const Loads &loads, const Vector &u)
+  {
+    const CellAssembler assembler(bodies, space, loads);
+    CellData            data;
+    double              energy = 0.;
+    for (unsigned int cell = 0; cell < space.cells().size(); ++cell)
+      if (space.cells()[cell].is_owned)
+        {
+          assembler.compute(data, cell);
+          const std::array<Vector3, 8> load = data.load;
+          std::array<Vector3, 8>       cell_u;
+          for (unsigned int v = 0; v < data.n(); ++v)
+            for (unsigned int c = 0; c < dim; ++c)
+              cell_u[v][c] = u.local_element(dim * partition.to_local(data.vertices[v]) + c);
+          subtract_stiffness(data, cell_u);
+          // The load is now f - K u.
+          for (unsigned int v = 0; v < data.n(); ++v)
+            energy -= .5 * cell_u[v] * (load[v] + data.load[v]);
+        }
+    return Utilities::MPI::sum(energy, space.communicator());
+  }
+
+
+
+  double strain_energy(const Bodies &bodies, const NodalSpace &space, const NodePartition &partition,
+                       const Vector &u)
+  {
+    Loads none;
+    for (unsigned int b = 0; b < bodies.n_bodies(); ++b)
+      none.volume_forces.emplace_back();
+    return potential_energy(bodies, space, partition, none, u);
+  }
 } // namespace Signorini

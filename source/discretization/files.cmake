@@ -4,6 +4,7 @@ signorini_add_layer(discretization
   elasticity.cc
   element.cc
   error_indicator.cc
+  exact_error.cc
   hexahedron.cc
   interpolation_exchange.cc
   level_hierarchy.cc

@@ -532,6 +532,39 @@ namespace Signorini
 
 
 
+  namespace
+  {
+    unsigned int number_of_vertices(const VolumeMesh::Cell &cell)
+    {
+      return cell.n_vertices;
+    }
+
+    unsigned int number_of_vertices(const TetrahedralForest::Cell &)
+    {
+      return 4;
+    }
+
+    /// Which vertices belong to cells of different materials.
+    template <typename Cell, typename Material>
+    std::vector<bool> between_materials(const std::size_t n_vertices, const std::vector<Cell> &cells,
+                                        const Material &material)
+    {
+      std::vector<unsigned int> first(n_vertices, numbers::invalid_unsigned_int);
+      std::vector<bool>         result(n_vertices, false);
+      for (const Cell &cell : cells)
+        for (unsigned int v = 0; v < number_of_vertices(cell); ++v)
+          {
+            unsigned int &m = first[cell.vertices[v]];
+            if (m == numbers::invalid_unsigned_int)
+              m = material(cell);
+            result[cell.vertices[v]] = result[cell.vertices[v]] || m != material(cell);
+          }
+      return result;
+    }
+  } // namespace
+
+
+
   void Bodies::snap_vertices(Placed &body, const std::string &where)
   {
     VolumeMesh                                          &mesh = body.mesh;
@@ -563,7 +596,12 @@ namespace Signorini
     for (const VolumeMesh::Cell &cell : mesh.cells)
       cells.emplace_back(cell.vertices.data(), cell.n_vertices);
     std::vector<unsigned int> late;
-    last_movement.add(move_nodes(mesh.vertices, targets, cells, late));
+    std::vector<bool>         is_fixed = between_materials(mesh.vertices.size(), mesh.cells, [](const auto &cell) {
+      return cell.volume;
+    });
+    for (const auto &entry : ids)
+      is_fixed[entry.first] = true;
+    last_movement.add(move_nodes(mesh.vertices, targets, cells, is_fixed, late));
   }
 
 
@@ -579,8 +617,17 @@ namespace Signorini
     std::vector<ArrayView<const unsigned int>> cells;
     for (const auto &cell : forest->cells(forest->n_levels() - 1))
       cells.emplace_back(cell.vertices.data(), 4);
+    const auto        &last     = forest->cells(forest->n_levels() - 1);
+    std::vector<bool> is_fixed = between_materials(forest->vertices().size(), last, [](const auto &cell) {
+      return cell.material;
+    });
+    for (const auto &cell : last)
+      for (unsigned int f = 0; f < 4; ++f)
+        if (cell.boundary[f] != TetrahedralForest::inner)
+          for (const unsigned int v : CellShape::face(4, f))
+            is_fixed[cell.vertices[v]] = true;
     std::vector<unsigned int> late;
-    last_movement.add(move_nodes(forest->vertices(), targets, cells, late));
+    last_movement.add(move_nodes(forest->vertices(), targets, cells, is_fixed, late));
     std::map<unsigned int, std::set<types::boundary_id>> still;
     for (const unsigned int v : late)
       still[v] = late_vertices[v];

@@ -37,14 +37,83 @@ namespace Signorini
 
 
 
-  MovementReport move_nodes(std::vector<Point<3>>                                &positions,
-                            const std::vector<std::pair<unsigned int, Point<3>>> &targets,
-                            const std::vector<ArrayView<const unsigned int>>     &cells,
-                            std::vector<unsigned int>                            &late)
+  namespace
+  {
+    using Targets = std::vector<std::pair<unsigned int, Point<3>>>;
+    using Cells   = std::vector<ArrayView<const unsigned int>>;
+
+    /// Adds targets for free vertices in the `n_layers` layers of cells around the moved ones: their
+    /// displacements are means of those of their neighbours.
+    Targets let_others_follow(const std::vector<Point<3>> &positions, const Targets &targets,
+                              const Cells &cells, const std::vector<bool> &is_fixed)
+    {
+      constexpr unsigned int n_layers = 3, n_sweeps = 20;
+      std::vector<bool>      near(positions.size(), false);
+      for (const auto &target : targets)
+        near[target.first] = true;
+      std::vector<const ArrayView<const unsigned int> *> around;
+      for (unsigned int layer = 0; layer < n_layers; ++layer)
+        {
+          around.clear();
+          for (const auto &cell : cells)
+            if (std::any_of(cell.begin(), cell.end(), [&](const unsigned int v) { return near[v]; }))
+              around.push_back(&cell);
+          for (const auto *cell : around)
+            for (const unsigned int v : *cell)
+              near[v] = true;
+        }
+
+      std::unordered_map<unsigned int, std::size_t> index;
+      std::vector<Tensor<1, 3>>                     displacement;
+      for (const auto &[v, target] : targets)
+        {
+          index[v] = displacement.size();
+          displacement.push_back(target - positions[v]);
+        }
+      std::vector<std::pair<unsigned int, unsigned int>> edges;
+      std::vector<unsigned int>                          free;
+      for (const auto *cell : around)
+        for (const unsigned int v : *cell)
+          if (!is_fixed[v] && index.count(v) == 0)
+            {
+              index[v] = displacement.size();
+              displacement.emplace_back();
+              free.push_back(v);
+            }
+      for (const auto *cell : around)
+        for (const unsigned int v : *cell)
+          if (const auto it = index.find(v); it != index.end() && it->second >= targets.size())
+            for (const unsigned int w : *cell)
+              if (w != v)
+                edges.emplace_back(v, w);
+      std::sort(edges.begin(), edges.end());
+      edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+      for (unsigned int sweep = 0; sweep < n_sweeps; ++sweep)
+        for (std::size_t i = 0, j; i < edges.size(); i = j)
+          {
+            Tensor<1, 3> sum;
+            for (j = i; j < edges.size() && edges[j].first == edges[i].first; ++j)
+              if (const auto it = index.find(edges[j].second); it != index.end())
+                sum += displacement[it->second];
+            displacement[index[edges[i].first]] = sum / static_cast<double>(j - i);
+          }
+      Targets all = targets;
+      for (const unsigned int v : free)
+        if (const Tensor<1, 3> &d = displacement[index[v]]; d.norm() > 0.)
+          all.emplace_back(v, positions[v] + d);
+      return all;
+    }
+  } // namespace
+
+
+
+  MovementReport move_nodes(std::vector<Point<3>> &positions, const Targets &wanted, const Cells &cells,
+                            const std::vector<bool> &is_fixed, std::vector<unsigned int> &late)
   {
     constexpr double                              tolerated  = 1. / 3.;
     constexpr unsigned int                        n_halvings = 10;
     MovementReport                                report;
+    const Targets targets = let_others_follow(positions, wanted, cells, is_fixed);
     std::unordered_map<unsigned int, std::size_t> index;
     std::vector<bool>                             moves(positions.size(), false);
     for (std::size_t i = 0; i < targets.size(); ++i)
@@ -93,8 +162,8 @@ namespace Signorini
       }
     for (const auto *cell : around)
       report.quality_after = std::min(report.quality_after, quality(positions, *cell));
-    report.n_moved = targets.size();
-    for (std::size_t i = 0; i < targets.size(); ++i)
+    report.n_moved = wanted.size();
+    for (std::size_t i = 0; i < wanted.size(); ++i)
       if (halvings[i] > 0)
         {
           late.push_back(targets[i].first);

@@ -42,6 +42,24 @@ namespace Signorini
       json.number("contact_nodes", cycle.contact_nodes);
       json.number("active_nodes", cycle.active_nodes);
       json.number("energy", cycle.nonlinear.energy);
+      if (!cycle.exact_errors.empty())
+        {
+          json.begin('{', "exact");
+          for (const auto &[body, error] : cycle.exact_errors)
+            {
+              json.begin('{', body);
+              json.number("l2_error", error.l2);
+              json.number("l2_norm", error.l2_norm);
+              json.number("energy_error", error.energy);
+              json.number("energy_norm", error.energy_norm);
+              json.end('}');
+            }
+          json.end('}');
+        }
+      if (cycle.potential_energy != 0.)
+        json.number("potential_energy", cycle.potential_energy);
+      if (cycle.error_to_last > 0.)
+        json.number("error_to_last_cycle", cycle.error_to_last);
       if (cycle.indicator > 0.)
         json.number("indicator", cycle.indicator);
       json.begin('{', "nonlinear");
@@ -118,6 +136,7 @@ namespace Signorini
       json.number("equilibrium", c.equilibrium);
       json.number("force_balance", c.force_balance);
       json.number("energy", c.energy);
+      json.number("potential_energy", c.potential_energy);
       json.end('}');
     }
   } // namespace

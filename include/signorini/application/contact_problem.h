@@ -135,6 +135,9 @@ namespace Signorini
                           const std::vector<double> &gaps, const std::vector<unsigned char> &active);
     void solve_linear(CycleResult &cycle, const LevelSpaces &levels, const Vector &start);
     bool refine(const std::vector<bool> &marked);
+    /// A displacement of the old space, on the current one.
+    Vector interpolate(const Vector &old, const NodeRows &rows, const NodalSpace &old_space) const;
+    void   compare_cycles();
     /// Squared error indicators of the cells of the space; the cells that a cycle refines (adaptivity.cc).
     std::vector<double> estimate();
     std::vector<bool>   mark(const unsigned int cycle, const std::vector<double> &indicator);
@@ -143,6 +146,7 @@ namespace Signorini
     void                collect_pairs();
     void                collect_reactions();
     void                collect_probes();
+    void compare_with_exact(CycleResult &cycle);
     void                note(const std::string &text);
     void                note_movement();
     /// A line on the terminal of rank 0.
@@ -156,6 +160,8 @@ namespace Signorini
     Refinement                  refinement;
     std::vector<PairDefinition> pair_definitions;
     Progress                    progress;
+    /// Those of the cycles before, interpolated to the current mesh, if they are to be compared.
+    std::vector<Vector> earlier_displacements;
     dealii::Timer               total_time;
   };
 } // namespace Signorini

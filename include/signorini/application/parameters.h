@@ -43,7 +43,9 @@ namespace Signorini
     std::vector<BodyParameters> bodies;
     std::vector<LoadParameters> loads;
     /// Per body "name: (x, y, z); ...".
-    std::vector<std::string>    probes;
+    std::vector<std::string> probes;
+    /// Per body a known displacement (x, y, z) to compare with, or empty.
+    std::vector<std::string>    exact_displacements;
     std::vector<PairParameters> pairs;
     RefinementParameters        refinement;
     SolverParameters            solver;

@@ -37,6 +37,15 @@ namespace Signorini
   /// relevant nodes), hanging values included, ghosts up to date.
   Vector physical_residual(const Bodies &bodies, const NodalSpace &space, const NodePartition &partition,
                            const Loads &loads, const Vector &u);
+
+  /// Collective. ½uᵀAu of a displacement (as in physical_residual()).
+  double strain_energy(const Bodies &bodies, const NodalSpace &space, const NodePartition &partition,
+                       const Vector &u);
+
+  /// Collective. The potential energy ½uᵀAu - fᵀu of a displacement (as in physical_residual()), prescribed
+  /// displacements included: what meshes can be compared by.
+  double potential_energy(const Bodies &bodies, const NodalSpace &space, const NodePartition &partition,
+                          const Loads &loads, const Vector &u);
 } // namespace Signorini
 
 #endif

@@ -64,9 +64,9 @@ namespace Signorini
     /// Length of the longest edge or diagonal.
     double diameter() const;
 
-  private:
     dealii::Point<3> reference_point(const unsigned int point) const;
 
+  private:
     unsigned int        n = 0;
     Hexahedron::Corners corners;
   };

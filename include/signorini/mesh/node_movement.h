@@ -22,14 +22,16 @@ namespace Signorini
     void add(const MovementReport &other);
   };
 
-  /// Moves vertices to their targets as far as no cell becomes bad: not worse than a third of what it was
-  /// (nor inverted). Where one would, the vertices of the cell that move go back half of the way, up to ten
-  /// times, then all of it. Vertices that did not reach their target are returned in `late`. Not collective.
-  /// @param cells each with the 4 or 8 vertices of a cell; those that contain no moved vertex do not matter
+  /// Moves vertices to their targets, and free ones around them along (their displacements are means of
+  /// their neighbours'), as far as no cell becomes bad: not worse than a third of what it was (nor inverted).
+  /// Where one would, the vertices of the cell that move go back half of the way, up to ten times, then all of
+  /// it. Vertices that did not reach their target are returned in `late`. Not collective.
+  /// @param cells each with the 4 or 8 vertices of a cell
+  /// @param is_fixed vertices that may not follow: on boundaries and between materials
   MovementReport move_nodes(std::vector<dealii::Point<3>>                                &positions,
                             const std::vector<std::pair<unsigned int, dealii::Point<3>>> &targets,
                             const std::vector<dealii::ArrayView<const unsigned int>>     &cells,
-                            std::vector<unsigned int>                                    &late);
+                            const std::vector<bool> &is_fixed, std::vector<unsigned int> &late);
 } // namespace Signorini
 
 #endif

@@ -21,6 +21,7 @@ namespace Signorini
     std::string  marking          = "error";
     double       marking_fraction = .5;
     double       max_dofs         = 0.;
+    bool         compare_cycles   = false;
 
     void add_parameters(dealii::ParameterHandler &prm);
   };

@@ -5,6 +5,7 @@
 #define signorini_output_results_h
 
 #include <signorini/algebra/types.h>
+#include <signorini/discretization/exact_error.h>
 #include <signorini/solvers/convergence_report.h>
 #include <signorini/solvers/sweep_measurement.h>
 #include <signorini/surface/mapping_quality.h>
@@ -29,7 +30,13 @@ namespace Signorini
     double difference = 0.;
     /// Estimate of the energy norm of the error; 0 if it was not computed.
     double           indicator = 0.;
+    /// Energy norm of the difference to the solution of the last cycle, if cycles are compared.
+    double error_to_last = 0.;
+    /// ½uᵀAu - fᵀu, lifts included; where the indicator was computed and on the last mesh.
+    double           potential_energy = 0.;
     SweepMeasurement sweeps;
+    /// By body, where a known displacement was given.
+    std::map<std::string, ExactError> exact_errors;
     /// Seconds.
     std::map<std::string, double> times;
   };
@@ -75,6 +82,8 @@ namespace Signorini
     double force_balance = 0.;
     /// ½vᵀÂv - b̂ᵀv.
     double energy = 0.;
+    /// ½uᵀAu - fᵀu, lifts included.
+    double potential_energy = 0.;
   };
 
   /// One row of pressure.csv.
