@@ -8,8 +8,12 @@
 #include <CGAL/IO/polygon_soup_io.h>
 #include <CGAL/Simple_cartesian.h>
 
+#include <cstdint>
+#include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
+#include <sstream>
 
 namespace Signorini
 {
@@ -31,6 +35,41 @@ namespace Signorini
           if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0])
             mesh.triangles.push_back(t);
         }
+    }
+
+    /// Whether an STL file has coordinates that are no finite numbers: CGAL, which joins equal points, would
+    /// take them for equal to any.
+    bool has_infinite_coordinates(const std::string &file)
+    {
+      std::ifstream     in(file, std::ios::binary);
+      const std::string content((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+      constexpr std::size_t header = 84, record = 50;
+      std::uint32_t         n      = 0;
+      if (content.size() >= header)
+        std::memcpy(&n, content.data() + 80, 4);
+      if (content.size() == header + record * n)
+        {
+          for (std::size_t t = 0; t < n; ++t)
+            {
+              float x[9];
+              std::memcpy(x, content.data() + header + record * t + 12, sizeof(x));
+              if (!std::all_of(x, x + 9, [](const float f) { return std::isfinite(f); }))
+                return true;
+            }
+          return false;
+        }
+      std::istringstream text(content);
+      std::string        word;
+      while (text >> word)
+        if (word == "vertex")
+          for (unsigned int c = 0; c < 3; ++c)
+            if (text >> word)
+              {
+                std::transform(word.begin(), word.end(), word.begin(), ::tolower);
+                if (word.find("nan") != std::string::npos || word.find("inf") != std::string::npos)
+                  return true;
+              }
+      return false;
     }
 
     SurfaceMesh read_polygons(const std::string &file)
@@ -119,7 +158,11 @@ namespace Signorini
     std::transform(extension.begin(), extension.end(), extension.begin(), ::tolower);
     SurfaceMesh mesh;
     if (extension == ".off" || extension == ".stl" || extension == ".obj" || extension == ".ply")
-      mesh = read_polygons(file);
+      {
+        if (extension == ".stl" && has_infinite_coordinates(file))
+          throw InputError("Surface " + file + ": a vertex has no finite coordinates.");
+        mesh = read_polygons(file);
+      }
     else if (extension == ".msh")
       mesh = read_gmsh(file);
     else

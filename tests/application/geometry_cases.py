@@ -1,0 +1,331 @@
+"""Cases of complicated geometries: tetrahedra, adaptive meshes, boundary shapes, mesh files."""
+import json
+import math
+import os
+import struct
+import subprocess
+import tempfile
+
+from harness import TOP, certificate, check, constant_pressure, iterations, near
+
+PATCH_TEST = 'patch_test/patch_test.prm'
+LINEAR = '(-1e-3*x, -1e-3*y, -1e-3*z)'
+HYDROSTATIC = ['Body upper/Dirichlet=' + '; '.join(f'{b}: {LINEAR}' for b in ('left', 'right', 'front', 'back', 'top')),
+               'Body lower/Dirichlet=' + '; '.join(f'{b}: {LINEAR}' for b in ('left', 'right', 'front', 'back', 'bottom'))]
+ROTATED = [f'Body {b}/Rotation {k}' for b in ('upper', 'lower') for k in ('axis=1, 2, 3', 'angle=25')]
+PARTLY_FIXED = [f'Body {b}/{k}' for b, end in (('upper', 'top'), ('lower', 'bottom')) for k in
+                (f'Dirichlet=left: {LINEAR}; {end}: {LINEAR}', 'Pressures=right: 2.5; front: 2.5; back: 2.5')]
+
+
+def kinds(first='upper', second='lower'):
+    """Tetrahedra in one or both of the bodies."""
+    return [[f'Body {b}/Convert to tetrahedra=true' for b in bodies] for bodies in ((first,), (second,), (first, second))]
+
+
+def tetrahedra(p):
+    for kind in kinds():
+        for sides, pressure in (([], 5.), (HYDROSTATIC + ROTATED, 2.5), (PARTLY_FIXED + ROTATED, 2.5)):
+            # Hanging nodes where there are hexahedra, bisected neighbours where there are tetrahedra, on both sides.
+            s = p.solve(PATCH_TEST, *kind, *sides,
+                        'Refinement/Regions=ball: (0.4, 0.5, 0.3), 0.31, 1; ball: (0.6, 0.5, -0.3), 0.31, 2')
+            constant_pressure(s, pressure)
+            certificate(s)
+            iterations(s)
+
+
+def tetrahedra_overhang(p):
+    for kind in kinds():
+        for wide, narrow, boundary in (('upper', 'lower', 'bottom'), ('lower', 'upper', 'top')):
+            for side in ('first', 'second'):
+                s = p.solve(PATCH_TEST, *kind, f'Body {narrow}/Upper corner=0.75, 1, ' + ('0' if narrow == 'lower' else '1'),
+                            f'Body {wide}/Divisions=4, 5, 4', f'Body {wide}/Pressures={boundary}: 5*(x > 0.75)',
+                            f'Pair interface/Nonmortar={side}')
+                constant_pressure(s, 5.)
+                certificate(s)
+                near(abs(s['pairs'][0]['force'][2]), 3.75, 1e-10, 'force')
+
+
+def tetrahedra_ranks(p):
+    """The same mesh and the same solution on any number of ranks, adaptive, with a boundary from a file."""
+    settings = ('Refinement/Adaptive cycles=2', 'Solver/Compare linear multigrid=false')
+    s = p.solve('hertz/paper-tetrahedra.prm', *settings)
+    command, p.command = p.command, p.command[-1:]
+    serial = p.solve('hertz/paper-tetrahedra.prm', *settings)
+    p.command = command
+    for a, b in zip(s['cycles'], serial['cycles']):
+        check(a['dofs'] == b['dofs'] and a['active_nodes'] == b['active_nodes'], f'cycle {a["cycle"]}: {a["dofs"]}, {b["dofs"]}')
+        near(a['indicator'], b['indicator'], 1e-8, 'indicator')
+        check(abs(a['nonlinear']['iterations'] - b['nonlinear']['iterations']) <= 1, 'iterations')
+    near(s['pairs'][0]['force'][2], serial['pairs'][0]['force'][2], 1e-9, 'force')
+
+
+def solve_dense(matrix, right):
+    """Gauss elimination with pivots."""
+    n = len(right)
+    rows = [list(map(float, row)) + [float(b)] for row, b in zip(matrix, right)]
+    for i in range(n):
+        pivot = max(range(i, n), key=lambda k: abs(rows[k][i]))
+        rows[i], rows[pivot] = rows[pivot], rows[i]
+        for k in range(i + 1, n):
+            factor = rows[k][i] / rows[i][i]
+            rows[k] = [x - factor * y for x, y in zip(rows[k], rows[i])]
+    x = [0.] * n
+    for i in reversed(range(n)):
+        x[i] = (rows[i][n] - sum(rows[i][k] * x[k] for k in range(i + 1, n))) / rows[i][i]
+    return x
+
+
+def lame():
+    """Two shells 1 < r < 1.5 < 2.5 under the pressure 10 inside: u = A r + B / r^2 in each; the contact pressure."""
+    a, b, c, pressure = 1., 1.5, 2.5, 10.
+    (k1, m1), (k2, m2) = ((E / (1 - 2 * nu), E / 2 / (1 + nu)) for E, nu in ((1000., .3), (2000., .25)))
+    x = solve_dense([[k1, -4 * m1 / a ** 3, 0, 0], [0, 0, k2, -4 * m2 / c ** 3],
+                     [k1, -4 * m1 / b ** 3, -k2, 4 * m2 / b ** 3], [b, 1 / b ** 2, -b, -1 / b ** 2]], [-pressure, 0, 0, 0])
+    return x, -(k1 * x[0] - 4 * m1 * x[1] / b ** 3)
+
+
+def shells(p):
+    (a1, b1, a2, b2), contact = lame()
+
+    def field(a, b):
+        return '(' + ', '.join(f'({a!r} + {b!r}*(x^2 + y^2 + z^2)^(-1.5))*{c}' for c in 'xyz') + ')'
+    exact = [f'Body inner/Exact displacement={field(a1, b1)}', f'Body outer/Exact displacement={field(a2, b2)}']
+    print('cells (inner, outer)          dofs  L2 error   order  energy    order  pressure')
+    for kind in [[]] + kinds('inner', 'outer'):
+        s = p.solve(os.path.join(TOP, 'tests', 'application', 'shells.prm'), *kind, *exact)
+        name = ', '.join('tetrahedra' if f'Body {b}/Convert to tetrahedra=true' in kind else 'hexahedra' for b in ('inner', 'outer'))
+        last = None
+        for cycle in s['cycles']:
+            error = [math.sqrt(sum(e[f'{k}_error'] ** 2 for e in cycle['exact'].values()) /
+                               sum(e[f'{k}_norm'] ** 2 for e in cycle['exact'].values())) for k in ('l2', 'energy')]
+            # Meshes are halved exactly.
+            order = [math.log2(old / new) for old, new in zip(last, error)] if last else [0., 0.]
+            print(f'{name:26s} {cycle["dofs"]:8d}  {error[0]:.3e}  {order[0]:5.2f}  {error[1]:.3e}  {order[1]:5.2f}')
+            last = error
+        check(order[0] >= 1.9, f'{name}: order {order[0]} in L2')
+        check(order[1] >= .9, f'{name}: order {order[1]} in the energy norm')
+        pair = s['pairs'][0]
+        area = 4 * math.pi * 1.5 ** 2 / 8
+        # The mean pressure from the force: an eighth of the sphere has the projected area pi r^2 / 4.
+        mean = pair['force'][2] / (math.pi * 1.5 ** 2 / 4)
+        near(abs(mean), contact, .02, f'{name}: mean pressure')
+        check(abs(pair['max_pressure'] / contact - 1) < .15 and abs(pair['min_pressure'] / contact - 1) < .15,
+              f'{name}: pressure {pair["min_pressure"]} to {pair["max_pressure"]}, expected {contact}')
+        check(area > 0, 'area')
+        certificate(s)
+
+
+HERTZ_ADAPTIVE = ['Refinement/Regions=', 'Refinement/Final global cycles=0', 'Refinement/Compare cycles=true',
+                  'Solver/Compare linear multigrid=false']
+
+
+def effectivity(s, name, skip_last, first=2):
+    """Indicator over error; the last cycles are too near to what they are compared with."""
+    print(f'{name}: dofs, error, indicator, effectivity')
+    values = []
+    for cycle in s['cycles'][:-1]:
+        error, value = cycle['error_to_last_cycle'], cycle['indicator']
+        print(f'{cycle["dofs"]:8d}  {error:.4e}  {value:.4e}  {value / error:5.2f}')
+        if first <= cycle['cycle'] < len(s['cycles']) - skip_last:
+            values.append(value / error)
+    check(min(values) >= .5 and max(values) <= 20, f'{name}: effectivity {values}')
+    check(max(values) < 2 * min(values), f'{name}: effectivity {values}')
+
+
+def adaptive_hertz(p):
+    s = p.solve('hertz/hertz.prm', *HERTZ_ADAPTIVE, 'Refinement/Global cycles=0',
+                'Refinement/Adaptive cycles=14', 'Refinement/Max dofs=150000')
+    effectivity(s, 'Hertz', 3)
+    certificate(s, 1e-7)
+    for c in s['cycles']:
+        check(c['nonlinear']['iterations'] <= 12, f'cycle {c["cycle"]}: {c["nonlinear"]["iterations"]} iterations')
+    uniform = p.solve('hertz/hertz.prm', *HERTZ_ADAPTIVE, 'Refinement/Global cycles=3')
+    for u in uniform['cycles'][2:-1]:
+        enough = min(c['dofs'] for c in s['cycles'][:-1] if c['error_to_last_cycle'] <= u['error_to_last_cycle'])
+        print(f'uniform {u["dofs"]}: error {u["error_to_last_cycle"]:.4e}, adaptive {enough}')
+        check(8 * enough <= u['dofs'], f'{u["dofs"]}: adaptive needs {enough}')
+    # F/4, and the largest pressure of Hertz for this force, as far as 30,000 dofs go.
+    near(s['pairs'][0]['force'][2], 20.820, .006, 'force')
+    near(s['pairs'][0]['max_pressure'], 244.6, .03, 'largest pressure')
+
+
+def l_block(p):
+    """Three cubes in the shape of an L on a block: a singular edge beside the contact."""
+    cells = [((0, 0), (1, 1)), ((1, 0), (2, 1)), ((0, 1), (1, 2))]
+    points, lines = {}, []
+
+    def node(x, y, z):
+        return points.setdefault((x, y, z), len(points) + 1)
+    for (x0, y0), (x1, y1) in cells:
+        lines.append('5 2 1 1 ' + ' '.join(str(node(*q)) for q in (
+            (x0, 0, y0), (x1, 0, y0), (x1, 1, y0), (x0, 1, y0), (x0, 0, y1), (x1, 0, y1), (x1, 1, y1), (x0, 1, y1))))
+        if y0 == 0:
+            lines.append('3 2 2 2 ' + ' '.join(str(node(*q)) for q in ((x0, 0, 0), (x0, 1, 0), (x1, 1, 0), (x1, 0, 0))))
+        if y1 == 2:
+            lines.append('3 2 3 3 ' + ' '.join(str(node(*q)) for q in ((x0, 0, 2), (x1, 0, 2), (x1, 1, 2), (x0, 1, 2))))
+    with tempfile.TemporaryDirectory() as folder:
+        mesh = os.path.join(folder, 'l.msh')
+        with open(mesh, 'w') as f:
+            f.write('$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n3 1 "l"\n2 2 "bottom"\n2 3 "top"\n$EndPhysicalNames\n')
+            f.write(f'$Nodes\n{len(points)}\n')
+            f.writelines(f'{n} {q[0]} {q[1]} {q[2]}\n' for q, n in points.items())
+            f.write(f'$EndNodes\n$Elements\n{len(lines)}\n')
+            f.writelines(f'{i + 1} {line}\n' for i, line in enumerate(lines))
+            f.write('$EndElements\n')
+        s = p.solve(PATCH_TEST, f'Body upper/Mesh={mesh}', 'Body upper/Dirichlet=top: (0.01, 0, -0.02)',
+                    'Body lower/Upper corner=2.5, 1.5, 0', 'Body lower/Lower corner=-0.5, -0.5, -1', 'Body lower/Divisions=3, 2, 1',
+                    'Body lower/Dirichlet=bottom: (0, 0, 0)', 'Refinement/Adaptive cycles=8', 'Refinement/Global cycles=1',
+                    'Refinement/Compare cycles=true', 'Refinement/Max dofs=200000', 'Solver/Compare linear multigrid=false')
+        effectivity(s, 'L-shaped block', 3)
+        certificate(s)
+
+
+def hertz_tetrahedra(p):
+    """H1 on tetrahedra: the force against the axisymmetric reference (20.820)."""
+    for dofs, fraction, bound in ((40000, .5, .015), (160000, .6, .007)):
+        with tempfile.TemporaryDirectory() as folder:
+            out = os.path.join(folder, 'out')
+            s = p.solve('hertz/hertz.prm', 'Body ball/Convert to tetrahedra=true', 'Body block/Convert to tetrahedra=true',
+                        'Refinement/Regions=', 'Refinement/Final global cycles=0', 'Refinement/Adaptive cycles=12',
+                        f'Refinement/Marking fraction={fraction}', f'Refinement/Max dofs={dofs}',
+                        'Solver/Compare linear multigrid=false', keep=out)
+            with open(os.path.join(out, 'pressure.csv')) as f:
+                names = f.readline().strip().split(',')
+                rows = [dict(zip(names, map(float, line.split(',')))) for line in f]
+        force = s['pairs'][0]['force'][2]
+        weights = [r['pressure'] * r['area'] for r in rows]
+        radius = 16 / (3 * math.pi) * sum(w * math.hypot(r['x'], r['y']) for w, r in zip(weights, rows)) / sum(weights)
+        peak = 6 * force / (math.pi * radius ** 2)
+        print(f'{s["cycles"][-1]["dofs"]} dofs: F {force / 20.82 - 1:+.2%}, a {radius / .4031 - 1:+.2%}, p0 {peak / 244.63 - 1:+.2%}')
+        near(force, 20.820, bound, 'force')
+        near(radius, .4031, .02, 'radius')
+        near(peak, 244.63, .04, 'p0')
+        certificate(s, 1e-7)
+
+
+def paper_tetrahedra(p):
+    s = p.solve('hertz/paper-tetrahedra.prm')
+    iterations(s)
+    certificate(s, 1e-7)
+    check(7000 <= s['cycles'][0]['cells'] <= 9000 and 250000 <= s['cycles'][-1]['cells'] <= 500000, 'number of elements')
+    for c in s['cycles']:
+        check(c['nonlinear']['iterations'] <= 18, f'cycle {c["cycle"]}: {c["nonlinear"]["iterations"]} iterations')
+
+
+def knee(p):
+    s = p.solve('knee/knee.prm', 'Refinement/Marking fraction=0.6')
+    iterations(s)
+    certificate(s, 1e-7)
+    for c in s['cycles']:
+        check(c['nonlinear']['iterations'] <= 25, f'cycle {c["cycle"]}: {c["nonlinear"]["iterations"]} iterations')
+    check(s['certificate']['force_balance'] <= 1e-10, 'force balance')
+
+
+def knee_of_bones(p):
+    """The same with real surfaces, and a deliberately poor mesh; they are not part of the repository."""
+    folder = os.path.join(os.path.dirname(TOP), 'shared', 'reference', 'knee')
+    if not os.path.exists(os.path.join(folder, 'knee_vhm.msh')):
+        print(f'skipped: there is no {folder}')
+        return
+    bones = []
+    for body, volume, n in (('femur', 1, 1), ('tibia', 2, 11)):
+        shape = f'file: {folder}/{body}.stl'
+        bones += [f'Body {body}/Mesh={folder}/knee_vhm.msh', f'Body {body}/Volumes={volume}',
+                  f'Body {body}/Boundary shapes={n + 1}: {shape}; {n + 2}: {shape}', f'Body {body}/Sharp edges={n} + {n + 2}',
+                  f'Body {body}/Dirichlet={n}: (0, 0, {-.6 if volume == 1 else 0})']
+    s = p.solve('knee/knee.prm', *bones, 'Pair contact/First=femur: 2', 'Pair contact/Second=tibia: 12', 'Pair contact/First region=',
+                'Pair contact/Second region=', 'Refinement/Initial global levels=0', 'Refinement/Adaptive cycles=3')
+    certificate(s, 1e-7)
+    for c in s['cycles']:
+        check(c['nonlinear']['iterations'] <= 25, f'cycle {c["cycle"]}: {c["nonlinear"]["iterations"]} iterations')
+
+
+def write_stl(path, triangles):
+    with open(path, 'wb') as f:
+        f.write(b' ' * 80 + struct.pack('<I', len(triangles)))
+        for t in triangles:
+            f.write(struct.pack('<12fH', 0, 0, 0, *[x for v in t for x in v], 0))
+
+
+def bad_meshes(p):
+    """Every one of them is refused with one message that names the file or what is wrong, and leaves nothing."""
+    prm = os.path.join(TOP, 'prm', 'hertz', 'paper-tetrahedra.prm')
+    good = os.path.join(TOP, 'prm', 'hertz', 'half_sphere_on_cube.msh')
+    with tempfile.TemporaryDirectory() as folder:
+        def path(name):
+            return os.path.join(folder, name)
+        with open(good, 'rb') as f:
+            content = f.read()
+        for n, share in enumerate((.2, .5, .8, .99)):
+            with open(path(f'cut{n}.msh'), 'wb') as f:
+                f.write(content[:int(share * len(content))])
+        with open(path('cut.inp'), 'w') as f:
+            f.write('*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n*ELEMENT, TYPE=C3D4, ELSET=ball\n1, 1, 2, 3\n')
+        square = [((0, 0, 0), (1, 0, 0), (1, 1, 0)), ((0, 0, 0), (1, 1, 0), (0, 1, 0))]
+        write_stl(path('nan.stl'), square + [((0, 0, 0), (float('nan'), 0, 0), (1, 1, 0))])
+        write_stl(path('three.stl'), square + [((0, 0, 0), (1, 1, 0), (0, 0, 1)), ((1, 1, 0), (0, 0, 0), (0, 1, 1))])
+        write_stl(path('cut.stl'), square)
+        with open(path('cut.stl'), 'rb') as f:
+            content = f.read()
+        with open(path('cut.stl'), 'wb') as f:
+            f.write(content[:-30])
+        write_stl(path('far.stl'), [tuple((x + 50., y, z) for x, y, z in t) for t in square])
+        cases = [(f'Body ball/Mesh={path(f"cut{n}.msh")}', f'cut{n}.msh') for n in range(4)]
+        cases += [(f'Body ball/Mesh={path("cut.inp")}', 'cut off'),
+                  ('Body ball/Volumes=bal', 'no volume "bal"'),
+                  ('Body ball/Boundary shapes=spher: sphere: (0, 0, 1), 1', 'no boundary "spher"'),
+                  ('Body ball/Boundary shapes=sphere: ball: (0, 0, 1), 1', 'should read'),
+                  ('Body ball/Sharp edges=sphere', 'should read'),
+                  (f'Body ball/Boundary shapes=sphere: file: {path("nan.stl")}', 'finite'),
+                  (f'Body ball/Boundary shapes=sphere: file: {path("three.stl")}', 'not a manifold'),
+                  (f'Body ball/Boundary shapes=sphere: file: {path("cut.stl")}', 'cut.stl'),
+                  (f'Body ball/Boundary shapes=sphere: file: {path("no.stl")}', 'no.stl')]
+        out = path('out')
+        before = sorted(os.listdir(folder))
+        for setting, word in cases + [((f'Body ball/Boundary shapes=sphere: file: {path("far.stl")}',
+                                        'Body ball/Snap boundary vertices=true'), 'farther from the vertex')]:
+            settings = [setting] if isinstance(setting, str) else list(setting)
+            run = p.call(prm, '--output', out, *[a for s in settings for a in ('--set', s)])
+            check(run.returncode == 1, f'{settings}: exit code {run.returncode}')
+            check(word in run.stderr, f'{settings}: the message does not name "{word}": {run.stderr}')
+            check(run.stderr.count('signorini: error:') == 1, f'{settings}: not one message: {run.stderr}')
+            check(sorted(os.listdir(folder)) == before, f'{settings}: left {os.listdir(folder)}')
+
+
+def mesh_formats(p):
+    """The same two blocks as Abaqus file and through gmsh in other formats: the same patch test."""
+    def block(z, n):
+        points = [(i / n, j / n, z + k / n) for k in range(n + 1) for j in range(n + 1) for i in range(n + 1)]
+        cells = []
+        for k in range(n):
+            for j in range(n):
+                for i in range(n):
+                    a = i + (n + 1) * (j + (n + 1) * k)
+                    cells.append([a, a + 1, a + n + 2, a + n + 1] + [a + (n + 1) ** 2 + d for d in (0, 1, n + 2, n + 1)])
+        return points, cells
+    with tempfile.TemporaryDirectory() as folder:
+        settings = []
+        for body, z, n in (('upper', 0., 2), ('lower', -1., 3)):
+            points, cells = block(z, n)
+            path = os.path.join(folder, body + '.inp')
+            with open(path, 'w') as f:
+                f.write('** a block\n*Heading\n made by a test\n*NODE, NSET=all\n')
+                f.writelines(f'{10 * i + 1}, {x}, {y}, {zz}\n' for i, (x, y, zz) in enumerate(points))
+                f.write('*Element, type=C3D8R, elset=Block\n')
+                f.writelines(f'{i + 1}, ' + ', '.join(str(10 * v + 1) for v in c[:5]) + ',\n' +
+                             ', '.join(str(10 * v + 1) for v in c[5:]) + '\n' for i, c in enumerate(cells))
+                f.write(f'*ELSET, ELSET=low, GENERATE\n1, {n * n}, 1\n*ELSET, ELSET=high, GENERATE\n{n ** 3 - n * n + 1}, {n ** 3}\n')
+                f.write('*SURFACE, NAME=bottom, TYPE=ELEMENT\nlow, S1\n*SURFACE, NAME=top, TYPE=ELEMENT\nHIGH, S2\n')
+                for name, axis in (('left', 0), ('front', 1)):
+                    nodes = [str(10 * i + 1) for i, q in enumerate(points) if q[axis] == 0.]
+                    f.write(f'*NSET, NSET={name}\n' + '\n'.join(', '.join(nodes[i:i + 8]) for i in range(0, len(nodes), 8)) + '\n')
+                f.write('*MATERIAL, NAME=steel\n*ELASTIC\n210000., 0.3\n')
+            settings.append(f'Body {body}/Mesh={path}')
+        s = p.solve(PATCH_TEST, *settings)
+        constant_pressure(s, 5.)
+        certificate(s)
+    # Tetrahedra cut into hexahedra.
+    s = p.solve('hertz/paper-tetrahedra.prm', 'Body ball/Convert to hexahedra=true', 'Body cube/Convert to hexahedra=true',
+                'Refinement/Adaptive cycles=0')
+    iterations(s)
+    certificate(s, 1e-7)

@@ -1,0 +1,74 @@
+"""Running the program and checking numbers: what all cases share."""
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+TOP = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+FAILURES = []
+
+
+def check(condition, text):
+    if not condition:
+        FAILURES.append(text)
+
+
+def near(value, expected, tolerance, text):
+    check(abs(value - expected) <= tolerance * max(abs(expected), 1e-300), f'{text}: {value!r}, expected {expected!r} to {tolerance}')
+
+
+class Program:
+    def __init__(self, program, ranks):
+        self.command = [program] if ranks == 1 else ['mpirun', '-np', str(ranks), program]
+        self.environment = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT='1', OMPI_ALLOW_RUN_AS_ROOT_CONFIRM='1',
+                                OMPI_MCA_rmaps_base_oversubscribe='1', OMPI_MCA_btl_vader_single_copy_mechanism='none')
+
+    def call(self, *arguments):
+        return subprocess.run(self.command + list(arguments), env=self.environment, stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE, universal_newlines=True, timeout=500)
+
+    def solve(self, prm, *settings, keep=None):
+        with tempfile.TemporaryDirectory() as folder:
+            out = os.path.join(folder, 'out')
+            arguments = [os.path.join(TOP, 'prm', prm), '--output', out]
+            for setting in settings:
+                arguments += ['--set', setting]
+            run = self.call(*arguments)
+            if run.returncode != 0:
+                print(run.stdout, run.stderr)
+                raise SystemExit(f'{prm} {settings}: exit code {run.returncode}')
+            for name in ('table.txt', 'convergence.csv', 'pressure.csv', 'parameters.prm', 'bodies.pvtu', 'signorini.log'):
+                check(os.path.exists(os.path.join(out, name)), f'{name} is missing')
+            check(sorted(os.listdir(folder)) == ['out'], 'temporary folders are left')
+            for name in ('table.txt', 'signorini.log', 'summary.json', 'convergence.csv', 'pressure.csv'):
+                with open(os.path.join(out, name)) as f:
+                    check(not re.search(r'\bnan\b', f.read()), f'{name} has a NaN')
+            with open(os.path.join(out, 'summary.json')) as f:
+                summary = json.load(f)
+            if keep:
+                shutil.move(out, keep)
+            return summary
+
+
+def certificate(s, equilibrium=1e-8):
+    c = s['certificate']
+    check(s['converged'], 'not converged')
+    for key, bound in (('penetration', 1e-12), ('tension', 1e-9), ('complementarity', 1e-9), ('force_balance', 1e-12),
+                       ('equilibrium', equilibrium)):
+        check(abs(c[key]) <= bound, f'certificate {key}: {c[key]}')
+
+
+def iterations(s):
+    for c in s['cycles']:
+        check(c['nonlinear']['iterations'] <= c['linear']['iterations'] + 5,
+              f'cycle {c["cycle"]}: {c["nonlinear"]["iterations"]} iterations, linear {c["linear"]["iterations"]}')
+        check(c['linear']['difference'] <= 1e-9, f'cycle {c["cycle"]}: linear solution differs by {c["linear"]["difference"]}')
+
+
+def constant_pressure(s, pressure, tolerance=1e-10):
+    for pair in s['pairs']:
+        near(pair['min_pressure'], pressure, tolerance, f'smallest pressure of {pair["name"]}')
+        near(pair['max_pressure'], pressure, tolerance, f'largest pressure of {pair["name"]}')
