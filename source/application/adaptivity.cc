@@ -123,11 +123,14 @@ namespace Signorini
                                          : mark_share_of_error(space, indicator, p.marking_fraction);
     if (p.max_dofs > 0)
       {
-        // Each marked cell becomes about eight.
-        const double n_marked =
-            Utilities::MPI::sum(static_cast<double>(std::count(marked.begin(), marked.end(), true)), comm);
-        const double expected = dim * static_cast<double>(space.n_conforming_nodes()) *
-                                (1. + 7. * n_marked / static_cast<double>(space.n_global_cells()));
+        // Each marked cell becomes eight; the closure of tetrahedral meshes refines about as many again.
+        double weight = 0.;
+        for (std::size_t c = 0; c < marked.size(); ++c)
+          if (marked[c])
+            weight += space.cells()[c].n_vertices == CellShape::tetrahedron ? 14. : 7.;
+        const double expected =
+            dim * static_cast<double>(space.n_conforming_nodes()) *
+            (1. + Utilities::MPI::sum(weight, comm) / static_cast<double>(space.n_global_cells()));
         if (expected > p.max_dofs)
           {
             note("cycle " + std::to_string(cycle) + " would have about " +
@@ -150,7 +153,7 @@ namespace Signorini
         difference -= d.displacement;
         difference.update_ghost_values();
         results.cycles[k].error_to_last =
-          std::sqrt(2. * std::max(0., strain_energy(bodies, *d.space, *d.partition, difference)));
+            std::sqrt(2. * std::max(0., strain_energy(bodies, *d.space, *d.partition, difference)));
       }
     earlier_displacements.clear();
   }

@@ -188,7 +188,7 @@ namespace Signorini
           for (unsigned int c = 0; c < dim; ++c)
             exact[c] = Expression(entries[c], where);
           cycle.exact_errors[bodies.body_name(b)] =
-            compute_exact_error(bodies, b, *d.space, *d.partition, d.displacement, exact);
+              compute_exact_error(bodies, b, *d.space, *d.partition, d.displacement, exact);
         }
   }
 

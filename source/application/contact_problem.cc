@@ -296,8 +296,8 @@ namespace Signorini
     if (!bodies.refine(*d.space, marked))
       return false;
     note_movement();
-    const auto   old_space     = std::move(d.space);
-    const auto   old_partition = std::move(d.partition);
+    const auto old_space     = std::move(d.space);
+    const auto old_partition = std::move(d.partition);
     d.transformation.reset();
     setup_space();
     if (d.displacement.size() == 0)
@@ -311,7 +311,8 @@ namespace Signorini
 
 
 
-  Vector ContactProblem::interpolate(const Vector &old, const NodeRows &rows, const NodalSpace &old_space) const
+  Vector ContactProblem::interpolate(const Vector &old, const NodeRows &rows,
+                                     const NodalSpace &old_space) const
   {
     // The columns of the rows may belong to other ranks.
     const Discretization  &d = discretization;
@@ -386,9 +387,9 @@ namespace Signorini
           {
             progress.show("estimating the error");
             time.restart();
-            indicator    = estimate();
-            result.potential_energy =
-              potential_energy(bodies, *discretization.space, *discretization.partition, loads, discretization.displacement);
+            indicator               = estimate();
+            result.potential_energy = potential_energy(
+                bodies, *discretization.space, *discretization.partition, loads, discretization.displacement);
             double total = 0.;
             for (std::size_t c = 0; c < indicator.size(); ++c)
               if (discretization.space->cells()[c].is_owned)

@@ -160,9 +160,10 @@ namespace Signorini
         prm.add_parameter(
             "Probes", probes[b],
             "Points whose displacement is reported, \"name: (x, y, z); ...\" (length, undeformed).");
-        prm.add_parameter("Exact displacement", exact_displacements[b],
-                          "A known solution \"(u, v, w)\" in x, y, z; the distance from it is reported for every "
-                          "cycle (L2 and energy norms).");
+        prm.add_parameter(
+            "Exact displacement", exact_displacements[b],
+            "A known solution \"(u, v, w)\" in x, y, z; the distance from it is reported for every "
+            "cycle (L2 and energy norms).");
         prm.leave_subsection();
       }
     for (PairParameters &pair : pairs)

@@ -26,8 +26,8 @@ namespace Signorini
       for (unsigned int d = 0; d < dim; ++d)
         {
           Vector3 h;
-          h[d]                   = step;
-          const Vector3 slope    = (value_of(exact, p + h) - value_of(exact, p - h)) / (2. * step);
+          h[d]                = step;
+          const Vector3 slope = (value_of(exact, p + h) - value_of(exact, p - h)) / (2. * step);
           for (unsigned int c = 0; c < dim; ++c)
             gradient[c][d] = slope[c];
         }
@@ -51,7 +51,7 @@ namespace Signorini
       if (cell.is_owned && bodies.body_of_material(cell.material) == body)
         {
           const Element                                element(space, cell);
-          const auto                                   nodes = space.nodes(cell);
+          const auto                                   nodes    = space.nodes(cell);
           const Material                              &material = bodies.material(cell.material);
           std::array<Vector3, CellShape::max_vertices> u, g;
           for (unsigned int v = 0; v < nodes.size(); ++v)
@@ -59,12 +59,12 @@ namespace Signorini
               u[v][c] = displacement.local_element(dim * partition.to_local(nodes[v]) + c);
           for (unsigned int q = 0; q < element.n_points(); ++q)
             {
-              const auto [weight, point] = element.volume_element(q);
-              const auto    shape        = element.shape_at_point(q);
-              const Vector3 known        = value_of(exact, point);
+              const auto [weight, point]   = element.volume_element(q);
+              const auto    shape          = element.shape_at_point(q);
+              const Vector3 known          = value_of(exact, point);
               const Block   known_gradient = gradient_of(exact, point, 1e-3 * element.diameter());
-              Vector3       error        = known;
-              Block         gradient     = known_gradient;
+              Vector3       error          = known;
+              Block         gradient       = known_gradient;
               element.shape_gradients(g, element.reference_point(q));
               for (unsigned int v = 0; v < nodes.size(); ++v)
                 {

@@ -307,10 +307,10 @@ namespace Signorini
                   it = sets_of[v].count(*it) > 0 ? std::next(it) : common.erase(it);
             if (!common.empty())
               {
-                const std::size_t smallest =
-                  *std::min_element(common.begin(), common.end(), [&](const std::size_t a, const std::size_t b) {
-                    return node_sets.sets[a].second.size() < node_sets.sets[b].second.size();
-                  });
+                const std::size_t smallest = *std::min_element(
+                    common.begin(), common.end(), [&](const std::size_t a, const std::size_t b) {
+                      return node_sets.sets[a].second.size() < node_sets.sets[b].second.size();
+                    });
                 named.insert({face_key(face.first), node_sets.sets[smallest].first});
               }
           }

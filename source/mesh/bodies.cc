@@ -596,9 +596,8 @@ namespace Signorini
     for (const VolumeMesh::Cell &cell : mesh.cells)
       cells.emplace_back(cell.vertices.data(), cell.n_vertices);
     std::vector<unsigned int> late;
-    std::vector<bool>         is_fixed = between_materials(mesh.vertices.size(), mesh.cells, [](const auto &cell) {
-      return cell.volume;
-    });
+    std::vector<bool>         is_fixed =
+        between_materials(mesh.vertices.size(), mesh.cells, [](const auto &cell) { return cell.volume; });
     for (const auto &entry : ids)
       is_fixed[entry.first] = true;
     last_movement.add(move_nodes(mesh.vertices, targets, cells, is_fixed, late));
@@ -617,10 +616,9 @@ namespace Signorini
     std::vector<ArrayView<const unsigned int>> cells;
     for (const auto &cell : forest->cells(forest->n_levels() - 1))
       cells.emplace_back(cell.vertices.data(), 4);
-    const auto        &last     = forest->cells(forest->n_levels() - 1);
-    std::vector<bool> is_fixed = between_materials(forest->vertices().size(), last, [](const auto &cell) {
-      return cell.material;
-    });
+    const auto       &last = forest->cells(forest->n_levels() - 1);
+    std::vector<bool> is_fixed =
+        between_materials(forest->vertices().size(), last, [](const auto &cell) { return cell.material; });
     for (const auto &cell : last)
       for (unsigned int f = 0; f < 4; ++f)
         if (cell.boundary[f] != TetrahedralForest::inner)

@@ -110,10 +110,10 @@ namespace Signorini
   MovementReport move_nodes(std::vector<Point<3>> &positions, const Targets &wanted, const Cells &cells,
                             const std::vector<bool> &is_fixed, std::vector<unsigned int> &late)
   {
-    constexpr double                              tolerated  = 1. / 3.;
-    constexpr unsigned int                        n_halvings = 10;
-    MovementReport                                report;
-    const Targets targets = let_others_follow(positions, wanted, cells, is_fixed);
+    constexpr double       tolerated  = 1. / 3.;
+    constexpr unsigned int n_halvings = 10;
+    MovementReport         report;
+    const Targets          targets = let_others_follow(positions, wanted, cells, is_fixed);
     std::unordered_map<unsigned int, std::size_t> index;
     std::vector<bool>                             moves(positions.size(), false);
     for (std::size_t i = 0; i < targets.size(); ++i)

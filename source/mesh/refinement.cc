@@ -29,9 +29,10 @@ namespace Signorini
                       Patterns::Selection("error|cells"));
     prm.add_parameter("Marking fraction", marking_fraction, "Share of the error or of the cells.",
                       Patterns::Double(0., 1.));
-    prm.add_parameter("Compare cycles", compare_cycles,
-                      "Reports how far the solution of every cycle is from that of the last (energy norm), to judge "
-                      "the error indicator.");
+    prm.add_parameter(
+        "Compare cycles", compare_cycles,
+        "Reports how far the solution of every cycle is from that of the last (energy norm), to judge "
+        "the error indicator.");
     prm.add_parameter("Max dofs", max_dofs,
                       "No adaptive cycle is begun that would have more unknowns; 0 for no limit.",
                       Patterns::Double(0.));

@@ -192,8 +192,8 @@ namespace Signorini
     /// Vertex normals: sums of the area vectors of the faces around (half the product of the diagonals,
     /// whatever way a face is cut into triangles), those of triangles over the squares of both edges at the
     /// vertex, which is exact on spheres (Max: Weights for computing vertex normals from facet normals, 1999;
-    /// triangles around a vertex of a tetrahedral mesh lie too irregularly for plain areas); hanging vertices get the mean of their parents; then
-    /// projected onto the free directions.
+    /// triangles around a vertex of a tetrahedral mesh lie too irregularly for plain areas); hanging vertices
+    /// get the mean of their parents; then projected onto the free directions.
     void set_normals(ContactSurface &surface)
     {
       auto &normals = surface.mesh.vertex_normals;

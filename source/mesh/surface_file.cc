@@ -41,10 +41,10 @@ namespace Signorini
     /// take them for equal to any.
     bool has_infinite_coordinates(const std::string &file)
     {
-      std::ifstream     in(file, std::ios::binary);
-      const std::string content((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+      std::ifstream         in(file, std::ios::binary);
+      const std::string     content((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
       constexpr std::size_t header = 84, record = 50;
-      std::uint32_t         n      = 0;
+      std::uint32_t         n = 0;
       if (content.size() >= header)
         std::memcpy(&n, content.data() + 80, 4);
       if (content.size() == header + record * n)

@@ -182,7 +182,7 @@ def l_block(p):
 
 def hertz_tetrahedra(p):
     """H1 on tetrahedra: the force against the axisymmetric reference (20.820)."""
-    for dofs, fraction, bound in ((40000, .5, .015), (160000, .6, .007)):
+    for dofs, fraction, bound in ((60000, .53, .015), (300000, .6, .007)):
         with tempfile.TemporaryDirectory() as folder:
             out = os.path.join(folder, 'out')
             s = p.solve('hertz/hertz.prm', 'Body ball/Convert to tetrahedra=true', 'Body block/Convert to tetrahedra=true',

@@ -146,7 +146,7 @@ namespace Signorini
     void                collect_pairs();
     void                collect_reactions();
     void                collect_probes();
-    void compare_with_exact(CycleResult &cycle);
+    void                compare_with_exact(CycleResult &cycle);
     void                note(const std::string &text);
     void                note_movement();
     /// A line on the terminal of rank 0.
@@ -162,7 +162,7 @@ namespace Signorini
     Progress                    progress;
     /// Those of the cycles before, interpolated to the current mesh, if they are to be compared.
     std::vector<Vector> earlier_displacements;
-    dealii::Timer               total_time;
+    dealii::Timer       total_time;
   };
 } // namespace Signorini
 

@@ -24,8 +24,8 @@ namespace Signorini
 
   /// Moves vertices to their targets, and free ones around them along (their displacements are means of
   /// their neighbours'), as far as no cell becomes bad: not worse than a third of what it was (nor inverted).
-  /// Where one would, the vertices of the cell that move go back half of the way, up to ten times, then all of
-  /// it. Vertices that did not reach their target are returned in `late`. Not collective.
+  /// Where one would, the vertices of the cell that move go back half of the way, up to ten times, then all
+  /// of it. Vertices that did not reach their target are returned in `late`. Not collective.
   /// @param cells each with the 4 or 8 vertices of a cell
   /// @param is_fixed vertices that may not follow: on boundaries and between materials
   MovementReport move_nodes(std::vector<dealii::Point<3>>                                &positions,

@@ -29,7 +29,7 @@ namespace Signorini
     /// Relative difference of the linear and the nonlinear solution (energy norm).
     double difference = 0.;
     /// Estimate of the energy norm of the error; 0 if it was not computed.
-    double           indicator = 0.;
+    double indicator = 0.;
     /// Energy norm of the difference to the solution of the last cycle, if cycles are compared.
     double error_to_last = 0.;
     /// ½uᵀAu - fᵀu, lifts included; where the indicator was computed and on the last mesh.

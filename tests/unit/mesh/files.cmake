@@ -1,4 +1,5 @@
 signorini_add_unit_tests(mesh RANKS "1;2;4"
+  boundary_shape.cc
   expression.cc
   generated_mesh.cc
   mesh_input.cc

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include "mesh_file.h"
+
+#include <signorini/algebra/input_error.h>
+#include <signorini/mesh/bodies.h>
+#include <signorini/mesh/cell_shape.h>
+#include <signorini/mesh/nodal_space.h>
+#include <signorini/mesh/node_movement.h>
+
+#include <gtest/gtest.h>
+
+using namespace Signorini;
+using dealii::ArrayView;
+using dealii::Point;
+using dealii::Tensor;
+
+namespace
+{
+  BoundaryShapePointer shape(const std::string &text, const Placement &placement = {})
+  {
+    return make_boundary_shape(text, placement, ".", "test");
+  }
+
+  /// A sphere of radius 1 as an .off file: the faces of a cube, n x n squares each, cut into triangles.
+  std::string sphere_file(const unsigned int n)
+  {
+    std::vector<Point<3>>                       points;
+    std::vector<std::array<unsigned int, 3>>    triangles;
+    std::map<std::array<long, 3>, unsigned int> number;
+    for (unsigned int f = 0; f < 6; ++f)
+      {
+        const auto vertex = [&](const unsigned int i, const unsigned int j) {
+          const double s          = std::tan(dealii::numbers::PI / 4. * (2. * i / n - 1.)),
+                       t          = std::tan(dealii::numbers::PI / 4. * (2. * j / n - 1.));
+          const unsigned int axis = f / 2;
+          Point<3>           p;
+          p[axis]           = f % 2 ? 1. : -1.;
+          p[(axis + 1) % 3] = f % 2 ? s : t;
+          p[(axis + 2) % 3] = f % 2 ? t : s;
+          p /= p.norm();
+          const auto [it, is_new] =
+              number.insert({{{std::lround(1e9 * p[0]), std::lround(1e9 * p[1]), std::lround(1e9 * p[2])}},
+                             static_cast<unsigned int>(points.size())});
+          if (is_new)
+            points.push_back(p);
+          return it->second;
+        };
+        for (unsigned int i = 0; i < n; ++i)
+          for (unsigned int j = 0; j < n; ++j)
+            {
+              triangles.push_back({{vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1)}});
+              triangles.push_back({{vertex(i, j), vertex(i + 1, j + 1), vertex(i, j + 1)}});
+            }
+      }
+    std::ostringstream out;
+    out << std::setprecision(17) << "OFF\n" << points.size() << ' ' << triangles.size() << " 0\n";
+    for (const auto &p : points)
+      out << p << '\n';
+    for (const auto &t : triangles)
+      out << "3 " << t[0] << ' ' << t[1] << ' ' << t[2] << '\n';
+    return out.str();
+  }
+
+  BodyParameters block(const bool tetrahedra)
+  {
+    BodyParameters p;
+    p.name                  = "body";
+    p.mesh                  = "block";
+    p.lower_corner          = "-1, -1, -1";
+    p.divisions             = "2, 2, 2";
+    p.convert_to_tetrahedra = tetrahedra;
+    return p;
+  }
+
+  void refine(Bodies &bodies)
+  {
+    const NodalSpace space(MPI_COMM_WORLD, bodies.mesh());
+    bodies.refine(space, std::vector<bool>(space.cells().size(), true));
+  }
+
+  /// Largest of a function over the nodes of a boundary.
+  template <typename Function>
+  double largest_on(const Bodies &bodies, const NodalSpace &space, const std::string &name, const Function &f)
+  {
+    const auto ids     = bodies.boundary_ids(0, name);
+    double     largest = 0.;
+    for (const NodalSpace::BoundaryFace &face : space.boundary_faces())
+      if (const auto &cell = space.cells()[face.cell]; ids.count(face.id) > 0)
+        for (const unsigned int v : CellShape::face(cell.n_vertices, face.face))
+          largest = std::max(largest, std::abs(f(space.position(space.nodes(cell)[v]))));
+    return dealii::Utilities::MPI::max(largest, MPI_COMM_WORLD);
+  }
+} // namespace
+
+
+
+// Faces are seen counterclockwise from outside, on both kinds of cells.
+TEST(CellShape, FacesLookOutward)
+{
+  const std::array<Point<3>, 4> tetrahedron = {
+      {Point<3>(0, 0, 0), Point<3>(1, 0, 0), Point<3>(0, 1, 0), Point<3>(0, 0, 1)}};
+  for (const unsigned int n : {4u, 8u})
+    for (unsigned int f = 0; f < CellShape::n_faces(n); ++f)
+      {
+        std::vector<Point<3>> x;
+        for (const unsigned int v : CellShape::face(n, f))
+          x.push_back(n == 4 ? tetrahedron[v] : Point<3>(v & 1, v >> 1 & 1, v >> 2));
+        const Point<3>     centre = n == 4 ? Point<3>(.25, .25, .25) : Point<3>(.5, .5, .5);
+        const Tensor<1, 3> normal = cross_product_3d(x[1] - x[0], x[2] - x[1]);
+        EXPECT_GT(normal * (x[0] - centre), 0.) << n << " vertices, face " << f;
+        if (n == 8)
+          {
+            EXPECT_GT(normal * cross_product_3d(x[2] - x[1], x[3] - x[2]), 0.);
+          }
+      }
+}
+
+
+
+TEST(BoundaryShape, AnalyticShapes)
+{
+  const Point<3> p(3., 1., 2.);
+  EXPECT_NEAR((shape("sphere: (1, 0, 0), 0.5")->project(p) - Point<3>(1, 0, 0)).norm(), .5, 1e-15);
+  const Point<3> c = shape("cylinder: (1, 0, 5), (0, 0, 2), 0.5")->project(p);
+  EXPECT_NEAR(std::hypot(c[0] - 1., c[1]), .5, 1e-15);
+  EXPECT_NEAR(c[2], 2., 1e-15);
+  const Point<3> t = shape("torus: (0, 0, 1), (0, 0, 1), 3, 0.5")->project(p);
+  EXPECT_NEAR(std::hypot(std::hypot(t[0], t[1]) - 3., t[2] - 1.), .5, 1e-14);
+  EXPECT_NEAR(shape("plane: (0, 0, 1), (0, 1, 1)")->project(p)[1] +
+                  shape("plane: (0, 0, 1), (0, 1, 1)")->project(p)[2],
+              1., 1e-14);
+  // Where two of them meet.
+  const Point<3> edge =
+      project_onto({shape("sphere: (0, 0, 0), 2"), shape("plane: (0, 0, 1), (0, 0, 1)")}, p);
+  EXPECT_NEAR(edge.norm(), 2., 1e-12);
+  EXPECT_NEAR(edge[2], 1., 1e-12);
+  // Placed like the body: turned by 90 degrees about z, then moved.
+  Placement placement;
+  placement.rotation    = Tensor<2, 3>({{0., -1., 0.}, {1., 0., 0.}, {0., 0., 1.}});
+  placement.translation = Tensor<1, 3>({10., 0., 0.});
+  EXPECT_NEAR((shape("sphere: (1, 0, 0), 0.5", placement)->project(p) - Point<3>(10, 1, 0)).norm(), .5,
+              1e-14);
+  for (const std::string bad : {"ball: (0, 0, 0), 1", "sphere: (0, 0, 0)", "sphere: (0, 0, 0), -1", "sphere",
+                                "plane: (0, 0, 0), (0, 0, 0)", "file: /nonexistent.stl", "sphere: (0, 0), 1"})
+    EXPECT_THROW(shape(bad), InputError) << bad;
+}
+
+
+
+// The facets of a sphere are off by h^2 / 8; projections of points on a normal come back to its foot.
+TEST(BoundaryShape, TriangulatedSphere)
+{
+  const TemporaryFile file(sphere_file(40), ".off");
+  const auto          sphere = shape("file: " + file.path);
+  EXPECT_EQ(sphere->note(), "");
+  for (unsigned int i = 0; i < 200; ++i)
+    {
+      const double       z = -.995 + .00995 * i, a = 2.4 * i, r = std::sqrt(1. - z * z);
+      const Tensor<1, 3> n({r * std::cos(a), r * std::sin(a), z});
+      const Point<3>     near = sphere->project(Point<3>(.97 * n)), far = sphere->project(Point<3>(1.05 * n));
+      EXPECT_NEAR(near.norm(), 1., 1e-3);
+      EXPECT_LT(near.distance(Point<3>(n)), 2e-3);
+      // The normals at the vertices are those of the facets around: off by less than 1 % here, over 0.08.
+      EXPECT_LT(near.distance(far), 8e-4);
+      EXPECT_LT(sphere->project(near).distance(near), 1e-12);
+    }
+}
+
+
+
+// A block inside of a sphere: its top follows the sphere, its edges with the sides stay straight.
+TEST(BoundaryShape, MeshesFollowOnBothKindsOfCells)
+{
+  const auto distance = [](const Point<3> &p) { return (p - Point<3>(0., 0., -2.)).norm() - std::sqrt(11.); };
+  for (const bool tetrahedra : {false, true})
+    {
+      BodyParameters p = block(tetrahedra);
+      // Through the corners of the top.
+      p.shapes =
+          "top: sphere: (0, 0, -2), sqrt(11); left: plane: (-1, 0, 0), (1, 0, 0); right: plane: (1, 0, 0), "
+          "(1, 0, 0); front: plane: (0, -1, 0), (0, 1, 0); back: plane: (0, 1, 0), (0, 1, 0)";
+      p.snap = true;
+      Bodies bodies(MPI_COMM_WORLD, {p}, ".");
+      EXPECT_EQ(bodies.movement().n_damped, 0u);
+      for (unsigned int i = 0; i < 3; ++i)
+        refine(bodies);
+      const NodalSpace space(MPI_COMM_WORLD, bodies.mesh());
+      EXPECT_LT(largest_on(bodies, space, "top", distance), 1e-10);
+      EXPECT_LT(largest_on(bodies, space, "left", [](const Point<3> &x) { return x[0] + 1.; }), 1e-12);
+    }
+  // With sharp edges the middles of the edges of the top stay where they are.
+  for (const bool tetrahedra : {false, true})
+    {
+      BodyParameters p = block(tetrahedra);
+      p.shapes         = "top: sphere: (0, 0, -2), sqrt(11)";
+      p.sharp_edges    = "top + left; top + right; top + front; top + back";
+      p.snap           = true;
+      Bodies bodies(MPI_COMM_WORLD, {p}, ".");
+      refine(bodies);
+      refine(bodies);
+      const NodalSpace space(MPI_COMM_WORLD, bodies.mesh());
+      EXPECT_LT(largest_on(bodies, space, "top",
+                           [&](const Point<3> &x) {
+                             const bool on_edge = std::max(std::abs(x[0]), std::abs(x[1])) > 1. - 1e-12;
+                             return on_edge ? x[2] - 1. : distance(x);
+                           }),
+                1e-10);
+    }
+}
+
+
+
+// A node that would turn a cell over stops before, and says so.
+TEST(NodeMovement, NoCellInverts)
+{
+  std::vector<Point<3>> x      = {Point<3>(0, 0, 0), Point<3>(1, 0, 0), Point<3>(0, 1, 0), Point<3>(0, 0, 1)};
+  const unsigned int    cell[] = {0, 1, 2, 3};
+  std::vector<ArrayView<const unsigned int>> cells = {ArrayView<const unsigned int>(cell, 4)};
+  std::vector<unsigned int>                  late;
+  const std::vector<bool>                    is_fixed(4, true);
+  MovementReport report = move_nodes(x, {{3, Point<3>(0, 0, -.5)}}, cells, is_fixed, late);
+  EXPECT_EQ(late, std::vector<unsigned int>{3});
+  EXPECT_EQ(report.n_damped, 1u);
+  EXPECT_GT(x[3][2], 0.);
+  EXPECT_GE(report.quality_after, report.quality_before / 3.);
+  late.clear();
+  report = move_nodes(x, {{3, Point<3>(.1, .1, .9)}}, cells, is_fixed, late);
+  EXPECT_TRUE(late.empty());
+  EXPECT_EQ(x[3], Point<3>(.1, .1, .9));
+}
