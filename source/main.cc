@@ -74,8 +74,6 @@ namespace
     parameters.bodies.resize(2);
     parameters.bodies[0].name = "first";
     parameters.bodies[1].name = "second";
-    parameters.loads.resize(2);
-    parameters.probes.resize(2);
     parameters.pairs.resize(1);
     parameters.pairs[0].name = "contact";
     parameters.print(std::cout, true);

@@ -36,7 +36,7 @@ namespace Signorini
       if (d.origin[row].first == p)
         {
           const unsigned int v = d.couplings[p].vertices[d.origin[row].second];
-          stress[v]            = d.pressure[row] * d.normals[row];
+          stress[v]            = d.traction[row];
           known[v]             = true;
         }
     // Vertices without a multiplier: the mean of the neighbours that have one.

@@ -58,12 +58,12 @@ namespace Signorini
         result.dropped_nodes = coupling.dropped.size();
         result.min_pressure  = std::numeric_limits<double>::max();
         result.max_pressure  = -result.min_pressure;
-        std::vector<double> pressure(coupling.coupling.n_rows());
+        std::vector<Vector3> traction(coupling.coupling.n_rows());
         for (std::size_t row = 0; row < d.coupling.n_rows(); ++row)
           if (d.origin[row].first == p)
             {
               const std::size_t i = d.origin[row].second;
-              pressure[i]         = d.pressure[row];
+              traction[i]         = d.traction[row];
               result.min_pressure = std::min(result.min_pressure, d.pressure[row]);
               result.max_pressure = std::max(result.max_pressure, d.pressure[row]);
               if (d.active[row])
@@ -71,7 +71,7 @@ namespace Signorini
               results.pressure.push_back({coupling.positions[i], coupling.areas[i], d.pressure[row],
                                           d.opening[row], d.active[row] != 0});
             }
-        const ContactForces forces = compute_contact_forces(pair.nonmortar, pair.mortar, coupling, pressure);
+        const ContactForces forces = compute_contact_forces(pair.nonmortar, pair.mortar, coupling, traction);
         result.force               = forces.nonmortar.force;
         result.force_on_mortar     = pair.obstacle ? -forces.nonmortar.force : forces.mortar.force;
         result.moment              = forces.nonmortar.moment;
@@ -107,7 +107,7 @@ namespace Signorini
     };
     for (std::size_t row = 0; row < d.coupling.n_rows(); ++row)
       {
-        const Vector3 force = (d.coupling.weight[row] * d.pressure[row]) * d.normals[row];
+        const Vector3 force = d.coupling.weight[row] * d.traction[row];
         subtract(d.coupling.rows[row], -force);
         for (const auto *entry = d.coupling.begin(row); entry != d.coupling.end(row); ++entry)
           subtract(entry->node, entry->weight * force);
@@ -145,6 +145,8 @@ namespace Signorini
     double          largest = 0., tension = 0., penetration = 0., product = 0.;
     for (std::size_t row = 0; row < d.coupling.n_rows(); ++row)
       {
+        if (d.tied[row])
+          continue;
         largest     = std::max(largest, d.pressure[row]);
         tension     = std::max(tension, -d.pressure[row]);
         penetration = std::max(penetration, -d.opening[row]);
@@ -164,7 +166,7 @@ namespace Signorini
         if (pair.force.norm() > 0. && !d.pairs[&pair - results.pairs.data()].obstacle)
           c.force_balance =
               std::max(c.force_balance, (pair.force + pair.force_on_mortar).norm() / pair.force.norm());
-        if (u > 0.)
+        if (u > 0. && pair_definitions[&pair - results.pairs.data()].parameters.contact != "tied")
           c.geometric_penetration = std::max(c.geometric_penetration, pair.max_penetration / u);
         std::size_t active = 0;
         for (std::size_t row = 0; row < d.coupling.n_rows(); ++row)

@@ -80,6 +80,7 @@ namespace Signorini
     d.partition       = std::make_unique<NodePartition>(d.space->owned(), d.space->relevant(), comm);
     d.dirichlet       = evaluate_dirichlet(*d.space, loads, true);
     d.free_motions    = free_motions(bodies, *d.space, d.dirichlet);
+    hold_by_ties();
   }
 
 
@@ -101,12 +102,14 @@ namespace Signorini
     for (std::size_t p = 0; p < problem.half_spaces.size(); ++p)
       flags.local_element(dim * problem.half_spaces.nodes[p]) = active[p];
     const auto active_rows = replicate_values(matrix.partition(), flags, d.coupling.rows);
+    d.traction.resize(d.coupling.n_rows());
     d.pressure.resize(d.coupling.n_rows());
     d.opening.resize(d.coupling.n_rows());
     d.active.resize(d.coupling.n_rows());
     for (std::size_t p = 0; p < d.coupling.n_rows(); ++p)
       {
         d.pressure[p] = (forces[p] * d.normals[p]) / d.coupling.weight[p];
+        d.traction[p] = d.pressure[p] * d.normals[p];
         d.opening[p]  = gaps[p] - d.normals[p] * values[p];
         d.active[p]   = active_rows[p][0] != 0. && d.pressure[p] > 0.;
       }
@@ -120,7 +123,8 @@ namespace Signorini
     const SolverMethod method = parameters.solver.method;
     if (!needs_levels(method))
       return std::make_unique<MultigridHierarchy>(std::move(system.matrix), std::move(system.fixed));
-    HierarchyOptions options{{}, parameters.solver.level_zero, discretization.free_motions, &bodies};
+    HierarchyOptions options{
+        {}, parameters.solver.level_zero, discretization.free_motions, &bodies, discretization.tied};
     if (method == SolverMethod::monotone_multigrid)
       options.contact_normals = discretization.normals;
     return std::make_unique<MultigridHierarchy>(
@@ -135,6 +139,7 @@ namespace Signorini
     Timer           time;
     progress.show("assembling");
     LinearSystem system = assemble_elasticity(bodies, *d.space, loads, d.dirichlet, d.coupling, d.row_masks);
+    tie_unknowns(system);
     ObstacleProblem problem;
     problem.rhs = std::move(system.rhs);
     cycle.times["assembly"] += time.wall_time();
@@ -153,7 +158,7 @@ namespace Signorini
           rigid_motions(*d.space, matrix.partition(), hierarchy->finest().fixed, d.coupling);
     const std::vector<double> gaps = d.transformation->reduce_gaps(d.gaps, d.normals);
     for (std::size_t p = 0; p < d.coupling.n_rows(); ++p)
-      if (matrix.partition().owns(d.coupling.rows[p]))
+      if (!d.tied[p] && matrix.partition().owns(d.coupling.rows[p]))
         {
           problem.half_spaces.nodes.push_back(matrix.partition().to_local(d.coupling.rows[p]));
           problem.half_spaces.normals.push_back(d.normals[p]);
@@ -204,9 +209,12 @@ namespace Signorini
     cycle.contact_nodes = d.coupling.n_rows();
     cycle.active_nodes  = std::accumulate(d.active.begin(), d.active.end(), std::size_t(0));
     d.displacement      = d.transformation->to_displacement(v, matrix.partition());
+    evaluate_ties();
     if (parameters.measure_sweeps && cycle.cycle == refinement.n_cycles())
       cycle.sweeps = measure_sweeps(*hierarchy, problem.rhs);
-    if (parameters.compare_linear && !d.pairs.empty())
+    if (parameters.compare_linear && d.is_held_by_ties)
+      note("no comparison with the linear problem: a body is held by its ties alone.");
+    else if (parameters.compare_linear && !d.pairs.empty())
       {
         // The contact hierarchy is not needed any more: make room for the linear one.
         hierarchy.reset();
@@ -251,13 +259,13 @@ namespace Signorini
     };
     for (std::size_t p = 0; p < d.coupling.n_rows(); ++p)
       {
-        const Vector3 force = (d.coupling.weight[p] * d.pressure[p]) * d.normals[p];
+        const Vector3 force = d.coupling.weight[p] * d.traction[p];
         add(d.coupling.rows[p], -force);
         for (const auto *entry = d.coupling.begin(p); entry != d.coupling.end(p); ++entry)
           add(entry->node, entry->weight * project_free(d.row_masks[p], force));
       }
     MultigridHierarchy hierarchy = build_hierarchy(
-        std::move(system), levels, none, {{}, parameters.solver.level_zero, d.free_motions, &bodies});
+        std::move(system), levels, none, {{}, parameters.solver.level_zero, d.free_motions, &bodies, {}});
     const NodeBlockMatrix    &matrix = hierarchy.finest().matrix;
     const BasisTransformation plain(*d.space, *d.partition, d.dirichlet, none, no_masks);
     Vector                    v, solution, product;
@@ -420,6 +428,7 @@ namespace Signorini
     setup_contact(cycle);
     discretization.partition->reinit(discretization.displacement);
     discretization.displacement.update_ghost_values();
+    discretization.traction.assign(discretization.coupling.n_rows(), Vector3());
     discretization.pressure.assign(discretization.coupling.n_rows(), 0.);
     discretization.opening = discretization.gaps;
     discretization.active.assign(discretization.coupling.n_rows(), 0);

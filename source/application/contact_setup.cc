@@ -72,6 +72,9 @@ namespace Signorini
                                      "function: ...\" to prescribe it.");
         if (p.gap == "nodal" && !definition.has_gap && !definition.has_obstacle)
           throw InputError(section + "Gap: nodal gaps need an obstacle or a prescribed initial gap.");
+        if (p.contact == "tied" && definition.has_obstacle)
+          throw InputError(
+              section + "Contact: a body cannot be tied to an obstacle; prescribe its displacement instead.");
         if (p.penetration != "resolve" && p.penetration != "refuse")
           throw InputError(section + "Initial penetration: use resolve or refuse.");
         pair_definitions.push_back(definition);
@@ -238,7 +241,7 @@ namespace Signorini
         for (const Point<3> &x : c.positions)
           size = std::max(size, x.distance(c.positions[0]));
         // Faceted curved surfaces overlap by rounding and by their sagitta; report what exceeds rounding.
-        if (smallest < -1e-12 * size && cycle.cycle == 0)
+        if (smallest < -1e-12 * size && cycle.cycle == 0 && pair_definitions[p].parameters.contact != "tied")
           {
             std::ostringstream text;
             text << "pair " << pair.name << ": initial penetration of " << -smallest << " (weighted gap)";
@@ -251,12 +254,15 @@ namespace Signorini
     d.row_masks.clear();
     d.normals.clear();
     d.gaps.clear();
+    d.tied.clear();
     for (const auto &[p, row] : d.origin)
       {
+        d.tied.push_back(pair_definitions[p].parameters.contact == "tied");
         d.row_masks.push_back(d.couplings[p].fixed[row]);
         d.normals.push_back(d.couplings[p].normals[row]);
         d.gaps.push_back(d.couplings[p].gaps[row]);
       }
+    tie_lift();
     d.transformation =
         std::make_unique<BasisTransformation>(*d.space, *d.partition, d.dirichlet, d.coupling, d.row_masks);
     cycle.times["mortar"] += time.wall_time();

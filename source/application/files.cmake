@@ -6,5 +6,6 @@ signorini_add_layer(application
   free_bodies.cc
   parameters.cc
   problem_description.cc
+  ties.cc
   write_results.cc
 )

@@ -23,6 +23,11 @@ namespace Signorini
                       "\"paraboloid: apex, axis, radius of curvature\" or \"function: f(x,y,z)\", positive "
                       "outside of the obstacle. Points and directions as (x, y, z); normal and axis point to "
                       "the body; \"hollow sphere\" and \"hollow cylinder\" have it inside.");
+    prm.add_parameter(
+        "Contact", contact,
+        "unilateral: frictionless contact. tied: the surfaces are glued together where they are (gaps do "
+        "not count), for bodies whose meshes do not match.",
+        Patterns::Selection("unilateral|tied"));
     prm.add_parameter("Gap", gap,
                       "weighted: integrals of the gap with the dual functions, consistent with the weak "
                       "condition. nodal: the gap at the nodes along their normals (with an obstacle, or a "
@@ -152,6 +157,9 @@ namespace Signorini
 
   void ProblemParameters::declare(ParameterHandler &prm)
   {
+    loads.resize(bodies.size());
+    probes.resize(bodies.size());
+    exact_displacements.resize(bodies.size());
     for (std::size_t b = 0; b < bodies.size(); ++b)
       {
         prm.enter_subsection("Body " + bodies[b].name);
@@ -222,9 +230,6 @@ namespace Signorini
       }
     if (bodies.empty())
       throw InputError("Bodies: name at least one body, e.g. \"set Bodies = ball, block\".");
-    loads.resize(bodies.size());
-    probes.resize(bodies.size());
-    exact_displacements.resize(bodies.size());
     for (const std::string &name : names(top.pairs, "Contact pairs"))
       {
         pairs.emplace_back();

@@ -257,7 +257,8 @@ namespace Signorini
       TransformedRows(const InterfaceCoupling &fine, const std::vector<FixedMask> &fine_masks,
                       const std::vector<NodeIndex> &nodes, const NodeRows &node_rows,
                       const InterfaceCoupling &coarse, const std::vector<FixedMask> &coarse_masks,
-                      const std::vector<Vector3> &normals, const std::vector<Vector3> &coarse_normals)
+                      const std::vector<Vector3> &normals, const std::vector<Vector3> &coarse_normals,
+                      const std::vector<unsigned char> &tied)
         : fine(fine)
         , fine_masks(fine_masks)
         , nodes(nodes)
@@ -266,6 +267,7 @@ namespace Signorini
         , coarse_masks(coarse_masks)
         , normals(normals)
         , coarse_normals(coarse_normals)
+        , tied(tied)
       {
       }
 
@@ -282,6 +284,8 @@ namespace Signorini
       NodalTransfer::BlockRow make(const unsigned int local, const NodeIndex node, const NodeRows &rows,
                                    const std::size_t row)
       {
+        if (const std::ptrdiff_t p = fine.find(node); p >= 0 && !tied.empty() && tied[p])
+          return {local, {}, {}};
         if (const std::ptrdiff_t p = fine.find(node); p >= 0 && !normals.empty())
           return make_turned(local, normals[p], rows, row);
         sums.clear();
@@ -338,14 +342,15 @@ namespace Signorini
             sum[c] += weight;
       }
 
-      const InterfaceCoupling      &fine;
-      const std::vector<FixedMask> &fine_masks;
-      const std::vector<NodeIndex> &nodes;
-      const NodeRows               &node_rows;
-      const InterfaceCoupling      &coarse;
-      const std::vector<FixedMask> &coarse_masks;
-      const std::vector<Vector3>   &normals, &coarse_normals;
-      std::map<NodeIndex, Vector3>  sums;
+      const InterfaceCoupling          &fine;
+      const std::vector<FixedMask>     &fine_masks;
+      const std::vector<NodeIndex>     &nodes;
+      const NodeRows                   &node_rows;
+      const InterfaceCoupling          &coarse;
+      const std::vector<FixedMask>     &coarse_masks;
+      const std::vector<Vector3>       &normals, &coarse_normals;
+      const std::vector<unsigned char> &tied;
+      std::map<NodeIndex, Vector3>      sums;
     };
     /// v = T⁻¹ u, zero in fixed components, in place.
     void make_relative(Vector &u, const NodePartition &partition, const std::vector<FixedMask> &fixed,
@@ -402,9 +407,10 @@ namespace Signorini
   MultigridHierarchy build_hierarchy(LinearSystem &&system, const LevelSpaces &spaces,
                                      const InterfaceCoupling &coupling, const HierarchyOptions &options)
   {
-    MultigridHierarchy   hierarchy(std::move(system.matrix), std::move(system.fixed));
-    InterfaceCoupling    fine    = coupling;
-    std::vector<Vector3> normals = options.contact_normals;
+    MultigridHierarchy               hierarchy(std::move(system.matrix), std::move(system.fixed));
+    InterfaceCoupling                fine    = coupling;
+    std::vector<Vector3>             normals = options.contact_normals;
+    const std::vector<unsigned char> none_tied;
     for (unsigned int l = spaces.n_levels() - 1;; --l)
       {
         const NodePartition         &partition = hierarchy.coarsest().matrix.partition();
@@ -425,7 +431,7 @@ namespace Signorini
         if (!normals.empty())
           coarse_normals = coarsen_normals(normals, fine, nodes, node_rows, coarse, coarse_masks);
         TransformedRows transformed(fine, fine_masks, nodes, node_rows, coarse, coarse_masks, normals,
-                                    coarse_normals);
+                                    coarse_normals, l + 1 == spaces.n_levels() ? options.tied : none_tied);
         std::vector<NodalTransfer::BlockRow> block_rows;
         for (unsigned int i = 0; i < partition.n_local(); ++i)
           if (const NodeIndex node = partition.to_global(i); transformed.differs(node, rows, i))

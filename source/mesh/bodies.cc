@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include "placed_body.h"
+
 #include <signorini/algebra/input_error.h>
 #include <signorini/mesh/bodies.h>
 #include <signorini/mesh/expression.h>
@@ -109,14 +111,6 @@ namespace Signorini
                          " is not allowed; it must lie between -1 and 0.5 (0.5 would be incompressible).");
     }
 
-    std::string listed(const std::vector<std::string> &names)
-    {
-      std::string text;
-      for (const std::string &name : names)
-        text += (text.empty() ? "\"" : ", \"") + name + "\"";
-      return text;
-    }
-
     /// Keeps the cells of some volumes only.
     void select_volumes(VolumeMesh &mesh, const std::string &list, const std::string &where)
     {
@@ -168,18 +162,6 @@ namespace Signorini
       mesh = part;
     }
   } // namespace
-
-
-
-  /// The mesh of one body in its place.
-  struct Bodies::Placed
-  {
-    VolumeMesh                  mesh;
-    std::vector<CurvedBoundary> curved;
-    std::vector<unsigned int>   material_of_volume;
-    Placement                   placement;
-    dealii::types::boundary_id  first_boundary;
-  };
 
 
 
@@ -386,44 +368,6 @@ namespace Signorini
 
 
 
-  void Bodies::set_manifolds(types::manifold_id next)
-  {
-    if (std::all_of(is_user_shape.begin(), is_user_shape.end(), [](const bool is) { return !is; }))
-      return;
-    using Ids = std::set<types::boundary_id>;
-    std::map<unsigned int, Ids>       ids_of_line;
-    std::map<Ids, types::manifold_id> manifold_of;
-    const auto                        manifold = [&](const Ids &ids) {
-      const auto on = shapes_of(ids);
-      if (on.empty())
-        return numbers::flat_manifold_id;
-      const auto [it, is_new] = manifold_of.insert({ids, next});
-      if (is_new)
-        tria->set_manifold(next++, ShapeManifold(on));
-      return it->second;
-    };
-    const auto has_shape = [&](const Ids &ids) {
-      return std::any_of(ids.begin(), ids.end(), [&](const auto id) { return is_user_shape[id]; });
-    };
-    for (const auto &cell : tria->cell_iterators_on_level(0))
-      for (const unsigned int f : cell->face_indices())
-        if (cell->face(f)->at_boundary())
-          {
-            const types::boundary_id id = cell->face(f)->boundary_id();
-            if (is_user_shape[id])
-              cell->face(f)->set_manifold_id(manifold({id}));
-            for (unsigned int l = 0; l < 4; ++l)
-              ids_of_line[cell->face(f)->line_index(l)].insert(id);
-          }
-    for (const auto &cell : tria->cell_iterators_on_level(0))
-      for (const unsigned int l : cell->line_indices())
-        if (const auto it = ids_of_line.find(cell->line_index(l));
-            it != ids_of_line.end() && has_shape(it->second))
-          cell->line(l)->set_manifold_id(manifold(it->second));
-  }
-
-
-
   void Bodies::create_tetrahedra(const std::vector<Placed> &placed)
   {
     std::vector<Point<3>>                vertices;
@@ -457,179 +401,6 @@ namespace Signorini
       }
     if (!cells.empty())
       forest = std::make_unique<TetrahedralForest>(vertices, cells);
-  }
-
-
-
-  void Bodies::read_shapes(const BodyParameters &p, Placed &body, const std::string &base_folder)
-  {
-    const std::string section = "Body " + p.name + "/";
-    const auto       &known   = body.mesh.boundary_names;
-    const auto        index   = [&](const std::string &name, const std::string &where) {
-      const auto it = std::find(known.begin(), known.end(), name);
-      if (it == known.end())
-        throw InputError(where + ": the body has no boundary \"" + name + "\"; it has " + listed(known) +
-                                  ".");
-      return body.first_boundary + static_cast<types::boundary_id>(it - known.begin());
-    };
-    shapes.resize(body.first_boundary + known.size());
-    is_user_shape.resize(shapes.size(), false);
-    // Tetrahedra follow the shapes of generated meshes; hexahedra have deal.II's manifolds for them.
-    if (body.mesh.cells[0].n_vertices == CellShape::tetrahedron)
-      for (const CurvedBoundary &curved : body.curved)
-        {
-          const types::boundary_id id = index(curved.name, section + "Mesh");
-          for (const auto &face : body.mesh.faces)
-            if (body.first_boundary + face.name == id)
-              {
-                const Point<3> x         = body.mesh.vertices[face.vertices[0]];
-                const bool     is_sphere = curved.shape == CurvedBoundary::sphere;
-                shapes[id] = make_round_shape(is_sphere, is_sphere ? x.norm() : std::hypot(x[0], x[1]),
-                                              body.placement);
-                break;
-              }
-        }
-    std::map<std::string, BoundaryShapePointer> made;
-    for (const auto &[name, text] : split_named_entries(p.shapes, section + "Boundary shapes"))
-      {
-        const std::string        where = section + "Boundary shapes, \"" + name + "\"";
-        const types::boundary_id id    = index(name, where);
-        if (made.count(text) == 0)
-          {
-            made[text] = make_boundary_shape(text, body.placement, base_folder, where);
-            if (!made[text]->note().empty())
-              remarks.push_back(made[text]->note());
-          }
-        shapes[id]        = made[text];
-        is_user_shape[id] = true;
-      }
-    for (const std::string &entry : split_list(p.sharp_edges, ';', section + "Sharp edges"))
-      if (!entry.empty())
-        {
-          const auto parts = split_list(entry, '+', section + "Sharp edges");
-          if (parts.size() != 2)
-            throw InputError(section + "Sharp edges: \"" + entry + "\" should read \"boundary + boundary\".");
-          const auto a = index(parts[0], section + "Sharp edges"),
-                     b = index(parts[1], section + "Sharp edges");
-          sharp.insert({std::min(a, b), std::max(a, b)});
-        }
-  }
-
-
-
-  std::vector<BoundaryShapePointer> Bodies::shapes_of(const std::set<types::boundary_id> &ids) const
-  {
-    std::vector<BoundaryShapePointer> result;
-    for (const types::boundary_id a : ids)
-      for (const types::boundary_id b : ids)
-        if (sharp.count({a, b}) > 0)
-          return {};
-    for (const types::boundary_id id : ids)
-      if (shapes[id] && std::find(result.begin(), result.end(), shapes[id]) == result.end())
-        result.push_back(shapes[id]);
-    return result;
-  }
-
-
-
-  namespace
-  {
-    unsigned int number_of_vertices(const VolumeMesh::Cell &cell)
-    {
-      return cell.n_vertices;
-    }
-
-    unsigned int number_of_vertices(const TetrahedralForest::Cell &)
-    {
-      return 4;
-    }
-
-    /// Which vertices belong to cells of different materials.
-    template <typename Cell, typename Material>
-    std::vector<bool> between_materials(const std::size_t n_vertices, const std::vector<Cell> &cells,
-                                        const Material &material)
-    {
-      std::vector<unsigned int> first(n_vertices, numbers::invalid_unsigned_int);
-      std::vector<bool>         result(n_vertices, false);
-      for (const Cell &cell : cells)
-        for (unsigned int v = 0; v < number_of_vertices(cell); ++v)
-          {
-            unsigned int &m = first[cell.vertices[v]];
-            if (m == numbers::invalid_unsigned_int)
-              m = material(cell);
-            result[cell.vertices[v]] = result[cell.vertices[v]] || m != material(cell);
-          }
-      return result;
-    }
-  } // namespace
-
-
-
-  void Bodies::snap_vertices(Placed &body, const std::string &where)
-  {
-    VolumeMesh                                          &mesh = body.mesh;
-    std::map<unsigned int, std::set<types::boundary_id>> ids;
-    std::map<unsigned int, double>                       reach;
-    for (const auto &face : mesh.faces)
-      for (const unsigned int v : face.vertices)
-        if (v != VolumeMesh::no_vertex)
-          {
-            ids[v].insert(body.first_boundary + face.name);
-            for (const unsigned int w : face.vertices)
-              if (w != VolumeMesh::no_vertex)
-                reach[v] = std::max(reach[v], mesh.vertices[v].distance(mesh.vertices[w]));
-          }
-    std::vector<std::pair<unsigned int, Point<3>>> targets;
-    for (const auto &[v, on] : ids)
-      if (const auto list = shapes_of(on); !list.empty())
-        {
-          targets.emplace_back(v, project_onto(list, mesh.vertices[v]));
-          if (targets.back().second.distance(mesh.vertices[v]) > reach[v])
-            {
-              std::ostringstream message;
-              message << where << ": the boundary shape is farther from the vertex (" << mesh.vertices[v]
-                      << ") than the faces there are wide. Does the shape belong to this boundary?";
-              throw InputError(message.str());
-            }
-        }
-    std::vector<ArrayView<const unsigned int>> cells;
-    for (const VolumeMesh::Cell &cell : mesh.cells)
-      cells.emplace_back(cell.vertices.data(), cell.n_vertices);
-    std::vector<unsigned int> late;
-    std::vector<bool>         is_fixed =
-        between_materials(mesh.vertices.size(), mesh.cells, [](const auto &cell) { return cell.volume; });
-    for (const auto &entry : ids)
-      is_fixed[entry.first] = true;
-    last_movement.add(move_nodes(mesh.vertices, targets, cells, is_fixed, late));
-  }
-
-
-
-  void Bodies::follow_shapes()
-  {
-    for (const auto &[v, id] : forest->new_boundary_vertices())
-      late_vertices[v].insert(id);
-    std::vector<std::pair<unsigned int, Point<3>>> targets;
-    for (const auto &[v, ids] : late_vertices)
-      if (const auto list = shapes_of(ids); !list.empty())
-        targets.emplace_back(v, project_onto(list, forest->vertices()[v]));
-    std::vector<ArrayView<const unsigned int>> cells;
-    for (const auto &cell : forest->cells(forest->n_levels() - 1))
-      cells.emplace_back(cell.vertices.data(), 4);
-    const auto       &last = forest->cells(forest->n_levels() - 1);
-    std::vector<bool> is_fixed =
-        between_materials(forest->vertices().size(), last, [](const auto &cell) { return cell.material; });
-    for (const auto &cell : last)
-      for (unsigned int f = 0; f < 4; ++f)
-        if (cell.boundary[f] != TetrahedralForest::inner)
-          for (const unsigned int v : CellShape::face(4, f))
-            is_fixed[cell.vertices[v]] = true;
-    std::vector<unsigned int> late;
-    last_movement.add(move_nodes(forest->vertices(), targets, cells, is_fixed, late));
-    std::map<unsigned int, std::set<types::boundary_id>> still;
-    for (const unsigned int v : late)
-      still[v] = late_vertices[v];
-    late_vertices = std::move(still);
   }
 
 

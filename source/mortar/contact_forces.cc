@@ -52,13 +52,13 @@ namespace Signorini
 
 
   ContactForces compute_contact_forces(const ContactSurface &nonmortar, const ContactSurface &mortar,
-                                       const PairCoupling &pair, const std::vector<double> &pressure)
+                                       const PairCoupling &pair, const std::vector<Vector3> &traction)
   {
-    AssertDimension(pressure.size(), pair.coupling.n_rows());
+    AssertDimension(traction.size(), pair.coupling.n_rows());
     ContactForces result{nodes_of(nonmortar), nodes_of(mortar)};
     for (std::size_t row = 0; row < pair.coupling.n_rows(); ++row)
       {
-        const Vector3 force = (pair.coupling.weight[row] * pressure[row]) * pair.normals[row];
+        const Vector3 force = pair.coupling.weight[row] * traction[row];
         add(result.nonmortar, pair.coupling.rows[row], -force);
         // Entries toward R hold -D_kr/D_kk: their force acts on the nonmortar side.
         for (const auto *entry = pair.coupling.begin(row); entry != pair.coupling.end(row); ++entry)

@@ -329,3 +329,39 @@ def mesh_formats(p):
                 'Refinement/Adaptive cycles=0')
     iterations(s)
     certificate(s, 1e-7)
+
+
+def tied(p):
+    """Nonmatching blocks glued together: linear fields are exact, tension and shear pass through."""
+    field = ('1e-3*(x + 2*z)', '1e-3*(y - z)', '2e-3*(z + x)')
+    outside = {'upper': ('left', 'right', 'front', 'back', 'top'), 'lower': ('left', 'right', 'front', 'back', 'bottom')}
+    everywhere = [f'Body {b}/Dirichlet=' + '; '.join(f'{side}: ({", ".join(field)})' for side in sides) for b, sides in outside.items()]
+    point = (.45, .55, .3)
+    for kind in [[]] + kinds():
+        for more in ([], ['Refinement/Regions=ball: (0.4, 0.5, 0.3), 0.31, 1; ball: (0.6, 0.5, -0.3), 0.31, 2'],
+                     ['Pair interface/Nonmortar=first'], ['Solver/Method=monotone multigrid']):
+            s = p.solve(PATCH_TEST, 'Pair interface/Contact=tied', *everywhere, *kind, *more, f'Body upper/Probes=inside: {point}')
+            certificate(s)
+            x, y, z = point
+            for value, text in zip(s['probes'][0]['displacement'], field):
+                near(value, eval(text), 1e-10, f'displacement, {kind} {more}')
+        # Tension: the same pressure everywhere, negative. Turned, too.
+        for more in ([], [s.replace('-1e-3*', '1e-3*') for s in HYDROSTATIC] + ROTATED):
+            s = p.solve(PATCH_TEST, 'Pair interface/Contact=tied', 'Body upper/Dirichlet=left: (0, *, *); front: (*, 0, *); top: (*, *, 0.01)',
+                        *kind, *more)
+            constant_pressure(s, -2.5 if more else -5.)
+            certificate(s)
+            check(s['cycles'][-1]['nonlinear']['iterations'] <= 15, f'iterations: {s["cycles"][-1]["nonlinear"]["iterations"]}')
+    # A body that nothing but the tie holds, under a load across and along the interface.
+    s = p.solve(PATCH_TEST, 'Pair interface/Contact=tied', 'Body upper/Dirichlet=', 'Body upper/Tractions=top: (1, 0.5, -2)',
+                'Body lower/Dirichlet=bottom: (0, 0, 0)', 'Refinement/Global cycles=2')
+    for value, expected in zip(s['pairs'][0]['force_on_nonmortar'] if 'force_on_nonmortar' in s['pairs'][0] else s['pairs'][0]['force'],
+                               (1., .5, -2.)):
+        near(abs(value), abs(expected), 1e-9, 'force through the tie')
+    for value, expected in zip(s['boundaries'][0]['reaction'], (-1., -.5, 2.)):
+        near(value, expected, 1e-8, 'reaction')
+    check(any('held by its ties' in note for note in s['notes']), 'no note on the comparison')
+    check(s['cycles'][-1]['nonlinear']['iterations'] <= 15, f'iterations: {s["cycles"][-1]["nonlinear"]["iterations"]}')
+    run = p.call(os.path.join(TOP, 'prm', PATCH_TEST), '--set', 'Pair interface/Contact=tied', '--set', 'Body upper/Dirichlet=',
+                 '--set', 'Body lower/Dirichlet=', '--output', os.path.join(tempfile.gettempdir(), 'signorini-tied'))
+    check(run.returncode == 1 and 'tied to' in run.stderr, f'free bodies: {run.stderr}')

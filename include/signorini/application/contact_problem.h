@@ -58,9 +58,19 @@ namespace Signorini
     std::unique_ptr<BasisTransformation>              transformation;
     /// Physical displacement on `partition`, ghosts up to date.
     Vector displacement;
-    /// Per row: contact pressure, opening g - n·û, whether active.
+    /// Per row: whether the pair is tied (û_p = 0) instead of in contact.
+    std::vector<unsigned char> tied;
+    /// Per row: contact stress, its normal part (the pressure), opening g - n·û, whether active.
+    std::vector<Vector3>       traction;
     std::vector<double>        pressure, opening;
     std::vector<unsigned char> active;
+    /// A body that only a tie holds: its decoupled linear problem has no unique solution.
+    bool is_held_by_ties = false;
+
+    bool has_ties() const
+    {
+      return std::find(tied.begin(), tied.end(), 1) != tied.end();
+    }
   };
 
   /// The contact stress lambda n (force per area) of a pair at all vertices of its nonmortar surface.
@@ -112,8 +122,13 @@ namespace Signorini
       }
     };
 
-    void         define_pairs();
-    void         setup_space();
+    void define_pairs();
+    void setup_space();
+    /// Pairs that are tied (ties.cc).
+    void         hold_by_ties();
+    void         tie_lift();
+    void         tie_unknowns(LinearSystem &system) const;
+    void         evaluate_ties();
     void         setup_contact(CycleResult &cycle);
     ContactPair  make_pair(const PairDefinition &definition, CycleResult &cycle);
     void         map_pair(ContactPair &pair, CycleResult &cycle);

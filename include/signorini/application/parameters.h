@@ -25,6 +25,7 @@ namespace Signorini
     std::string first, second;
     /// A rigid obstacle in place of the second surface (RigidObstacle), or empty.
     std::string obstacle;
+    std::string contact     = "unilateral";
     std::string nonmortar   = "auto";
     std::string initial_gap = "geometry";
     std::string gap         = "weighted";

@@ -77,6 +77,9 @@ namespace Signorini
     /// Motions of bodies that only contact holds.
     std::vector<FreeMotion> free_motions;
     const Bodies           *bodies = nullptr;
+    /// One per row of the coupling: rows that are tied move on the finest level only (not at all). Empty:
+    /// none.
+    std::vector<unsigned char> tied;
   };
 
   /// Collective. Galerkin hierarchy with P̂_k = T_k⁻¹ P_k T_{k-1} on all levels. An empty coupling gives the

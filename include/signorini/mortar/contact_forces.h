@@ -33,9 +33,10 @@ namespace Signorini
   /// F_non,j = -sum_k D_kj lambda_k n_k and F_mor,q = +sum_k M_kq lambda_k n_k (method.md, section 1). The
   /// sums of both sides cancel to rounding, the moments up to sum_k lambda_k int psi_k (x - Phi(x)) x n_k.
   /// Replicated, no communication.
-  /// @param pressure lambda_k (force per area), in the order of the rows of the pair
+  /// @param traction contact stress, lambda_k n_k or any (force per area), in the order of the rows of the
+  /// pair
   ContactForces compute_contact_forces(const ContactSurface &nonmortar, const ContactSurface &mortar,
-                                       const PairCoupling &pair, const std::vector<double> &pressure);
+                                       const PairCoupling &pair, const std::vector<Vector3> &traction);
 } // namespace Signorini
 
 #endif

@@ -44,19 +44,21 @@ TEST(ContactForces, BalanceOfForcesAndMoments)
   const Tensor<1, 3> shift = Point<3>(.1, -.2, .05);
   for (Point<3> &x : s.mor.mesh.vertices)
     x += shift;
-  const auto          moments = compute_face_moments(s.non, s.mor, overlay, {}, MPI_COMM_SELF);
-  const auto          pair    = couple(s.non, s.mor, moments, {}, false);
-  std::vector<double> pressure;
-  double              total = 0., covered = 0.;
+  const auto           moments = compute_face_moments(s.non, s.mor, overlay, {}, MPI_COMM_SELF);
+  const auto           pair    = couple(s.non, s.mor, moments, {}, false);
+  std::vector<double>  pressure;
+  std::vector<Vector3> traction;
+  double               total = 0., covered = 0.;
   for (std::size_t row = 0; row < pair.gaps.size(); ++row)
     {
       EXPECT_NEAR(pair.gaps[row], .05 * pair.areas[row] / pair.coupling.weight[row], 1e-14);
       pressure.push_back(1. + pair.positions[row][0] * pair.positions[row][1]);
+      traction.push_back(pressure.back() * pair.normals[row]);
       total += pressure.back() * pair.areas[row];
       covered += pair.areas[row];
     }
   EXPECT_NEAR(covered, pair.covered_area, 1e-14);
-  const auto forces = compute_contact_forces(s.non, s.mor, pair, pressure);
+  const auto forces = compute_contact_forces(s.non, s.mor, pair, traction);
   EXPECT_NEAR(forces.mortar.force[2], total, 1e-14);
   EXPECT_LT((forces.mortar.force + forces.nonmortar.force).norm(), 1e-14);
   const Vector3 normal  = s.non.mesh.vertex_normals[0];

@@ -84,8 +84,8 @@ TEST(PairConflicts, SharedNodesLoseTheirMultiplier)
       for (const auto &node : couplings[p].dropped)
         EXPECT_EQ(node.reason, DroppedNode::other_pair);
       // The shared nodes still take their part of the force.
-      const std::vector<double> pressure(couplings[p].coupling.n_rows(), 1.);
-      const auto forces = compute_contact_forces(pairs[p].non, pairs[p].mor, couplings[p], pressure);
+      const std::vector<Vector3> &traction = couplings[p].normals;
+      const auto forces = compute_contact_forces(pairs[p].non, pairs[p].mor, couplings[p], traction);
       auto       loads  = covered_loads(pairs[p].non, pairs[p].mor);
       EXPECT_EQ(forces.nonmortar.nodes.size(), 16u);
       for (const auto &f : forces.nonmortar.nodes)

@@ -38,8 +38,7 @@ namespace
     /// Error of the nodal forces of a unit pressure relative to the largest force.
     double force_error() const
     {
-      const auto forces =
-          compute_contact_forces(non, mor, coupling, std::vector<double>(coupling.coupling.n_rows(), 1.));
+      const auto                  forces = compute_contact_forces(non, mor, coupling, coupling.normals);
       std::map<NodeIndex, double> found;
       double                      error = 0., largest = 0.;
       const Vector3               normal = non.mesh.vertex_normals[0];

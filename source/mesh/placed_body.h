@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_source_mesh_placed_body_h
+#define signorini_source_mesh_placed_body_h
+
+#include <signorini/mesh/bodies.h>
+
+namespace Signorini
+{
+  /// The mesh of one body in its place.
+  struct Bodies::Placed
+  {
+    VolumeMesh                  mesh;
+    std::vector<CurvedBoundary> curved;
+    std::vector<unsigned int>   material_of_volume;
+    Placement                   placement;
+    dealii::types::boundary_id  first_boundary;
+  };
+
+  /// Names for a message.
+  inline std::string listed(const std::vector<std::string> &names)
+  {
+    std::string text;
+    for (const std::string &name : names)
+      text += (text.empty() ? "\"" : ", \"") + name + "\"";
+    return text;
+  }
+} // namespace Signorini
+
+#endif
