@@ -76,10 +76,10 @@ namespace Signorini
   void ContactProblem::setup_space()
   {
     Discretization &d = discretization;
-    d.space           = std::make_unique<NodalSpace>(comm, bodies.mesh());
-    d.partition       = std::make_unique<NodePartition>(d.space->owned(), d.space->relevant(), comm);
-    d.dirichlet       = evaluate_dirichlet(*d.space, loads, true);
-    d.free_motions    = free_motions(bodies, *d.space, d.dirichlet);
+    d.space = std::make_unique<NodalSpace>(comm, bodies.mesh(), parameters.refinement.adaptive_cycles > 0);
+    d.partition    = std::make_unique<NodePartition>(d.space->owned(), d.space->relevant(), comm);
+    d.dirichlet    = evaluate_dirichlet(*d.space, loads, true);
+    d.free_motions = free_motions(bodies, *d.space, d.dirichlet);
     hold_by_ties();
   }
 
@@ -376,8 +376,9 @@ namespace Signorini
             results.cycles.pop_back();
             continue;
           }
-        result.cells = discretization.space->n_global_cells();
-        result.dofs  = dim * discretization.space->n_conforming_nodes();
+        result.movement = bodies.movement();
+        result.cells    = discretization.space->n_global_cells();
+        result.dofs     = dim * discretization.space->n_conforming_nodes();
         result.times["mesh"] += time.wall_time();
         print("cycle " + std::to_string(cycle) + ": " + std::to_string(result.cells) + " cells, " +
               std::to_string(result.dofs) + " dofs");

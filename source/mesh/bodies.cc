@@ -434,6 +434,8 @@ namespace Signorini
             }
         tria->prepare_coarsening_and_refinement();
         tria->execute_coarsening_and_refinement();
+        if (std::find(is_user_shape.begin(), is_user_shape.end(), true) != is_user_shape.end())
+          assess_hexahedra();
       }
     if (forest)
       {

@@ -188,6 +188,25 @@ namespace Signorini
 
 
 
+  void Bodies::assess_hexahedra()
+  {
+    // deal.II has moved the new nodes already: what they were like before is not known.
+    MovementReport report;
+    for (const auto &cell : tria->active_cell_iterators())
+      if (cell->is_locally_owned() && cell->has_boundary_lines())
+        {
+          std::array<Point<3>, 8> corners;
+          for (unsigned int v = 0; v < 8; ++v)
+            corners[v] = cell->vertex(v);
+          report.quality_after = std::min(report.quality_after, scaled_jacobian(corners));
+        }
+    report.quality_after  = Utilities::MPI::min(report.quality_after, comm);
+    report.quality_before = report.quality_after;
+    last_movement.add(report);
+  }
+
+
+
   void Bodies::set_manifolds(types::manifold_id next)
   {
     if (std::all_of(is_user_shape.begin(), is_user_shape.end(), [](const bool is) { return !is; }))

@@ -145,8 +145,9 @@ namespace Signorini
 
 
 
-  NodalSpace::NodalSpace(const MPI_Comm communicator, const MeshView &mesh)
+  NodalSpace::NodalSpace(const MPI_Comm communicator, const MeshView &mesh, const bool with_inner_faces)
     : comm(communicator)
+    , with_inner_faces(with_inner_faces)
   {
     const unsigned int                rank    = Utilities::MPI::this_mpi_process(comm);
     const unsigned int                n_ranks = Utilities::MPI::n_mpi_processes(comm);
@@ -257,7 +258,7 @@ namespace Signorini
                 data.hanging[v] = numbering.of_hexahedra(node);
             boundary.push_back(data);
           }
-        else if (const auto neighbor = cell->neighbor(f); neighbor->is_active())
+        else if (const auto neighbor = cell->neighbor(f); with_inner_faces && neighbor->is_active())
           {
             // Smaller cells see their larger neighbours; of equal ones that with the smaller number counts.
             const unsigned int other = number[neighbor->active_cell_index()];
@@ -304,7 +305,7 @@ namespace Signorini
               boundary.push_back({local, f, cells[c].boundary[f], {}});
               boundary.back().hanging.fill(invalid_node);
             }
-          else
+          else if (with_inner_faces)
             {
               std::array<unsigned int, 3> key;
               for (unsigned int i = 0; i < 3; ++i)

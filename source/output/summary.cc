@@ -56,6 +56,15 @@ namespace Signorini
             }
           json.end('}');
         }
+      if (cycle.movement.n_moved > 0 || cycle.movement.quality_after < 1.)
+        {
+          json.begin('{', "boundary_shapes");
+          json.number("moved_nodes", cycle.movement.n_moved);
+          json.number("nodes_not_yet_there", cycle.movement.n_damped);
+          json.number("worst_quality_before", cycle.movement.quality_before);
+          json.number("worst_quality_after", cycle.movement.quality_after);
+          json.end('}');
+        }
       if (cycle.potential_energy != 0.)
         json.number("potential_energy", cycle.potential_energy);
       if (cycle.error_to_last > 0.)

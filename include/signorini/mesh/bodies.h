@@ -159,6 +159,7 @@ namespace Signorini
     void read_shapes(const BodyParameters &parameters, Placed &placed, const std::string &base_folder);
     void snap_vertices(Placed &placed, const std::string &where);
     void follow_shapes();
+    void assess_hexahedra();
     void set_manifolds(dealii::types::manifold_id next);
     /// The shapes that a point on the given boundaries has to lie on; none on sharp edges.
     std::vector<BoundaryShapePointer> shapes_of(const std::set<dealii::types::boundary_id> &ids) const;

@@ -69,8 +69,8 @@ namespace Signorini
       unsigned char face;
     };
 
-    /// Collective.
-    NodalSpace(const MPI_Comm communicator, const MeshView &mesh);
+    /// Collective. Inner faces are listed if they are wanted.
+    NodalSpace(const MPI_Comm communicator, const MeshView &mesh, const bool with_inner_faces = false);
 
     MPI_Comm communicator() const
     {
@@ -94,6 +94,7 @@ namespace Signorini
       return boundary;
     }
 
+    /// Empty unless they were wanted.
     const std::vector<InnerFace> &inner_faces() const
     {
       return inner;
@@ -169,6 +170,7 @@ namespace Signorini
     void set_positions(const std::vector<dealii::Point<3>> &corner_points);
 
     const MPI_Comm                    comm;
+    const bool                        with_inner_faces;
     std::vector<Cell>                 cell_list;
     std::vector<NodeIndex>            cell_nodes;
     std::vector<BoundaryFace>         boundary;

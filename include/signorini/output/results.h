@@ -6,6 +6,7 @@
 
 #include <signorini/algebra/types.h>
 #include <signorini/discretization/exact_error.h>
+#include <signorini/mesh/node_movement.h>
 #include <signorini/solvers/convergence_report.h>
 #include <signorini/solvers/sweep_measurement.h>
 #include <signorini/surface/mapping_quality.h>
@@ -28,6 +29,8 @@ namespace Signorini
     bool              has_linear = false;
     /// Relative difference of the linear and the nonlinear solution (energy norm).
     double difference = 0.;
+    /// What boundary shapes did to the mesh of this cycle.
+    MovementReport movement;
     /// Estimate of the energy norm of the error; 0 if it was not computed.
     double indicator = 0.;
     /// Energy norm of the difference to the solution of the last cycle, if cycles are compared.

@@ -118,6 +118,37 @@ TEST(MeshInput, ReadsOtherVersionsAndBinaryFiles)
 
 
 
+// What gmsh writes in other formats comes back: tetrahedra, and boundaries where the format has them.
+TEST(MeshInput, ReadsOtherFormats)
+{
+  const std::string original = SIGNORINI_SOURCE_DIR "/prm/hertz/half_sphere_on_cube.msh";
+  const VolumeMesh  expected = read_volume_mesh(original, MPI_COMM_WORLD);
+  for (const std::string ending : {".vtk", ".unv", ".bdf", ".msh"})
+    {
+      const TemporaryFile file("", ending);
+      if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+        {
+          gmsh::initialize();
+          gmsh::option::setNumber("General.Terminal", 0);
+          gmsh::open(original);
+          gmsh::write(file.path);
+          gmsh::finalize();
+        }
+      MPI_Barrier(MPI_COMM_WORLD);
+      const VolumeMesh mesh = read_volume_mesh(file.path, MPI_COMM_WORLD);
+      EXPECT_EQ(mesh.cells.size(), expected.cells.size()) << ending;
+      EXPECT_EQ(mesh.vertices.size(), expected.vertices.size()) << ending;
+      EXPECT_EQ(mesh.faces.size(), expected.faces.size()) << ending;
+      // gmsh keeps no groups in .vtk and .bdf.
+      if (ending == ".unv" || ending == ".msh")
+        {
+          EXPECT_EQ(mesh.volume_names.size(), expected.volume_names.size()) << ending;
+        }
+    }
+}
+
+
+
 TEST(MeshInput, TurnsMirroredCellsOver)
 {
   const TemporaryFile file(gmsh_text(cube(), {"5 2 7 1 5 6 7 8 1 2 3 4"}));
