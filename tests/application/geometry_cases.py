@@ -209,7 +209,7 @@ def paper_tetrahedra(p):
     certificate(s, 1e-7)
     check(7000 <= s['cycles'][0]['cells'] <= 9000 and 250000 <= s['cycles'][-1]['cells'] <= 500000, 'number of elements')
     for c in s['cycles']:
-        check(c['nonlinear']['iterations'] <= 18, f'cycle {c["cycle"]}: {c["nonlinear"]["iterations"]} iterations')
+        check(c['nonlinear']['iterations'] <= 15, f'cycle {c["cycle"]}: {c["nonlinear"]["iterations"]} iterations')
 
 
 def knee(p):
