@@ -123,8 +123,8 @@ namespace Signorini
     const SolverMethod method = parameters.solver.method;
     if (!needs_levels(method))
       return std::make_unique<MultigridHierarchy>(std::move(system.matrix), std::move(system.fixed));
-    HierarchyOptions options{
-        {}, parameters.solver.level_zero, discretization.free_motions, &bodies, discretization.tied};
+    HierarchyOptions options{{},      parameters.solver.level_zero, discretization.free_motions,
+                             &bodies, discretization.tied,          parameters.solver.level_zero_steps};
     if (method == SolverMethod::monotone_multigrid)
       options.contact_normals = discretization.normals;
     return std::make_unique<MultigridHierarchy>(
@@ -265,7 +265,8 @@ namespace Signorini
           add(entry->node, entry->weight * project_free(d.row_masks[p], force));
       }
     MultigridHierarchy hierarchy = build_hierarchy(
-        std::move(system), levels, none, {{}, parameters.solver.level_zero, d.free_motions, &bodies, {}});
+        std::move(system), levels, none,
+        {{}, parameters.solver.level_zero, d.free_motions, &bodies, {}, parameters.solver.level_zero_steps});
     const NodeBlockMatrix    &matrix = hierarchy.finest().matrix;
     const BasisTransformation plain(*d.space, *d.partition, d.dirichlet, none, no_masks);
     Vector                    v, solution, product;

@@ -450,7 +450,8 @@ namespace Signorini
         normals = std::move(coarse_normals);
       }
     LevelZero level_zero;
-    level_zero.method = options.level_zero;
+    level_zero.method  = options.level_zero;
+    level_zero.n_steps = options.level_zero_steps;
     // A hierarchy of one level: its copy has the same contact nodes.
     const NodePartition &partition = hierarchy.coarsest().matrix.partition();
     for (std::size_t p = 0; p < normals.size(); ++p)

@@ -23,7 +23,7 @@ namespace Signorini
 
   bool LevelZero::uses_amg(const NodeIndex n_nodes) const
   {
-    return method == LevelZeroMethod::amg ||
+    return method == LevelZeroMethod::amg || method == LevelZeroMethod::algebraic_monotone ||
            (method == LevelZeroMethod::automatic && n_nodes > largest_for_cholesky);
   }
 
@@ -31,7 +31,8 @@ namespace Signorini
 
   void LevelZeroSolver::setup(const NodeBlockMatrix &new_matrix, const LevelZero &level_zero)
   {
-    matrix = &new_matrix;
+    matrix  = &new_matrix;
+    n_steps = level_zero.method == LevelZeroMethod::algebraic_monotone ? level_zero.n_steps : 0;
     if (!level_zero.free_motions.empty())
       {
         make_definite(new_matrix, level_zero.free_motions);
@@ -122,6 +123,20 @@ namespace Signorini
         return;
       }
     solution = 0.;
+    if (n_steps > 0)
+      {
+        Vector residual, step;
+        residual.reinit(rhs);
+        step.reinit(rhs);
+        for (unsigned int i = 0; i < n_steps; ++i)
+          {
+            matrix->vmult(residual, solution);
+            residual.sadd(-1., 1., rhs);
+            amg->vmult(step, residual);
+            solution += step;
+          }
+        return;
+      }
     solve_cg(*matrix, *amg, solution, rhs, amg_tolerance, amg_iterations);
   }
 } // namespace Signorini

@@ -48,14 +48,19 @@ namespace Signorini
                       "problem by conjugate gradients with algebraic multigrid (a baseline). projected gauss "
                       "seidel: sweeps alone, for tiny problems.");
     prm.add_action("Method", [this](const std::string &value) { method = method_names().at(value); });
-    prm.declare_entry("Level 0", "automatic", Patterns::Selection("automatic|cholesky|amg"),
-                      "Solver of the coarsest level: sparse Cholesky, algebraic multigrid (Trilinos ML with "
-                      "rigid motions), or automatic, Cholesky while the level is small.");
+    prm.declare_entry(
+        "Level 0", "automatic", Patterns::Selection("automatic|cholesky|amg|algebraic monotone"),
+        "Solver of the coarsest level: sparse Cholesky, algebraic multigrid (Trilinos ML with "
+        "rigid motions) to three digits, automatic, Cholesky while the level is small, or "
+        "algebraic monotone, steps of an algebraic variant of the method itself (as in the paper).");
     prm.add_action("Level 0", [this](const std::string &value) {
-      level_zero = value == "cholesky" ? LevelZeroMethod::cholesky
-                   : value == "amg"    ? LevelZeroMethod::amg
-                                       : LevelZeroMethod::automatic;
+      level_zero = value == "cholesky"             ? LevelZeroMethod::cholesky
+                   : value == "amg"                ? LevelZeroMethod::amg
+                   : value == "algebraic monotone" ? LevelZeroMethod::algebraic_monotone
+                                                   : LevelZeroMethod::automatic;
     });
+    prm.add_parameter("Level 0 steps", level_zero_steps, "Number of steps of algebraic monotone.",
+                      Patterns::Integer(1));
     prm.add_parameter("Pre-smoothing steps", smoothing.n_pre,
                       "Gauss-Seidel sweeps before the coarse correction.");
     prm.add_parameter("Post-smoothing steps", smoothing.n_post,

@@ -212,6 +212,18 @@ def paper_tetrahedra(p):
         check(c['nonlinear']['iterations'] <= 15, f'cycle {c["cycle"]}: {c["nonlinear"]["iterations"]} iterations')
 
 
+def algebraic_level_zero(p):
+    """Level 0 (5,958 unknowns) by one cycle of the algebraic variant: more iterations, never more energy."""
+    for method, bound in (('accelerated', 25), ('monotone multigrid', 60)):
+        s = p.solve('hertz/paper-tetrahedra.prm', 'Solver/Level 0=algebraic monotone', 'Solver/Check monotonicity=true',
+                    f'Solver/Method={method}', 'Refinement/Adaptive cycles=1')
+        certificate(s, 1e-7)
+        for c in s['cycles']:
+            check(c['nonlinear']['iterations'] <= bound, f'{method}: {c["nonlinear"]["iterations"]} iterations')
+            check(c['nonlinear']['monotonicity']['largest_energy_rise'] <= 1e-13, f'{method}: energy rises')
+            check(c['nonlinear']['monotonicity']['largest_violation'] <= 1e-12, f'{method}: not admissible')
+
+
 def knee(p):
     s = p.solve('knee/knee.prm', 'Refinement/Marking fraction=0.6')
     iterations(s)

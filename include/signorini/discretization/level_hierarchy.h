@@ -80,6 +80,7 @@ namespace Signorini
     /// One per row of the coupling: rows that are tied move on the finest level only (not at all). Empty:
     /// none.
     std::vector<unsigned char> tied;
+    unsigned int               level_zero_steps = 1;
   };
 
   /// Collective. Galerkin hierarchy with P̂_k = T_k⁻¹ P_k T_{k-1} on all levels. An empty coupling gives the

@@ -15,13 +15,19 @@ namespace Signorini
     /// Cholesky as long as the level is small.
     automatic,
     cholesky,
-    amg
+    amg,
+    /// Steps of an algebraic variant of the method itself (the paper's choice): V-cycles of algebraic
+    /// multigrid on the truncated matrix. With coarse obstacles a step goes as far as they let it, with
+    /// projected sweeps behind it.
+    algebraic_monotone
   };
 
   /// What level 0 of a hierarchy needs besides its matrix.
   struct LevelZero
   {
     LevelZeroMethod method = LevelZeroMethod::automatic;
+    /// Number of V-cycles of algebraic_monotone.
+    unsigned int n_steps = 1;
     /// Vectors of little energy on level 0 (rigid motions), for amg; may be empty.
     std::vector<Vector> near_kernel;
     /// Contact nodes, for a hierarchy that has to add a copy of its only level.
@@ -35,7 +41,7 @@ namespace Signorini
   };
 
   /// Solver of level 0: sparse Cholesky, or conjugate gradients with algebraic multigrid to three digits,
-  /// which the iteration around it does not notice.
+  /// which the iteration around it does not notice, or a number of its cycles alone.
   class LevelZeroSolver
   {
   public:
@@ -48,6 +54,9 @@ namespace Signorini
   private:
     void make_definite(const NodeBlockMatrix &singular, const std::vector<Vector> &free_motions);
     void solve_definite(Vector &solution, const Vector &rhs) const;
+
+    /// V-cycles without conjugate gradients; 0 for those.
+    unsigned int n_steps = 0;
 
     CoarseCholesky                      cholesky;
     std::unique_ptr<AlgebraicMultigrid> amg;

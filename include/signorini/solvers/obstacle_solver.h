@@ -30,7 +30,8 @@ namespace Signorini
   {
     SolverMethod        method = SolverMethod::accelerated;
     SmoothingParameters smoothing;
-    LevelZeroMethod     level_zero = LevelZeroMethod::automatic;
+    LevelZeroMethod     level_zero       = LevelZeroMethod::automatic;
+    unsigned int        level_zero_steps = 1;
     /// Stop when the energy norm of the correction is below this multiple of that of the iterate.
     double tolerance = 1e-12;
     /// Stop when the energy norm of the correction is below this; 0 for the relative rule.
