@@ -78,22 +78,32 @@ namespace Signorini
         const auto                 own = nonmortar_tractions(pair.nonmortar, pair.moments, stress);
         for (unsigned int f = 0; f < own.size(); ++f)
           non.add(tractions, f, own[f]);
-        if (!pair.mapping)
-          continue;
+        const Material &material      = bodies.material_of_body(pair.nonmortar_body);
+        const double    shear_modulus = .5 * material.young / (1. + material.poisson);
+        const auto      displacement  = at_vertices(pair.nonmortar, *d.partition, d.displacement);
+        const auto      add           = [&](const std::vector<double> &violation) {
+          for (unsigned int f = 0; f < violation.size(); ++f)
+            if (const int cell = non.cell(f); cell >= 0)
+              violations.emplace_back(cell, violation[f]);
+        };
+        if (pair.obstacle)
+          {
+            add(contact_violation(pair.nonmortar, rigid_images(pair.nonmortar, *pair.obstacle), stress,
+                                  displacement, shear_modulus, Utilities::MPI::this_mpi_process(comm)));
+            continue;
+          }
         const ContactFaces mor(*d.space, pair.mortar, pair.mortar_ids);
         const auto         image =
             mortar_tractions(pair.nonmortar, pair.mortar, pair.mapping->overlay(), stress, comm);
         for (unsigned int f = 0; f < image.size(); ++f)
           mor.add(tractions, f, image[f]);
-        const Material &material = bodies.material_of_body(pair.nonmortar_body);
-        const auto      violation =
-            contact_violation(pair.nonmortar, pair.mortar, pair.mapping->overlay(), stress,
-                              at_vertices(pair.nonmortar, *d.partition, d.displacement),
-                              at_vertices(pair.mortar, *d.partition, d.displacement), pair.prescribed_gap,
-                              .5 * material.young / (1. + material.poisson));
-        for (unsigned int f = 0; f < violation.size(); ++f)
-          if (const int cell = non.cell(f); cell >= 0)
-            violations.emplace_back(cell, violation[f]);
+        const auto  mortar_displacement = at_vertices(pair.mortar, *d.partition, d.displacement);
+        const auto &overlay             = pair.mapping->overlay();
+        add(pair_definitions[p].parameters.contact == "tied"
+                ? tie_violation(pair.nonmortar, pair.mortar, overlay, displacement, mortar_displacement,
+                                shear_modulus)
+                : contact_violation(pair.nonmortar, pair.mortar, overlay, stress, displacement,
+                                    mortar_displacement, pair.prescribed_gap, shear_modulus));
       }
     std::vector<double> indicator =
         residual_indicator(bodies, *d.space, *d.partition, loads, d.displacement, tractions);

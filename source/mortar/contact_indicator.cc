@@ -199,6 +199,53 @@ namespace Signorini
 
 
 
+  namespace
+  {
+    /// Sums up both terms of every face.
+    class Violation
+    {
+    public:
+      explicit Violation(const ContactSurface &surface)
+        : surface(surface)
+        , penetration(surface.faces.size(), 0.)
+        , complementarity(penetration)
+      {
+      }
+
+      void add(const unsigned int face, const double weight, const double opening, const double pressure)
+      {
+        const double depth = std::max(0., -opening);
+        penetration[face] += weight * depth * depth;
+        complementarity[face] += weight * opening * pressure;
+      }
+
+      std::vector<double> finish(const double shear_modulus) const
+      {
+        std::vector<double> result;
+        for (unsigned int f = 0; f < penetration.size(); ++f)
+          result.push_back(shear_modulus / longest_edge(surface, f) * penetration[f] +
+                           std::abs(complementarity[f]));
+        return result;
+      }
+
+    private:
+      const ContactSurface &surface;
+      std::vector<double>   penetration, complementarity;
+    };
+
+    /// Unit normal at a point of a triangle; zero where there is none.
+    Vector3 normal_at(const ContactSurface &surface, const unsigned int triangle,
+                      const std::array<double, 3> &weights)
+    {
+      Vector3 n;
+      for (unsigned int i = 0; i < 3; ++i)
+        n += weights[i] * surface.mesh.vertex_normals[surface.mesh.triangles[triangle][i]];
+      return n.norm() > 0. ? n / n.norm() : n;
+    }
+  } // namespace
+
+
+
   std::vector<double> contact_violation(const ContactSurface &nonmortar, const ContactSurface &mortar,
                                         const std::vector<OverlayTriangle> &overlay,
                                         const std::vector<Vector3>         &stress,
@@ -207,38 +254,78 @@ namespace Signorini
                                         const GapFunction &prescribed_gap, const double shear_modulus)
   {
     const SurfaceValues non(nonmortar), mor(mortar);
-    std::vector<double> penetration(nonmortar.faces.size(), 0.), complementarity(penetration);
+    Violation           violation(nonmortar);
     for (const OverlayTriangle &cell : overlay)
       {
-        const unsigned int f = nonmortar.triangle_face[cell.nonmortar_triangle];
         const double area = cell.share() * Signorini::triangle_area(nonmortar.mesh, cell.nonmortar_triangle);
-        const auto  &t    = nonmortar.mesh.triangles[cell.nonmortar_triangle];
         for (const auto &point : points)
           {
             const auto     w = compose(cell.nonmortar, point), w_image = compose(cell.mortar, point);
             const Point<3> x     = evaluate(nonmortar.mesh, cell.nonmortar_triangle, w);
             const Point<3> image = evaluate(mortar.mesh, cell.mortar_triangle, w_image);
-            Vector3        n;
-            for (unsigned int i = 0; i < 3; ++i)
-              n += w[i] * nonmortar.mesh.vertex_normals[t[i]];
-            if (!(n.norm() > 0.))
-              continue;
-            n /= n.norm();
-            const auto   phi = non.shape(cell.nonmortar_triangle, x);
-            const double gap = prescribed_gap ? prescribed_gap(x) : (image - x) * n;
-            const double opening =
+            const Vector3  n     = normal_at(nonmortar, cell.nonmortar_triangle, w);
+            const auto     phi   = non.shape(cell.nonmortar_triangle, x);
+            const double   gap   = prescribed_gap ? prescribed_gap(x) : (image - x) * n;
+            const double   opening =
                 gap - n * (non.value(displacement_nonmortar, cell.nonmortar_triangle, phi) -
                            mor.value(displacement_mortar, cell.mortar_triangle,
                                      mor.shape(cell.mortar_triangle, image)));
-            const double weight = std::abs(area) / 3.;
-            const double depth  = std::max(0., -opening);
-            penetration[f] += weight * depth * depth;
-            complementarity[f] += weight * opening * (n * non.value(stress, cell.nonmortar_triangle, phi));
+            violation.add(nonmortar.triangle_face[cell.nonmortar_triangle], std::abs(area) / 3., opening,
+                          n * non.value(stress, cell.nonmortar_triangle, phi));
           }
       }
-    for (unsigned int f = 0; f < penetration.size(); ++f)
-      penetration[f] =
-          shear_modulus / longest_edge(nonmortar, f) * penetration[f] + std::abs(complementarity[f]);
-    return penetration;
+    return violation.finish(shear_modulus);
+  }
+
+
+
+  std::vector<double> tie_violation(const ContactSurface &nonmortar, const ContactSurface &mortar,
+                                    const std::vector<OverlayTriangle> &overlay,
+                                    const std::vector<Vector3>         &displacement_nonmortar,
+                                    const std::vector<Vector3>         &displacement_mortar,
+                                    const double                        shear_modulus)
+  {
+    const SurfaceValues non(nonmortar), mor(mortar);
+    Violation           violation(nonmortar);
+    for (const OverlayTriangle &cell : overlay)
+      for (const auto &point : points)
+        {
+          const Point<3> x =
+              evaluate(nonmortar.mesh, cell.nonmortar_triangle, compose(cell.nonmortar, point));
+          const Point<3> image = evaluate(mortar.mesh, cell.mortar_triangle, compose(cell.mortar, point));
+          const Vector3  jump =
+              non.value(displacement_nonmortar, cell.nonmortar_triangle,
+                        non.shape(cell.nonmortar_triangle, x)) -
+              mor.value(displacement_mortar, cell.mortar_triangle, mor.shape(cell.mortar_triangle, image));
+          const double area =
+              cell.share() * Signorini::triangle_area(nonmortar.mesh, cell.nonmortar_triangle);
+          violation.add(nonmortar.triangle_face[cell.nonmortar_triangle], std::abs(area) / 3., -jump.norm(),
+                        0.);
+        }
+    return violation.finish(shear_modulus);
+  }
+
+
+
+  std::vector<double> contact_violation(const ContactSurface &nonmortar, const ImageFunction &image,
+                                        const std::vector<Vector3> &stress,
+                                        const std::vector<Vector3> &displacement, const double shear_modulus,
+                                        const unsigned int rank)
+  {
+    const SurfaceValues non(nonmortar);
+    Violation           violation(nonmortar);
+    for (unsigned int t = 0; t < nonmortar.mesh.triangles.size(); ++t)
+      if (nonmortar.faces[nonmortar.triangle_face[t]].owner == rank)
+        for (const auto &point : points)
+          {
+            const Point<3> x   = evaluate(nonmortar.mesh, t, point);
+            const Vector3  n   = normal_at(nonmortar, t, point);
+            const auto     phi = non.shape(t, x);
+            Vector3        gap;
+            if (image(gap, x, n))
+              violation.add(nonmortar.triangle_face[t], Signorini::triangle_area(nonmortar.mesh, t) / 3.,
+                            n * (gap - non.value(displacement, t, phi)), n * non.value(stress, t, phi));
+          }
+    return violation.finish(shear_modulus);
   }
 } // namespace Signorini

@@ -188,20 +188,24 @@ namespace Signorini
 
 
 
+  ImageFunction rigid_images(const ContactSurface &surface, const RigidObstacle &obstacle)
+  {
+    const double size = surface_size(surface);
+    return [size, &obstacle](Vector3 &gap, const Point<3> &x, const Vector3 &normal) {
+      double     distance;
+      const bool hit = obstacle.gap(distance, x, normal, size);
+      if (hit)
+        gap = distance * normal;
+      return hit;
+    };
+  }
+
+
+
   std::vector<FaceMoments> compute_rigid_moments(const ContactSurface &surface, const RigidObstacle &obstacle,
                                                  const MPI_Comm communicator)
   {
-    const double size = surface_size(surface);
-    return compute_face_moments(
-        surface,
-        [&](Vector3 &gap, const Point<3> &x, const Vector3 &normal) {
-          double     distance;
-          const bool hit = obstacle.gap(distance, x, normal, size);
-          if (hit)
-            gap = distance * normal;
-          return hit;
-        },
-        communicator);
+    return compute_face_moments(surface, rigid_images(surface, obstacle), communicator);
   }
 
 

@@ -9,6 +9,7 @@ function(signorini_add_application_test case)
 endfunction()
 
 signorini_add_application_test(adaptive_hertz 1 2)
+signorini_add_application_test(adaptive_kinds 1 2)
 signorini_add_application_test(algebraic_level_zero 1 2)
 signorini_add_application_test(bad_meshes 1 2)
 signorini_add_application_test(bowl 1 2)

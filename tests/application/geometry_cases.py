@@ -180,6 +180,18 @@ def l_block(p):
         certificate(s)
 
 
+def adaptive_kinds(p):
+    """The indicator with a rigid obstacle and with a tied pair."""
+    common = ('Refinement/Compare cycles=true', 'Refinement/Max dofs=100000', 'Solver/Compare linear multigrid=false')
+    s = p.solve('obstacle/paraboloid.prm', 'Refinement/Global cycles=0', 'Refinement/Adaptive cycles=7', *common)
+    effectivity(s, 'rigid paraboloid', 2)
+    certificate(s)
+    s = p.solve(PATCH_TEST, 'Pair interface/Contact=tied', 'Body upper/Dirichlet=', 'Body upper/Tractions=top: (x, 0, -2*x)',
+                'Body lower/Dirichlet=bottom: (0, 0, 0)', 'Refinement/Adaptive cycles=5', *common)
+    effectivity(s, 'tied', 2)
+    certificate(s)
+
+
 def hertz_tetrahedra(p):
     """H1 on tetrahedra: the force against the axisymmetric reference (20.820)."""
     for dofs, fraction, bound in ((60000, .53, .015), (300000, .6, .007)):

@@ -59,6 +59,20 @@ namespace Signorini
                                         const std::vector<Vector3>         &displacement_nonmortar,
                                         const std::vector<Vector3>         &displacement_mortar,
                                         const GapFunction &prescribed_gap, const double shear_modulus);
+
+  /// The jump of a tied pair, mu / h_F |u - u_mor o Phi|^2, face by face.
+  std::vector<double> tie_violation(const ContactSurface &nonmortar, const ContactSurface &mortar,
+                                    const std::vector<OverlayTriangle> &overlay,
+                                    const std::vector<Vector3>         &displacement_nonmortar,
+                                    const std::vector<Vector3>         &displacement_mortar,
+                                    const double                        shear_modulus);
+
+  /// contact_violation() for a rigid partner, given by the images of points (see compute_face_moments()); for
+  /// the faces of rank `rank`.
+  std::vector<double> contact_violation(const ContactSurface &nonmortar, const ImageFunction &image,
+                                        const std::vector<Vector3> &stress,
+                                        const std::vector<Vector3> &displacement, const double shear_modulus,
+                                        const unsigned int rank);
 } // namespace Signorini
 
 #endif

@@ -64,6 +64,9 @@ namespace Signorini
     Expression function;
   };
 
+  /// The images of points of a surface on an obstacle, both of which must outlive the function.
+  ImageFunction rigid_images(const ContactSurface &surface, const RigidObstacle &obstacle);
+
   /// Collective. The moments of all faces against an obstacle, as compute_face_moments() has them against a
   /// surface. The gap is measured along the linear field of vertex normals. A triangle of which a part does
   /// not see the obstacle counts as uncovered.
