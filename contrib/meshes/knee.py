@@ -119,11 +119,12 @@ def read(path):
     return data[:, 1:], np.array(cells), np.array(faces)
 
 
-def mesh(size, dimension, folder):
+def mesh(size, folder):
+    """Triangles of the cylinder."""
     geo, out = os.path.join(folder, 'bone.geo'), os.path.join(folder, 'bone.msh')
     with open(geo, 'w') as f:
         f.write(GEO % size)
-    subprocess.run(['gmsh', f'-{dimension}', '-format', 'msh22', geo, '-o', out], check=True,
+    subprocess.run(['gmsh', '-2', '-format', 'msh22', geo, '-o', out], check=True,
                    stdout=subprocess.DEVNULL)
     return read(out)
 
@@ -196,10 +197,12 @@ def smallest_gap(f, t, sign):
 
 
 def main():
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
     folder = sys.argv[1]
     os.makedirs(folder, exist_ok=True)
     with tempfile.TemporaryDirectory() as temporary:
-        coarse, fine = mesh(COARSE, 2, temporary)[::2], mesh(FINE, 2, temporary)
+        coarse, fine = mesh(COARSE, temporary)[::2], mesh(FINE, temporary)
     end = fine[2][fine[2][:, 0] == TAGS['end']]
     # The tibia comes up to 0.2 mm, and is tilted a little so that both condyles come as near.
     f, t = femur(fine[0])[np.unique(end[:, 1:])], tibia(fine[0])[np.unique(end[:, 1:])]

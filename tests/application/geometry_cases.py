@@ -1,9 +1,7 @@
 """Cases of complicated geometries: tetrahedra, adaptive meshes, boundary shapes, mesh files."""
-import json
 import math
 import os
 import struct
-import subprocess
 import tempfile
 
 from harness import TOP, certificate, check, constant_pressure, iterations, near
@@ -90,7 +88,7 @@ def shells(p):
     def field(a, b):
         return '(' + ', '.join(f'({a!r} + {b!r}*(x^2 + y^2 + z^2)^(-1.5))*{c}' for c in 'xyz') + ')'
     exact = [f'Body inner/Exact displacement={field(a1, b1)}', f'Body outer/Exact displacement={field(a2, b2)}']
-    print('cells (inner, outer)          dofs  L2 error   order  energy    order  pressure')
+    print('cells (inner, outer)          dofs  L2 error   order  energy     order')
     for kind in [[]] + kinds('inner', 'outer'):
         s = p.solve(os.path.join(TOP, 'tests', 'application', 'shells.prm'), *kind, *exact)
         name = ', '.join('tetrahedra' if f'Body {b}/Convert to tetrahedra=true' in kind else 'hexahedra' for b in ('inner', 'outer'))
@@ -105,13 +103,11 @@ def shells(p):
         check(order[0] >= 1.9, f'{name}: order {order[0]} in L2')
         check(order[1] >= .9, f'{name}: order {order[1]} in the energy norm')
         pair = s['pairs'][0]
-        area = 4 * math.pi * 1.5 ** 2 / 8
         # The mean pressure from the force: an eighth of the sphere has the projected area pi r^2 / 4.
         mean = pair['force'][2] / (math.pi * 1.5 ** 2 / 4)
         near(abs(mean), contact, .02, f'{name}: mean pressure')
         check(abs(pair['max_pressure'] / contact - 1) < .15 and abs(pair['min_pressure'] / contact - 1) < .15,
               f'{name}: pressure {pair["min_pressure"]} to {pair["max_pressure"]}, expected {contact}')
-        check(area > 0, 'area')
         certificate(s)
 
 
@@ -379,8 +375,7 @@ def tied(p):
     # A body that nothing but the tie holds, under a load across and along the interface.
     s = p.solve(PATCH_TEST, 'Pair interface/Contact=tied', 'Body upper/Dirichlet=', 'Body upper/Tractions=top: (1, 0.5, -2)',
                 'Body lower/Dirichlet=bottom: (0, 0, 0)', 'Refinement/Global cycles=2')
-    for value, expected in zip(s['pairs'][0]['force_on_nonmortar'] if 'force_on_nonmortar' in s['pairs'][0] else s['pairs'][0]['force'],
-                               (1., .5, -2.)):
+    for value, expected in zip(s['pairs'][0]['force'], (1., .5, -2.)):
         near(abs(value), abs(expected), 1e-9, 'force through the tie')
     for value, expected in zip(s['boundaries'][0]['reaction'], (-1., -.5, 2.)):
         near(value, expected, 1e-8, 'reaction')
