@@ -227,7 +227,8 @@ def algebraic_level_zero(p):
                     f'Solver/Method={method}', 'Refinement/Adaptive cycles=1')
         certificate(s, 1e-7)
         for c in s['cycles']:
-            check(c['nonlinear']['iterations'] <= bound, f'{method}: {c["nonlinear"]["iterations"]} iterations')
+            # The solve to three digits takes 4 and 9.
+            check(10 <= c['nonlinear']['iterations'] <= bound, f'{method}: {c["nonlinear"]["iterations"]} iterations')
             check(c['nonlinear']['monotonicity']['largest_energy_rise'] <= 1e-13, f'{method}: energy rises')
             check(c['nonlinear']['monotonicity']['largest_violation'] <= 1e-12, f'{method}: not admissible')
 
