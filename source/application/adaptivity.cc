@@ -3,6 +3,7 @@
 
 #include <signorini/application/contact_problem.h>
 #include <signorini/discretization/error_indicator.h>
+#include <signorini/mesh/surface_extraction.h>
 #include <signorini/mortar/contact_indicator.h>
 
 namespace Signorini
@@ -11,57 +12,43 @@ namespace Signorini
 
   namespace
   {
-    /// Values of a nodal field at the vertices of a surface.
-    std::vector<Vector3> at_vertices(const ContactSurface &surface, const NodePartition &partition,
-                                     const Vector &field)
+    /// The contact stress lambda n (force per area) of a pair at all vertices of its nonmortar surface.
+    std::vector<Vector3> contact_stress(const Discretization &d, const unsigned int p)
     {
-      std::vector<NodeIndex> nodes(surface.vertex_node);
-      std::sort(nodes.begin(), nodes.end());
-      const auto           values = replicate_values(partition, field, nodes);
-      std::vector<Vector3> result;
-      for (const NodeIndex node : surface.vertex_node)
-        result.push_back(values[std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin()]);
-      return result;
+      const ContactSurface &surface = d.pairs[p].nonmortar;
+      std::vector<Vector3>  stress(surface.vertex_node.size());
+      std::vector<bool>     known(stress.size(), false);
+      for (std::size_t row = 0; row < d.coupling.n_rows(); ++row)
+        if (d.origin[row].first == p)
+          {
+            const unsigned int v = d.couplings[p].vertices[d.origin[row].second];
+            stress[v]            = d.traction[row];
+            known[v]             = true;
+          }
+      // Vertices without a multiplier: the mean of the neighbours that have one.
+      std::vector<Vector3>      sum(stress.size());
+      std::vector<unsigned int> n(stress.size(), 0);
+      for (const ContactSurface::Face &face : surface.faces)
+        for (unsigned int a = 0; a < face.n_corners; ++a)
+          for (unsigned int b = 0; b < face.n_corners; ++b)
+            if (!known[face.corners[a]] && known[face.corners[b]])
+              {
+                sum[face.corners[a]] += stress[face.corners[b]];
+                ++n[face.corners[a]];
+              }
+      for (std::size_t v = 0; v < stress.size(); ++v)
+        if (!known[v] && n[v] > 0)
+          stress[v] = sum[v] / static_cast<double>(n[v]);
+      for (std::size_t v = 0; v < stress.size(); ++v)
+        if (!surface.hanging[v].empty())
+          {
+            stress[v] = Vector3();
+            for (const auto &[parent, weight] : surface.hanging[v])
+              stress[v] += weight * stress[parent];
+          }
+      return stress;
     }
   } // namespace
-
-
-
-  std::vector<Vector3> contact_stress(const Discretization &d, const unsigned int p)
-  {
-    const ContactSurface &surface = d.pairs[p].nonmortar;
-    std::vector<Vector3>  stress(surface.vertex_node.size());
-    std::vector<bool>     known(stress.size(), false);
-    for (std::size_t row = 0; row < d.coupling.n_rows(); ++row)
-      if (d.origin[row].first == p)
-        {
-          const unsigned int v = d.couplings[p].vertices[d.origin[row].second];
-          stress[v]            = d.traction[row];
-          known[v]             = true;
-        }
-    // Vertices without a multiplier: the mean of the neighbours that have one.
-    std::vector<Vector3>      sum(stress.size());
-    std::vector<unsigned int> n(stress.size(), 0);
-    for (const ContactSurface::Face &face : surface.faces)
-      for (unsigned int a = 0; a < face.n_corners; ++a)
-        for (unsigned int b = 0; b < face.n_corners; ++b)
-          if (!known[face.corners[a]] && known[face.corners[b]])
-            {
-              sum[face.corners[a]] += stress[face.corners[b]];
-              ++n[face.corners[a]];
-            }
-    for (std::size_t v = 0; v < stress.size(); ++v)
-      if (!known[v] && n[v] > 0)
-        stress[v] = sum[v] / static_cast<double>(n[v]);
-    for (std::size_t v = 0; v < stress.size(); ++v)
-      if (!surface.hanging[v].empty())
-        {
-          stress[v] = Vector3();
-          for (const auto &[parent, weight] : surface.hanging[v])
-            stress[v] += weight * stress[parent];
-        }
-    return stress;
-  }
 
 
 
@@ -80,7 +67,7 @@ namespace Signorini
           non.add(tractions, f, own[f]);
         const Material &material      = bodies.material_of_body(pair.nonmortar_body);
         const double    shear_modulus = .5 * material.young / (1. + material.poisson);
-        const auto      displacement  = at_vertices(pair.nonmortar, *d.partition, d.displacement);
+        const auto      displacement  = vertex_values(pair.nonmortar, *d.partition, d.displacement);
         const auto      add           = [&](const std::vector<double> &violation) {
           for (unsigned int f = 0; f < violation.size(); ++f)
             if (const int cell = non.cell(f); cell >= 0)
@@ -97,7 +84,7 @@ namespace Signorini
             mortar_tractions(pair.nonmortar, pair.mortar, pair.mapping->overlay(), stress, comm);
         for (unsigned int f = 0; f < image.size(); ++f)
           mor.add(tractions, f, image[f]);
-        const auto  mortar_displacement = at_vertices(pair.mortar, *d.partition, d.displacement);
+        const auto  mortar_displacement = vertex_values(pair.mortar, *d.partition, d.displacement);
         const auto &overlay             = pair.mapping->overlay();
         add(pair_definitions[p].parameters.contact == "tied"
                 ? tie_violation(pair.nonmortar, pair.mortar, overlay, displacement, mortar_displacement,

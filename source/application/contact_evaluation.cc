@@ -5,6 +5,7 @@
 #include <signorini/algebra/replicated_data.h>
 #include <signorini/application/contact_problem.h>
 #include <signorini/discretization/element.h>
+#include <signorini/mesh/surface_extraction.h>
 #include <signorini/mortar/contact_forces.h>
 #include <signorini/mortar/geometric_penetration.h>
 
@@ -16,19 +17,6 @@ namespace Signorini
 
   namespace
   {
-    /// Displacements of all vertices of a surface, on all ranks.
-    std::vector<Vector3> vertex_displacements(const ContactSurface &surface, const NodePartition &partition,
-                                              const Vector &u)
-    {
-      std::vector<NodeIndex> nodes(surface.vertex_node);
-      std::sort(nodes.begin(), nodes.end());
-      const std::vector<Vector3> values = replicate_values(partition, u, nodes);
-      std::vector<Vector3>       result;
-      for (const NodeIndex node : surface.vertex_node)
-        result.push_back(values[std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin()]);
-      return result;
-    }
-
     Vector3 sum(const Vector3 &v, const MPI_Comm comm)
     {
       Vector3 result;
@@ -76,13 +64,13 @@ namespace Signorini
         result.force_on_mortar     = pair.obstacle ? -forces.nonmortar.force : forces.mortar.force;
         result.moment              = forces.nonmortar.moment;
 
-        const auto displaced = vertex_displacements(pair.nonmortar, *d.partition, d.displacement);
+        const auto displaced = vertex_values(pair.nonmortar, *d.partition, d.displacement);
         const auto penetration =
-            pair.obstacle ? sample_rigid_penetration(pair.nonmortar, *pair.obstacle, displaced, comm)
-                          : sample_geometric_penetration(
-                                pair.nonmortar, pair.mortar, pair.mapping->overlay(), displaced,
-                                vertex_displacements(pair.mortar, *d.partition, d.displacement),
-                                pair.prescribed_gap, comm);
+            pair.obstacle
+                ? sample_rigid_penetration(pair.nonmortar, *pair.obstacle, displaced, comm)
+                : sample_geometric_penetration(
+                      pair.nonmortar, pair.mortar, pair.mapping->overlay(), displaced,
+                      vertex_values(pair.mortar, *d.partition, d.displacement), pair.prescribed_gap, comm);
         result.min_gap             = penetration.min_gap;
         result.max_penetration     = std::max(0., penetration.max_penetration());
         result.initial_penetration = std::max(0., -penetration.min_initial_gap);

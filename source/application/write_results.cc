@@ -2,8 +2,8 @@
 // Copyright (C) 2026 by the Signorini authors
 
 #include <signorini/algebra/input_error.h>
-#include <signorini/algebra/replicated_data.h>
 #include <signorini/application/write_results.h>
+#include <signorini/mesh/surface_extraction.h>
 #include <signorini/output/field_output.h>
 #include <signorini/output/summary.h>
 
@@ -98,17 +98,13 @@ namespace Signorini
                 for (unsigned int k = 0; k < 3; ++k)
                   image.values[3 * v + k] = y[k] - pair.nonmortar.mesh.vertices[v][k];
               }
-      std::vector<NodeIndex> nodes(pair.nonmortar.vertex_node);
-      std::sort(nodes.begin(), nodes.end());
-      const auto u = replicate_values(*d.partition, d.displacement, nodes);
+      const auto u = vertex_values(pair.nonmortar, *d.partition, d.displacement);
       for (std::size_t v = 0; v < n; ++v)
         {
-          const auto &value =
-              u[std::lower_bound(nodes.begin(), nodes.end(), pair.nonmortar.vertex_node[v]) - nodes.begin()];
           for (unsigned int c = 0; c < 3; ++c)
             {
               normal.values.push_back(pair.nonmortar.mesh.vertex_normals[v][c]);
-              displacement.values.push_back(value[c]);
+              displacement.values.push_back(u[v][c]);
             }
         }
       return {displacement, pressure, gap, active, normal, image};

@@ -236,6 +236,18 @@ namespace Signorini
 
 
 
+    /// Values of a nodal field at the vertices of a cell.
+    std::array<Vector3, 8> cell_values(const CellData &data, const NodePartition &partition, const Vector &u)
+    {
+      std::array<Vector3, 8> values;
+      for (unsigned int v = 0; v < data.n(); ++v)
+        for (unsigned int c = 0; c < dim; ++c)
+          values[v][c] = u.local_element(dim * partition.to_local(data.vertices[v]) + c);
+      return values;
+    }
+
+
+
     inline void add_block(double *target, const double *source)
     {
       for (unsigned int c = 0; c < 9; ++c)
@@ -435,11 +447,7 @@ namespace Signorini
       if (space.cells()[cell].is_owned)
         {
           assembler.compute(data, cell);
-          std::array<Vector3, 8> cell_u;
-          for (unsigned int v = 0; v < data.n(); ++v)
-            for (unsigned int c = 0; c < dim; ++c)
-              cell_u[v][c] = u.local_element(dim * partition.to_local(data.vertices[v]) + c);
-          subtract_stiffness(data, cell_u);
+          subtract_stiffness(data, cell_values(data, partition, u));
           for (unsigned int v = 0; v < data.n(); ++v)
             {
               const auto add = [&](const NodeIndex node, const double weight) {
@@ -469,11 +477,8 @@ namespace Signorini
       if (space.cells()[cell].is_owned)
         {
           assembler.compute(data, cell);
-          const std::array<Vector3, 8> load = data.load;
-          std::array<Vector3, 8>       cell_u;
-          for (unsigned int v = 0; v < data.n(); ++v)
-            for (unsigned int c = 0; c < dim; ++c)
-              cell_u[v][c] = u.local_element(dim * partition.to_local(data.vertices[v]) + c);
+          const std::array<Vector3, 8> load   = data.load;
+          const std::array<Vector3, 8> cell_u = cell_values(data, partition, u);
           subtract_stiffness(data, cell_u);
           // The load is now f - K u.
           for (unsigned int v = 0; v < data.n(); ++v)

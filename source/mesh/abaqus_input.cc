@@ -108,36 +108,34 @@ namespace Signorini
         throw InputError("Mesh file \"" + file + "\", line " + std::to_string(line_number) + ": " + text);
       }
 
-      long label_in(const std::string &word) const
+      /// A word read as a whole by std::stol or std::stod; `what` it should be.
+      template <typename Number, typename Parse>
+      Number number_in(const std::string &word, const Parse &parse, const std::string &what) const
       {
         std::size_t used  = 0;
-        long        value = 0;
+        Number      value = 0;
         try
           {
-            value = std::stol(word, &used);
+            value = parse(word, &used);
           }
         catch (const std::exception &)
           {
           }
-        if (used == 0 || used != word.size())
-          fail("\"" + word + "\" should be a number.");
+        if (used == 0 || used != word.size() || !std::isfinite(static_cast<double>(value)))
+          fail("\"" + word + "\" should be a " + what + ".");
         return value;
+      }
+
+      long label_in(const std::string &word) const
+      {
+        return number_in<long>(
+            word, [](const std::string &w, std::size_t *used) { return std::stol(w, used); }, "number");
       }
 
       double coordinate_in(const std::string &word) const
       {
-        std::size_t used  = 0;
-        double      value = 0.;
-        try
-          {
-            value = std::stod(word, &used);
-          }
-        catch (const std::exception &)
-          {
-          }
-        if (used == 0 || used != word.size() || !std::isfinite(value))
-          fail("\"" + word + "\" should be a coordinate.");
-        return value;
+        return number_in<double>(
+            word, [](const std::string &w, std::size_t *used) { return std::stod(w, used); }, "coordinate");
       }
 
       void start_keyword(const std::string &line)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/algebra/replicated_data.h>
 #include <signorini/mesh/surface_extraction.h>
 
 #include <deal.II/base/mpi.h>
@@ -323,5 +324,20 @@ namespace Signorini
     surface.hanging.resize(surface.vertex_node.size());
     set_normals(surface);
     return surface;
+  }
+
+
+
+  std::vector<Vector3> vertex_values(const ContactSurface &surface, const NodePartition &partition,
+                                     const Vector &field)
+  {
+    std::vector<NodeIndex> nodes(surface.vertex_node);
+    std::sort(nodes.begin(), nodes.end());
+    const std::vector<Vector3> values = replicate_values(partition, field, nodes);
+    std::vector<Vector3>       result;
+    result.reserve(nodes.size());
+    for (const NodeIndex node : surface.vertex_node)
+      result.push_back(values[std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin()]);
+    return result;
   }
 } // namespace Signorini

@@ -2,7 +2,7 @@
 // Copyright (C) 2026 by the Signorini authors
 
 #include <signorini/mortar/contact_indicator.h>
-#include <signorini/mortar/face_map.h>
+#include <signorini/mortar/surface_values.h>
 #include <signorini/surface/contact_mapping.h>
 
 #include <deal.II/base/mpi.h>
@@ -25,50 +25,6 @@ namespace Signorini
     constexpr std::array<double, 3> points[3] = {{{2. / 3., 1. / 6., 1. / 6.}},
                                                  {{1. / 6., 2. / 3., 1. / 6.}},
                                                  {{1. / 6., 1. / 6., 2. / 3.}}};
-
-    std::array<double, 3> compose(const std::array<std::array<double, 3>, 3> &corners,
-                                  const std::array<double, 3>                &weights)
-    {
-      std::array<double, 3> result = {{0., 0., 0.}};
-      for (unsigned int c = 0; c < 3; ++c)
-        for (unsigned int i = 0; i < 3; ++i)
-          result[i] += weights[c] * corners[c][i];
-      return result;
-    }
-
-    /// Nodal fields on a surface, at points of its triangles.
-    class SurfaceValues
-    {
-    public:
-      explicit SurfaceValues(const ContactSurface &surface)
-        : surface(surface)
-      {
-        for (unsigned int f = 0; f < surface.faces.size(); ++f)
-          maps.emplace_back(surface, f);
-      }
-
-      std::array<double, 4> shape(const unsigned int triangle, const Point<3> &p) const
-      {
-        const FaceMap &map = maps[surface.triangle_face[triangle]];
-        double         s = .5, t = .5;
-        map.invert(s, t, p);
-        return map.shape(s, t);
-      }
-
-      Vector3 value(const std::vector<Vector3> &field, const unsigned int triangle,
-                    const std::array<double, 4> &phi) const
-      {
-        Vector3     sum;
-        const auto &face = surface.faces[surface.triangle_face[triangle]];
-        for (unsigned int a = 0; a < 4; ++a)
-          sum += phi[a] * field[face.corners[a]];
-        return sum;
-      }
-
-    private:
-      const ContactSurface &surface;
-      std::vector<FaceMap>  maps;
-    };
 
     double longest_edge(const ContactSurface &surface, const unsigned int face)
     {
@@ -173,8 +129,8 @@ namespace Signorini
         for (const auto &point : points)
           {
             const auto     w = compose(cell.nonmortar, point), w_image = compose(cell.mortar, point);
-            const Point<3> x     = evaluate(nonmortar.mesh, cell.nonmortar_triangle, w);
-            const Point<3> image = evaluate(mortar.mesh, cell.mortar_triangle, w_image);
+            const Point<3> x     = non.point(cell.nonmortar_triangle, w);
+            const Point<3> image = mor.point(cell.mortar_triangle, w_image);
             const Vector3  force = (area / 3.) * non.value(stress, cell.nonmortar_triangle,
                                                            non.shape(cell.nonmortar_triangle, x));
             const auto     theta = mor.shape(cell.mortar_triangle, image);
@@ -232,16 +188,6 @@ namespace Signorini
       const ContactSurface &surface;
       std::vector<double>   penetration, complementarity;
     };
-
-    /// Unit normal at a point of a triangle; zero where there is none.
-    Vector3 normal_at(const ContactSurface &surface, const unsigned int triangle,
-                      const std::array<double, 3> &weights)
-    {
-      Vector3 n;
-      for (unsigned int i = 0; i < 3; ++i)
-        n += weights[i] * surface.mesh.vertex_normals[surface.mesh.triangles[triangle][i]];
-      return n.norm() > 0. ? n / n.norm() : n;
-    }
   } // namespace
 
 
@@ -261,9 +207,9 @@ namespace Signorini
         for (const auto &point : points)
           {
             const auto     w = compose(cell.nonmortar, point), w_image = compose(cell.mortar, point);
-            const Point<3> x     = evaluate(nonmortar.mesh, cell.nonmortar_triangle, w);
-            const Point<3> image = evaluate(mortar.mesh, cell.mortar_triangle, w_image);
-            const Vector3  n     = normal_at(nonmortar, cell.nonmortar_triangle, w);
+            const Point<3> x     = non.point(cell.nonmortar_triangle, w);
+            const Point<3> image = mor.point(cell.mortar_triangle, w_image);
+            const Vector3  n     = non.normal(cell.nonmortar_triangle, w);
             const auto     phi   = non.shape(cell.nonmortar_triangle, x);
             const double   gap   = prescribed_gap ? prescribed_gap(x) : (image - x) * n;
             const double   opening =
@@ -290,9 +236,8 @@ namespace Signorini
     for (const OverlayTriangle &cell : overlay)
       for (const auto &point : points)
         {
-          const Point<3> x =
-              evaluate(nonmortar.mesh, cell.nonmortar_triangle, compose(cell.nonmortar, point));
-          const Point<3> image = evaluate(mortar.mesh, cell.mortar_triangle, compose(cell.mortar, point));
+          const Point<3> x     = non.point(cell.nonmortar_triangle, compose(cell.nonmortar, point));
+          const Point<3> image = mor.point(cell.mortar_triangle, compose(cell.mortar, point));
           const Vector3  jump =
               non.value(displacement_nonmortar, cell.nonmortar_triangle,
                         non.shape(cell.nonmortar_triangle, x)) -
@@ -318,8 +263,8 @@ namespace Signorini
       if (nonmortar.faces[nonmortar.triangle_face[t]].owner == rank)
         for (const auto &point : points)
           {
-            const Point<3> x   = evaluate(nonmortar.mesh, t, point);
-            const Vector3  n   = normal_at(nonmortar, t, point);
+            const Point<3> x   = non.point(t, point);
+            const Vector3  n   = non.normal(t, point);
             const auto     phi = non.shape(t, x);
             Vector3        gap;
             if (image(gap, x, n))

@@ -8,4 +8,5 @@ signorini_add_layer(mortar
   pair_conflicts.cc
   pair_coupling.cc
   rigid_obstacle.cc
+  surface_values.cc
 )

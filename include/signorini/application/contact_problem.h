@@ -73,9 +73,6 @@ namespace Signorini
     }
   };
 
-  /// The contact stress lambda n (force per area) of a pair at all vertices of its nonmortar surface.
-  std::vector<Vector3> contact_stress(const Discretization &discretization, const unsigned int pair);
-
   /// Reads a problem, runs the nested iteration, collects results. Owns the objects; the algorithms are
   /// elsewhere.
   class ContactProblem

@@ -4,6 +4,7 @@
 #ifndef signorini_mesh_surface_extraction_h
 #define signorini_mesh_surface_extraction_h
 
+#include <signorini/algebra/node_partition.h>
 #include <signorini/mesh/contact_surface.h>
 #include <signorini/mesh/nodal_space.h>
 
@@ -19,6 +20,10 @@ namespace Signorini
                                          const std::set<dealii::types::boundary_id>               &ids,
                                          const std::function<FixedMask(const NodeIndex)>          &fixed,
                                          const std::function<bool(const dealii::Point<3> &point)> &region);
+
+  /// Collective. Values of a nodal field at all vertices of a surface, on all ranks.
+  std::vector<Vector3> vertex_values(const ContactSurface &surface, const NodePartition &partition,
+                                     const Vector &field);
 } // namespace Signorini
 
 #endif

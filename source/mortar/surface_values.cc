@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/mortar/surface_values.h>
+
+namespace Signorini
+{
+  using namespace dealii;
+
+  std::array<double, 3> compose(const std::array<std::array<double, 3>, 3> &corners,
+                                const std::array<double, 3>                &weights)
+  {
+    std::array<double, 3> result = {{0., 0., 0.}};
+    for (unsigned int c = 0; c < 3; ++c)
+      for (unsigned int i = 0; i < 3; ++i)
+        result[i] += weights[c] * corners[c][i];
+    return result;
+  }
+
+
+
+  SurfaceValues::SurfaceValues(const ContactSurface &surface)
+    : surface(surface)
+  {
+    maps.reserve(surface.faces.size());
+    for (unsigned int f = 0; f < surface.faces.size(); ++f)
+      maps.emplace_back(surface, f);
+  }
+
+
+
+  Point<3> SurfaceValues::point(const unsigned int triangle, const std::array<double, 3> &weights) const
+  {
+    const auto &t = surface.mesh.triangles[triangle];
+    const auto &x = surface.mesh.vertices;
+    return Point<3>(weights[0] * x[t[0]] + weights[1] * x[t[1]] + weights[2] * x[t[2]]);
+  }
+
+
+
+  Vector3 SurfaceValues::normal(const unsigned int triangle, const std::array<double, 3> &weights) const
+  {
+    const auto   &t    = surface.mesh.triangles[triangle];
+    const auto   &n    = surface.mesh.vertex_normals;
+    const Vector3 sum  = weights[0] * n[t[0]] + weights[1] * n[t[1]] + weights[2] * n[t[2]];
+    const double  norm = sum.norm();
+    return norm > 0. ? sum / norm : sum;
+  }
+
+
+
+  std::array<double, 4> SurfaceValues::shape(const unsigned int triangle, const Point<3> &p) const
+  {
+    const FaceMap &map = maps[surface.triangle_face[triangle]];
+    double         s = .5, t = .5;
+    map.invert(s, t, p);
+    return map.shape(s, t);
+  }
+
+
+
+  Vector3 SurfaceValues::value(const std::vector<Vector3> &field, const unsigned int triangle,
+                               const std::array<double, 4> &shape) const
+  {
+    AssertDimension(field.size(), surface.vertex_node.size());
+    const auto &corners = surface.faces[surface.triangle_face[triangle]].corners;
+    Vector3     sum;
+    for (unsigned int a = 0; a < 4; ++a)
+      sum += shape[a] * field[corners[a]];
+    return sum;
+  }
+} // namespace Signorini
