@@ -426,7 +426,10 @@ namespace Signorini
     setup_space();
     CycleResult cycle;
     for (unsigned int c = 1; c <= refinement.n_cycles(); ++c)
-      refine(refinement.mark(*discretization.space, c));
+      if (!refinement.is_adaptive(c))
+        refine(refinement.mark(*discretization.space, c));
+    if (parameters.refinement.adaptive_cycles > 0)
+      note("the meshes are without the adaptive cycles, which need solutions.");
     setup_contact(cycle);
     discretization.partition->reinit(discretization.displacement);
     discretization.displacement.update_ghost_values();

@@ -28,21 +28,20 @@ namespace Signorini
     };
     shapes.resize(body.first_boundary + known.size());
     is_user_shape.resize(shapes.size(), false);
-    // Tetrahedra follow the shapes of generated meshes; hexahedra have deal.II's manifolds for them.
-    if (body.mesh.cells[0].n_vertices == CellShape::tetrahedron)
-      for (const CurvedBoundary &curved : body.curved)
-        {
-          const types::boundary_id id = index(curved.name, section + "Mesh");
-          for (const auto &face : body.mesh.faces)
-            if (body.first_boundary + face.name == id)
-              {
-                const Point<3> x         = body.mesh.vertices[face.vertices[0]];
-                const bool     is_sphere = curved.shape == CurvedBoundary::sphere;
-                shapes[id] = make_round_shape(is_sphere, is_sphere ? x.norm() : std::hypot(x[0], x[1]),
-                                              body.placement);
-                break;
-              }
-        }
+    // Of generated meshes. Hexahedra have deal.II's manifolds for them, except where other shapes meet them.
+    for (const CurvedBoundary &curved : body.curved)
+      {
+        const types::boundary_id id = index(curved.name, section + "Mesh");
+        for (const auto &face : body.mesh.faces)
+          if (body.first_boundary + face.name == id)
+            {
+              const Point<3> x         = body.mesh.vertices[face.vertices[0]];
+              const bool     is_sphere = curved.shape == CurvedBoundary::sphere;
+              shapes[id] =
+                  make_round_shape(is_sphere, is_sphere ? x.norm() : std::hypot(x[0], x[1]), body.placement);
+              break;
+            }
+      }
     std::map<std::string, BoundaryShapePointer> made;
     for (const auto &[name, text] : split_named_entries(p.shapes, section + "Boundary shapes"))
       {
@@ -71,13 +70,20 @@ namespace Signorini
 
 
 
+  bool Bodies::is_sharp(const std::set<types::boundary_id> &ids) const
+  {
+    return std::any_of(sharp.begin(), sharp.end(), [&](const auto &pair) {
+      return ids.count(pair.first) > 0 && ids.count(pair.second) > 0;
+    });
+  }
+
+
+
   std::vector<BoundaryShapePointer> Bodies::shapes_of(const std::set<types::boundary_id> &ids) const
   {
     std::vector<BoundaryShapePointer> result;
-    for (const types::boundary_id a : ids)
-      for (const types::boundary_id b : ids)
-        if (sharp.count({a, b}) > 0)
-          return {};
+    if (is_sharp(ids))
+      return result;
     for (const types::boundary_id id : ids)
       if (shapes[id] && std::find(result.begin(), result.end(), shapes[id]) == result.end())
         result.push_back(shapes[id]);
@@ -209,7 +215,7 @@ namespace Signorini
 
   void Bodies::set_manifolds(types::manifold_id next)
   {
-    if (std::all_of(is_user_shape.begin(), is_user_shape.end(), [](const bool is) { return !is; }))
+    if (sharp.empty() && std::find(is_user_shape.begin(), is_user_shape.end(), true) == is_user_shape.end())
       return;
     using Ids = std::set<types::boundary_id>;
     std::map<unsigned int, Ids>       ids_of_line;
@@ -223,15 +229,22 @@ namespace Signorini
         tria->set_manifold(next++, ShapeManifold(on));
       return it->second;
     };
-    const auto has_shape = [&](const Ids &ids) {
-      return std::any_of(ids.begin(), ids.end(), [&](const auto id) { return is_user_shape[id]; });
+    // What is neither keeps the manifolds of generated meshes.
+    const auto is_ours = [&](const Ids &ids) {
+      return is_sharp(ids) ||
+             std::any_of(ids.begin(), ids.end(), [&](const auto id) { return is_user_shape[id]; });
+    };
+    const auto has_sharp_edge = [&](const types::boundary_id id) {
+      return std::any_of(sharp.begin(), sharp.end(),
+                         [&](const auto &pair) { return pair.first == id || pair.second == id; });
     };
     for (const auto &cell : tria->cell_iterators_on_level(0))
       for (const unsigned int f : cell->face_indices())
         if (cell->face(f)->at_boundary())
           {
             const types::boundary_id id = cell->face(f)->boundary_id();
-            if (is_user_shape[id])
+            // deal.II's sphere takes the mean radius of the points around: not beside a straight edge.
+            if (is_user_shape[id] || (shapes[id] && has_sharp_edge(id)))
               cell->face(f)->set_manifold_id(manifold({id}));
             for (unsigned int l = 0; l < 4; ++l)
               ids_of_line[cell->face(f)->line_index(l)].insert(id);
@@ -239,7 +252,7 @@ namespace Signorini
     for (const auto &cell : tria->cell_iterators_on_level(0))
       for (const unsigned int l : cell->line_indices())
         if (const auto it = ids_of_line.find(cell->line_index(l));
-            it != ids_of_line.end() && has_shape(it->second))
+            it != ids_of_line.end() && is_ours(it->second))
           cell->line(l)->set_manifold_id(manifold(it->second));
   }
 } // namespace Signorini

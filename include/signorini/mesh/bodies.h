@@ -161,6 +161,7 @@ namespace Signorini
     void follow_shapes();
     void assess_hexahedra();
     void set_manifolds(dealii::types::manifold_id next);
+    bool is_sharp(const std::set<dealii::types::boundary_id> &ids) const;
     /// The shapes that a point on the given boundaries has to lie on; none on sharp edges.
     std::vector<BoundaryShapePointer> shapes_of(const std::set<dealii::types::boundary_id> &ids) const;
     void                              create(const std::vector<Placed> &placed);

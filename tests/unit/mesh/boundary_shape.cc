@@ -212,6 +212,41 @@ TEST(BoundaryShape, MeshesFollowOnBothKindsOfCells)
 
 
 
+// The rim of a half ball is round, unless it is sharp; on both kinds of cells, without shapes of the
+// parameters.
+TEST(BoundaryShape, SharpEdgesOfGeneratedMeshes)
+{
+  for (const bool tetrahedra : {false, true})
+    for (const bool is_sharp : {false, true})
+      {
+        BodyParameters p;
+        p.name                  = "body";
+        p.mesh                  = "half ball";
+        p.convert_to_tetrahedra = tetrahedra;
+        if (is_sharp)
+          p.sharp_edges = "sphere + top";
+        Bodies bodies(MPI_COMM_WORLD, {p}, ".");
+        refine(bodies);
+        const NodalSpace space(MPI_COMM_WORLD, bodies.mesh());
+        const double     off_sphere =
+            largest_on(bodies, space, "sphere", [](const Point<3> &x) { return x.norm() - 1.; });
+        const double off_inside = largest_on(
+            bodies, space, "sphere", [](const Point<3> &x) { return x[2] < -1e-10 ? x.norm() - 1. : 0.; });
+        EXPECT_LT(off_inside, 1e-12) << tetrahedra << is_sharp;
+        if (is_sharp)
+          {
+            // The chords of an eighth of the circle at least.
+            EXPECT_GT(off_sphere, .01) << tetrahedra;
+          }
+        else
+          {
+            EXPECT_LT(off_sphere, 1e-12) << tetrahedra;
+          }
+      }
+}
+
+
+
 // A node that would turn a cell over stops before, and says so.
 TEST(NodeMovement, NoCellInverts)
 {
