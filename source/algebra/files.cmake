@@ -1,5 +1,6 @@
 signorini_add_layer(algebra
   algebraic_multigrid.cc
+  block_row.cc
   nodal_transfer.cc
   node_block_matrix.cc
   node_partition.cc

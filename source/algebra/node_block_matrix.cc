@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/algebra/block_row.h>
 #include <signorini/algebra/node_block_matrix.h>
 
 #include <deal.II/base/mpi.h>
@@ -178,24 +179,10 @@ namespace Signorini
     src.update_ghost_values();
     const double *const       x = src.begin();
     double *const             y = dst.begin();
-    const unsigned int *const c = columns.data();
-    const double             *a = values.data();
-    const unsigned int        n = n_rows();
+    const unsigned int n = n_rows();
     for (unsigned int i = 0; i < n; ++i)
-      {
-        double            s0 = 0., s1 = 0., s2 = 0.;
-        const std::size_t end = row_start[i + 1];
-        for (std::size_t k = row_start[i]; k < end; ++k, a += 9)
-          {
-            const double *const v = x + dim * static_cast<std::size_t>(c[k]);
-            s0 += a[0] * v[0] + a[1] * v[1] + a[2] * v[2];
-            s1 += a[3] * v[0] + a[4] * v[1] + a[5] * v[2];
-            s2 += a[6] * v[0] + a[7] * v[1] + a[8] * v[2];
-          }
-        y[dim * i]     = s0;
-        y[dim * i + 1] = s1;
-        y[dim * i + 2] = s2;
-      }
+      multiply_block_row(y + dim * i, values.data() + 9 * row_start[i], columns.data() + row_start[i],
+                         row_start[i + 1] - row_start[i], x);
   }
 
 

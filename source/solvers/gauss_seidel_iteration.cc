@@ -22,7 +22,7 @@ namespace Signorini
         correction.copy_locally_owned_data_from(v);
         for (const auto direction : {ProjectedGaussSeidel::forward, ProjectedGaussSeidel::backward})
           {
-            smoother.sweep(v, problem.rhs, direction);
+            smoother.smooth(v, problem.rhs, {1, 1, 0}, direction);
             check_substep(report, energy, v, problem);
           }
         correction.sadd(-1., 1., v);

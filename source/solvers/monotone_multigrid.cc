@@ -118,11 +118,7 @@ namespace Signorini
     Work            &below  = work[level - 1];
     const HalfSpaces spaces = half_spaces_of(level);
     here.smoother->set_half_spaces(spaces);
-    w.correction = 0.;
-    here.smoother->smooth(w.correction, w.rhs, parameters.smoothing, ProjectedGaussSeidel::forward);
-
-    here.matrix.vmult(w.residual, w.correction);
-    w.residual.sadd(-1., 1., w.rhs);
+    here.smoother->smooth_from_zero(w.correction, w.rhs, parameters.smoothing, w.residual);
     below.rhs = 0.;
     restrict_defect(hierarchy.level(level - 1), below.rhs, w.residual);
     restrict_room(level - 1, spaces, w.correction, nullptr);
@@ -169,7 +165,7 @@ namespace Signorini
         correct_level(coarse);
         hierarchy.level(coarse).to_finer.prolongate(work[coarse].finer, work[coarse].correction);
         v.zero_out_ghost_values();
-        add_searched(v, work[coarse].finer, residual, problem);
+        add_searched(v, work[coarse].finer, residual, problem.half_spaces, problem.semidefinite);
         check_substep(report, energy, v, problem);
 
         smoother.smooth(v, problem.rhs, parameters.smoothing, ProjectedGaussSeidel::backward);

@@ -117,7 +117,7 @@ namespace Signorini
 
 
   void ObstacleSolver::add_searched(Vector &v, const Vector &c, Vector &residual,
-                                    const ObstacleProblem &problem) const
+                                    const HalfSpaces &half_spaces, const bool semidefinite) const
   {
     // The slope must not see the contact forces: they are larger than the residual by orders of magnitude.
     hierarchy.finest().smoother->restrict_to_tangents(residual);
@@ -125,13 +125,13 @@ namespace Signorini
     product.reinit(v);
     hierarchy.finest().matrix.vmult(product, c);
     const double slope = residual * c, curvature = product * c;
-    double       longest = std::max(1., admissible_step(v, c, problem.half_spaces));
+    double       longest = std::max(1., admissible_step(v, c, half_spaces));
     // Where c is close to a motion that costs nothing, its curvature is rounding.
-    if (problem.semidefinite)
+    if (semidefinite)
       longest = std::min(longest, 2.);
     if (curvature > 0. && slope > 0.)
       v.add(std::min(slope / curvature, longest), c);
-    else if (problem.semidefinite && slope > 0.)
+    else if (semidefinite && slope > 0.)
       v.add(1., c);
   }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/algebra/block_row.h>
 #include <signorini/solvers/projected_gauss_seidel.h>
 
 #include <deal.II/base/mpi.h>
@@ -16,9 +17,32 @@ namespace Signorini
     , blocks(matrix, all_rows)
     , interface_rows(all_rows.subset({}))
     , inverse_diagonal(9 * static_cast<std::size_t>(matrix.n_rows()))
+    , sees_interface(matrix.n_rows(), false)
     , half_space_of_row(matrix.n_rows(), -1)
   {
+    split_rows();
     update_diagonal();
+  }
+
+
+
+  void ProjectedGaussSeidel::split_rows()
+  {
+    // The last phase is for nodes that no other rank sees.
+    std::vector<bool> is_inner(matrix.n_rows(), false);
+    for (const unsigned int row : all_rows.phases().back())
+      is_inner[row] = true;
+    first_above.assign(matrix.n_rows(), 0);
+    for (const unsigned int row : all_rows.phases().back())
+      {
+        const unsigned int *const columns = matrix.column_data();
+        const std::size_t         end     = matrix.row_end(row);
+        const std::size_t         above =
+            std::upper_bound(columns + matrix.row_begin(row) + 1, columns + end, row) - columns;
+        if (std::all_of(columns + above, columns + end,
+                        [&](const unsigned int column) { return column < matrix.n_rows() && is_inner[column]; }))
+          first_above[row] = above;
+      }
   }
 
 
@@ -65,9 +89,22 @@ namespace Signorini
 
 
 
+  void ProjectedGaussSeidel::set_bounds_from(const HalfSpaces &half_spaces, const Vector &v)
+  {
+    for (std::size_t p = 0; p < constraints.size(); ++p)
+      constraints.bounds[p] = half_spaces.bounds[p] - half_spaces.normal_part(p, v);
+  }
+
+
+
   void ProjectedGaussSeidel::set_interface(const std::vector<unsigned int> &rows)
   {
     interface_rows = all_rows.subset(rows);
+    std::fill(sees_interface.begin(), sees_interface.end(), false);
+    for (const unsigned int row : rows)
+      for (std::size_t k = matrix.row_begin(row); k < matrix.row_end(row); ++k)
+        if (matrix.column(k) < matrix.n_rows())
+          sees_interface[matrix.column(k)] = true;
   }
 
 
@@ -85,38 +122,35 @@ namespace Signorini
 
 
   template <ProjectedGaussSeidel::Direction direction>
-  inline void ProjectedGaussSeidel::relax(double *const v, const double *const rhs, const unsigned int row)
+  inline void ProjectedGaussSeidel::relax(double *const v, const double *const rhs, const unsigned int row,
+                                          const SweepOptions &options)
   {
-    double                    s0 = rhs[dim * row], s1 = rhs[dim * row + 1], s2 = rhs[dim * row + 2];
-    const std::size_t         begin = matrix.row_begin(row) + 1, end = matrix.row_end(row);
-    const unsigned int *const columns  = matrix.column_data();
-    const auto                subtract = [&](const std::size_t k) {
-      const double *const a = matrix.block(k);
-      const double *const x = v + dim * static_cast<std::size_t>(columns[k]);
-      s0 -= a[0] * x[0] + a[1] * x[1] + a[2] * x[2];
-      s1 -= a[3] * x[0] + a[4] * x[1] + a[5] * x[2];
-      s2 -= a[6] * x[0] + a[7] * x[1] + a[8] * x[2];
-    };
-    // Memory is read in one direction throughout, also within a row: the processor fetches ahead.
-    if (direction == forward)
-      for (std::size_t k = begin; k < end; ++k)
-        subtract(k);
-    else
-      for (std::size_t k = end; k > begin; --k)
-        subtract(k - 1);
+    double            sum[3];
+    const std::size_t begin = matrix.row_begin(row) + 1;
+    const std::size_t end =
+        options.from_zero && first_above[row] != 0 ? first_above[row] : matrix.row_end(row);
+    // Memory is read in one direction throughout, also within a row.
+    (direction == forward ? multiply_block_row : multiply_block_row_backward)(
+        sum, matrix.block(begin), matrix.column_data() + begin, end - begin, v);
+    const double s0 = rhs[dim * row] - sum[0], s1 = rhs[dim * row + 1] - sum[1],
+                 s2 = rhs[dim * row + 2] - sum[2];
     const double *const d = inverse_diagonal.data() + 9 * static_cast<std::size_t>(row);
     double *const       y = v + dim * static_cast<std::size_t>(row);
+    const double        old[3] = {y[0], y[1], y[2]};
     y[0]                  = d[0] * s0 + d[1] * s1 + d[2] * s2;
     y[1]                  = d[3] * s0 + d[4] * s1 + d[5] * s2;
     y[2]                  = d[6] * s0 + d[7] * s1 + d[8] * s2;
     if (half_space_of_row[row] >= 0)
       project_row(y, half_space_of_row[row]);
+    if (options.change != nullptr)
+      for (unsigned int c = 0; c < dim; ++c)
+        options.change[dim * static_cast<std::size_t>(row) + c] = y[c] - old[c];
   }
 
 
 
   void ProjectedGaussSeidel::run(Vector &v, const Vector &rhs, const SweepSchedule &schedule,
-                                 const Direction direction)
+                                 const Direction direction, const SweepOptions &options)
   {
     const std::size_t n_phases = schedule.phases().size();
     for (std::size_t i = 0; i < n_phases; ++i)
@@ -125,10 +159,10 @@ namespace Signorini
         const auto &rows = schedule.phases()[direction == forward ? i : n_phases - 1 - i];
         if (direction == forward)
           for (auto row = rows.begin(); row != rows.end(); ++row)
-            relax<forward>(v.begin(), rhs.begin(), *row);
+            relax<forward>(v.begin(), rhs.begin(), *row, options);
         else
           for (auto row = rows.rbegin(); row != rows.rend(); ++row)
-            relax<backward>(v.begin(), rhs.begin(), *row);
+            relax<backward>(v.begin(), rhs.begin(), *row, options);
       }
   }
 
@@ -136,18 +170,14 @@ namespace Signorini
 
   void ProjectedGaussSeidel::sweep(Vector &v, const Vector &rhs, const Direction direction)
   {
-    if (direction == backward)
-      blocks.sweep(v, rhs, false, constraints, half_space_of_row, is_active);
-    run(v, rhs, all_rows, direction);
-    if (direction == forward)
-      blocks.sweep(v, rhs, true, constraints, half_space_of_row, is_active);
+    run(v, rhs, all_rows, direction, {});
   }
 
 
 
   void ProjectedGaussSeidel::interface_sweep(Vector &v, const Vector &rhs, const Direction direction)
   {
-    run(v, rhs, interface_rows, direction);
+    run(v, rhs, interface_rows, direction, {});
   }
 
 
@@ -156,13 +186,92 @@ namespace Signorini
                                     const Direction direction)
   {
     if (direction == forward)
-      for (unsigned int i = 0; i < parameters.n_pre; ++i)
-        sweep(v, rhs, direction);
+      {
+        for (unsigned int i = 0; i < parameters.n_pre; ++i)
+          sweep(v, rhs, direction);
+        blocks.sweep(v, rhs, true, constraints, half_space_of_row, is_active);
+      }
     for (unsigned int i = 0; i < parameters.n_interface_sweeps; ++i)
       interface_sweep(v, rhs, direction);
     if (direction == backward)
-      for (unsigned int i = 0; i < parameters.n_post; ++i)
-        sweep(v, rhs, direction);
+      {
+        blocks.sweep(v, rhs, false, constraints, half_space_of_row, is_active);
+        for (unsigned int i = 0; i < parameters.n_post; ++i)
+          sweep(v, rhs, direction);
+      }
+  }
+
+
+
+  void ProjectedGaussSeidel::residual_after(Vector &residual, const Vector &v, const Vector &rhs,
+                                            const Direction direction, const bool with_interface_sweeps)
+  {
+    // When a node was visited its equation held, up to projections; what came after is the change of the
+    // nodes visited later.
+    v.update_ghost_values();
+    const unsigned int *const columns = matrix.column_data();
+    for (unsigned int row = 0; row < matrix.n_rows(); ++row)
+      {
+        double *const r = residual.begin() + dim * static_cast<std::size_t>(row);
+        if (first_above[row] == 0 || half_space_of_row[row] >= 0 ||
+            (with_interface_sweeps && sees_interface[row]))
+          {
+            const std::size_t begin = matrix.row_begin(row);
+            multiply_block_row(r, matrix.block(begin), columns + begin, matrix.row_end(row) - begin, v.begin());
+            for (unsigned int c = 0; c < dim; ++c)
+              r[c] = rhs.local_element(dim * row + c) - r[c];
+          }
+        else
+          {
+            const std::size_t begin = direction == forward ? first_above[row] : matrix.row_begin(row) + 1;
+            const std::size_t end   = direction == forward ? matrix.row_end(row) : first_above[row];
+            multiply_block_row(r, matrix.block(begin), columns + begin, end - begin, change.data());
+            for (unsigned int c = 0; c < dim; ++c)
+              r[c] = -r[c];
+          }
+      }
+  }
+
+
+
+  void ProjectedGaussSeidel::smooth_from_zero(Vector &v, const Vector &rhs,
+                                              const SmoothingParameters &parameters, Vector &residual)
+  {
+    v = 0.;
+    change.resize(dim * static_cast<std::size_t>(matrix.n_rows()));
+    for (unsigned int i = 0; i < parameters.n_pre; ++i)
+      run(v, rhs, all_rows, forward, {i == 0, i + 1 == parameters.n_pre ? change.data() : nullptr});
+    blocks.sweep(v, rhs, true, constraints, half_space_of_row, is_active);
+    for (unsigned int i = 0; i < parameters.n_interface_sweeps; ++i)
+      interface_sweep(v, rhs, forward);
+    if (parameters.n_pre > 0 && blocks.empty())
+      residual_after(residual, v, rhs, forward, parameters.n_interface_sweeps > 0);
+    else
+      {
+        matrix.vmult(residual, v);
+        residual.sadd(-1., 1., rhs);
+      }
+  }
+
+
+
+  void ProjectedGaussSeidel::smooth_to_residual(Vector &v, const Vector &rhs,
+                                                const SmoothingParameters &parameters, Vector &residual)
+  {
+    SmoothingParameters all_but_last = parameters;
+    all_but_last.n_post              = std::max(parameters.n_post, 1u) - 1;
+    smooth(v, rhs, all_but_last, backward);
+    if (parameters.n_post > 0)
+      {
+        change.resize(dim * static_cast<std::size_t>(matrix.n_rows()));
+        run(v, rhs, all_rows, backward, {false, change.data()});
+        residual_after(residual, v, rhs, backward, false);
+      }
+    else
+      {
+        matrix.vmult(residual, v);
+        residual.sadd(-1., 1., rhs);
+      }
   }
 
 

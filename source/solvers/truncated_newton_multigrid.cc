@@ -14,6 +14,10 @@ namespace Signorini
     : ObstacleSolver(hierarchy, parameters)
     , cycle(hierarchy, parameters.smoothing, hierarchy.n_levels() - 2)
   {
+    const NodePartition &coarse = hierarchy.level(hierarchy.n_levels() - 2).matrix.partition();
+    coarse.reinit(coarse_defect);
+    coarse.reinit(coarse_correction);
+    hierarchy.finest().matrix.partition().reinit(step);
   }
 
 
@@ -26,67 +30,58 @@ namespace Signorini
 
 
 
-  double TruncatedNewtonMultigrid::correct(Vector &v, const ObstacleProblem &problem, const bool search)
+  void TruncatedNewtonMultigrid::correct(Vector &z, Vector &residual, const ObstacleProblem &problem,
+                                         const bool search)
   {
-    const NodeBlockMatrix &matrix   = hierarchy.finest().matrix;
-    ProjectedGaussSeidel  &smoother = *hierarchy.finest().smoother;
-    MultigridLevel        &coarse   = hierarchy.level(hierarchy.n_levels() - 2);
-    if (hierarchy.truncate(problem.half_spaces, smoother.active()))
+    ProjectedGaussSeidel &smoother = *hierarchy.finest().smoother;
+    MultigridLevel       &coarse   = hierarchy.level(hierarchy.n_levels() - 2);
+    if (hierarchy.truncate(smoother.half_spaces(), smoother.active()))
       ++n_updates;
-
-    Vector residual, coarse_defect, coarse_correction, c;
-    residual.reinit(v);
-    matrix.vmult(residual, v);
-    residual.sadd(-1., 1., problem.rhs);
-    const double square = v * problem.rhs - v * residual;
-
-    coarse.matrix.partition().reinit(coarse_defect);
-    coarse.matrix.partition().reinit(coarse_correction);
+    coarse_defect = 0.;
     restrict_defect(coarse, coarse_defect, residual);
     cycle.apply(coarse_correction, coarse_defect);
 
-    c.reinit(v);
-    coarse.to_finer.prolongate(c, coarse_correction);
+    coarse.to_finer.prolongate(step, coarse_correction);
     if (problem.semidefinite)
       {
         // Motions that cost nothing come out very long: shortened as a whole they stay motions.
-        smoother.restrict_to_tangents(c);
-        c *= std::min(1., admissible_step(v, c, problem.half_spaces));
+        smoother.restrict_to_tangents(step);
+        step *= std::min(1., admissible_step(z, step, smoother.half_spaces()));
       }
     else
-      smoother.project_correction(c, v);
-    v.zero_out_ghost_values();
-    if (!search)
-      {
-        v.add(1., c);
-        return square;
-      }
-    add_searched(v, c, residual, problem);
-    return square;
+      smoother.project_correction(step, z);
+    z.zero_out_ghost_values();
+    if (search)
+      add_searched(z, step, residual, smoother.half_spaces(), problem.semidefinite);
+    else
+      z += step;
   }
 
 
 
-  bool TruncatedNewtonMultigrid::accelerate(const Vector &start, const Vector &residual, Vector &z,
-                                            Vector &az, const HalfSpaces &half_spaces)
+  bool TruncatedNewtonMultigrid::accelerate(const Vector &v, const Vector &residual, Vector &z, Vector &az,
+                                            const HalfSpaces &half_spaces)
   {
     const ProjectedGaussSeidel &smoother = *hierarchy.finest().smoother;
     if (has_direction)
       {
         const double beta = -(z * direction_product) / (direction * direction_product);
-        z.add(beta, direction);
-        az.add(beta, direction_product);
+        direction.sadd(beta, 1., z);
+        direction_product.sadd(beta, 1., az);
       }
-    const double curvature = z * az;
-    const double slope     = residual * z - smoother.normal_product(residual, z);
-    const double step      = curvature > 0. ? slope / curvature : 0.;
-    if (!(step > 0.) || step > admissible_step(start, z, half_spaces))
+    else
+      {
+        direction         = z;
+        direction_product = az;
+      }
+    const double curvature = direction * direction_product;
+    const double slope     = residual * direction - smoother.normal_product(residual, direction);
+    const double length    = curvature > 0. ? slope / curvature : 0.;
+    if (!(length > 0.) || length > admissible_step(v, direction, half_spaces))
       return false;
-    direction         = z;
-    direction_product = az;
-    has_direction     = true;
-    z *= step;
-    az *= step;
+    has_direction = true;
+    z.equ(length, direction);
+    az.equ(length, direction_product);
     return true;
   }
 
@@ -103,53 +98,56 @@ namespace Signorini
     has_direction = false;
 
     ConvergenceReport report;
-    Vector            start, residual, correction, product;
-    for (Vector *vector : {&start, &residual, &correction, &product})
+    // One iteration: v + z from v. The residuals are those of v and v + z.
+    Vector z, product, residual, new_residual;
+    for (Vector *vector : {&z, &product, &residual, &new_residual})
       vector->reinit(v);
     matrix.vmult(residual, v);
     residual.sadd(-1., 1., problem.rhs);
-    bool   rests  = false;
-    double energy = std::numeric_limits<double>::infinity();
+    bool       rests  = false;
+    double     energy = std::numeric_limits<double>::infinity();
+    const auto check  = [&](const bool with_correction) {
+      if (!parameters.check_monotonicity)
+        return;
+      Vector now = v;
+      now.zero_out_ghost_values();
+      if (with_correction)
+        now += z;
+      check_substep(report, energy, now, problem);
+    };
     while (goes_on(report))
       {
         const std::vector<unsigned char> active = smoother.active();
-        start.copy_locally_owned_data_from(v);
-        smoother.smooth(v, problem.rhs, parameters.smoothing, ProjectedGaussSeidel::forward);
-        check_substep(report, energy, v, problem);
-        bool         keeps_active = smoother.active() == active;
-        const double square       = correct(v, problem, !rests);
+        smoother.set_bounds_from(problem.half_spaces, v);
+        smoother.smooth_from_zero(z, residual, parameters.smoothing, new_residual);
+        check(true);
+        bool keeps_active = smoother.active() == active;
+        correct(z, new_residual, problem, !rests);
         if (!rests)
-          check_substep(report, energy, v, problem);
-        smoother.smooth(v, problem.rhs, parameters.smoothing, ProjectedGaussSeidel::backward);
+          check(true);
+        smoother.smooth_to_residual(z, residual, parameters.smoothing, new_residual);
         keeps_active = all_ranks(keeps_active && smoother.active() == active);
 
-        correction.copy_locally_owned_data_from(v);
-        correction -= start;
-        matrix.vmult(product, correction);
-        double norm = std::sqrt(std::max(0., correction * product));
-        rests       = keeps_active && parameters.method == SolverMethod::accelerated;
-        if (rests && accelerate(start, residual, correction, product, problem.half_spaces))
-          {
-            v.copy_locally_owned_data_from(start);
-            v += correction;
-            norm = std::sqrt(std::max(0., correction * product));
-          }
+        product = residual;
+        product -= new_residual;
+        rests = keeps_active && parameters.method == SolverMethod::accelerated &&
+                accelerate(v, residual, z, product, problem.half_spaces);
+        if (rests)
+          residual -= product;
         else
           {
-            if (rests)
-              {
-                // accelerate() has changed the correction.
-                correction.copy_locally_owned_data_from(v);
-                correction -= start;
-                matrix.vmult(product, correction);
-              }
-            rests = has_direction = false;
+            has_direction = false;
+            residual.swap(new_residual);
           }
+        const double norm = std::sqrt(std::max(0., z * product));
+        v.zero_out_ghost_values();
+        z.zero_out_ghost_values();
+        v += z;
         // Rounding along motions that cost nothing feeds on itself through old directions.
         if (problem.semidefinite && !report.history.empty() && norm > report.history.back())
           rests = has_direction = false;
-        residual -= product;
-        check_substep(report, energy, v, problem);
+        check(false);
+        const double square = v * problem.rhs - v * residual;
         book_iteration(report, norm, std::sqrt(std::max(0., square)), monitor);
       }
     close(report, v, problem);

@@ -78,7 +78,8 @@ namespace Signorini
 
     /// Collective. v += t c with the t that minimizes the energy, as far as it is admissible. c is admissible
     /// for v and tangential at active nodes; residual = b - A v is changed.
-    void add_searched(Vector &v, const Vector &c, Vector &residual, const ObstacleProblem &problem) const;
+    void add_searched(Vector &v, const Vector &c, Vector &residual, const HalfSpaces &half_spaces,
+                      const bool semidefinite) const;
 
     /// Collective. Books an iteration with the norm of its correction and that of the iterate, and decides
     /// whether it was the last one: converged, or stagnant at rounding.

@@ -44,21 +44,40 @@ namespace Signorini
     /// Sets the half-spaces; without a call there are none. Collective in nothing.
     void set_half_spaces(const HalfSpaces &half_spaces);
 
+    /// Replaces the bounds by what v leaves of those of `half_spaces`, which are otherwise the ones that were
+    /// set: the half-spaces of corrections of v.
+    void set_bounds_from(const HalfSpaces &half_spaces, const Vector &v);
+
+    /// What was set last.
+    const HalfSpaces &half_spaces() const
+    {
+      return constraints;
+    }
+
     /// Chooses the rows of interface_sweep().
     void set_interface(const std::vector<unsigned int> &rows);
 
-    /// One sweep over all rows: v <- minimizer row by row. Energy never rises. Where cells are stretched it
-    /// also goes over lines and planes of nodes (StrongBlocks), after the nodes forward, before them
-    /// backward.
+    /// One sweep over all rows: v <- minimizer row by row. Energy never rises.
     void sweep(Vector &v, const Vector &rhs, const Direction direction);
 
     /// One sweep over the interface rows only.
     void interface_sweep(Vector &v, const Vector &rhs, const Direction direction);
 
     /// The sweeps before (forward) or after (backward) a coarse correction, interface sweeps nearest to it.
-    /// One is the adjoint of the other, so that a cycle is symmetric.
+    /// Where cells are stretched, one over lines and planes of nodes (StrongBlocks) between them. One is the
+    /// adjoint of the other, so that a cycle is symmetric.
     void smooth(Vector &v, const Vector &rhs, const SmoothingParameters &parameters,
                 const Direction direction);
+
+    /// smooth() forward from v = 0, and residual = rhs - A v. Cheaper by a sweep than the two by themselves: the
+    /// first sweep reads only the blocks of nodes visited before, the residual after the last one only those of
+    /// nodes visited later.
+    void smooth_from_zero(Vector &v, const Vector &rhs, const SmoothingParameters &parameters,
+                          Vector &residual);
+
+    /// smooth() backward, and residual = rhs - A v at the cost of half a sweep.
+    void smooth_to_residual(Vector &v, const Vector &rhs, const SmoothingParameters &parameters,
+                            Vector &residual);
 
     /// For each half-space whether the last visit projected onto its plane.
     const std::vector<unsigned char> &active() const
@@ -85,17 +104,40 @@ namespace Signorini
     double sweep_bytes() const;
 
   private:
+    /// What a sweep may leave out and has to leave behind.
+    struct SweepOptions
+    {
+      /// v is zero at nodes that were not visited.
+      bool from_zero = false;
+      /// Where to write the change of v, for residual_after(); may be null.
+      double *change = nullptr;
+    };
+
     template <Direction direction>
-    void relax(double *v, const double *rhs, const unsigned int row);
+    void relax(double *v, const double *rhs, const unsigned int row, const SweepOptions &options);
 
     void project_row(double *v_row, const int half_space);
 
-    void run(Vector &v, const Vector &rhs, const SweepSchedule &schedule, const Direction direction);
+    void run(Vector &v, const Vector &rhs, const SweepSchedule &schedule, const Direction direction,
+             const SweepOptions &options);
+
+    /// Splits the rows at the diagonal.
+    void split_rows();
+
+    /// residual = rhs - A v after a sweep that changed v by `change`, and interface sweeps.
+    void residual_after(Vector &residual, const Vector &v, const Vector &rhs, const Direction direction,
+                        const bool with_interface_sweeps);
 
     const NodeBlockMatrix     &matrix;
     SweepSchedule              all_rows;
     StrongBlocks               blocks;
     SweepSchedule              interface_rows;
+    /// Position of the first block above the diagonal, of rows whose nodes are visited in ascending order with
+    /// all their neighbours; 0 for others (next to other ranks).
+    std::vector<std::size_t> first_above;
+    /// Rows that interface sweeps change or that see such rows.
+    std::vector<bool>          sees_interface;
+    std::vector<double>        change;
     std::vector<double>        inverse_diagonal;
     HalfSpaces                 constraints;
     std::vector<int>           half_space_of_row;

@@ -31,17 +31,19 @@ namespace Signorini
     ConvergenceReport solve(Vector &v, const ObstacleProblem &problem, const Monitor &monitor) override;
 
   private:
-    /// Truncated V-cycle, projection and, if wanted, exact line search; returns v·(b − residual).
-    double correct(Vector &v, const ObstacleProblem &problem, const bool search);
+    /// Adds the truncated V-cycle of the residual to the correction z, projected and, if wanted, with exact
+    /// line search. The residual may be changed.
+    void correct(Vector &z, Vector &residual, const ObstacleProblem &problem, const bool search);
 
-    /// One accelerated step from `start` with the correction z, az = A z; false if it is not to be taken.
-    /// On success z and az are the correction made and its product with A.
-    bool accelerate(const Vector &start, const Vector &residual, Vector &z, Vector &az,
+    /// One accelerated step from v with the correction z, az = A z; false, and nothing changed but the
+    /// direction, if it is not to be taken. On success z and az are the correction made and its product with A.
+    bool accelerate(const Vector &v, const Vector &residual, Vector &z, Vector &az,
                     const HalfSpaces &half_spaces);
 
     bool all_ranks(const bool condition) const;
 
     VCycle       cycle;
+    Vector       coarse_defect, coarse_correction, step;
     unsigned int n_updates = 0;
     /// Last direction and its product with A; empty at a restart.
     Vector direction, direction_product;
