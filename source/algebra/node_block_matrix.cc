@@ -177,9 +177,9 @@ namespace Signorini
   void NodeBlockMatrix::vmult(Vector &dst, const Vector &src) const
   {
     src.update_ghost_values();
-    const double *const       x = src.begin();
-    double *const             y = dst.begin();
-    const unsigned int n = n_rows();
+    const double *const x = src.begin();
+    double *const       y = dst.begin();
+    const unsigned int  n = n_rows();
     for (unsigned int i = 0; i < n; ++i)
       multiply_block_row(y + dim * i, values.data() + 9 * row_start[i], columns.data() + row_start[i],
                          row_start[i + 1] - row_start[i], x);

@@ -39,8 +39,9 @@ namespace Signorini
         const std::size_t         end     = matrix.row_end(row);
         const std::size_t         above =
             std::upper_bound(columns + matrix.row_begin(row) + 1, columns + end, row) - columns;
-        if (std::all_of(columns + above, columns + end,
-                        [&](const unsigned int column) { return column < matrix.n_rows() && is_inner[column]; }))
+        if (std::all_of(columns + above, columns + end, [&](const unsigned int column) {
+              return column < matrix.n_rows() && is_inner[column];
+            }))
           first_above[row] = above;
       }
   }
@@ -133,13 +134,13 @@ namespace Signorini
     (direction == forward ? multiply_block_row : multiply_block_row_backward)(
         sum, matrix.block(begin), matrix.column_data() + begin, end - begin, v);
     const double s0 = rhs[dim * row] - sum[0], s1 = rhs[dim * row + 1] - sum[1],
-                 s2 = rhs[dim * row + 2] - sum[2];
-    const double *const d = inverse_diagonal.data() + 9 * static_cast<std::size_t>(row);
-    double *const       y = v + dim * static_cast<std::size_t>(row);
+                 s2            = rhs[dim * row + 2] - sum[2];
+    const double *const d      = inverse_diagonal.data() + 9 * static_cast<std::size_t>(row);
+    double *const       y      = v + dim * static_cast<std::size_t>(row);
     const double        old[3] = {y[0], y[1], y[2]};
-    y[0]                  = d[0] * s0 + d[1] * s1 + d[2] * s2;
-    y[1]                  = d[3] * s0 + d[4] * s1 + d[5] * s2;
-    y[2]                  = d[6] * s0 + d[7] * s1 + d[8] * s2;
+    y[0]                       = d[0] * s0 + d[1] * s1 + d[2] * s2;
+    y[1]                       = d[3] * s0 + d[4] * s1 + d[5] * s2;
+    y[2]                       = d[6] * s0 + d[7] * s1 + d[8] * s2;
     if (half_space_of_row[row] >= 0)
       project_row(y, half_space_of_row[row]);
     if (options.change != nullptr)
@@ -217,7 +218,8 @@ namespace Signorini
             (with_interface_sweeps && sees_interface[row]))
           {
             const std::size_t begin = matrix.row_begin(row);
-            multiply_block_row(r, matrix.block(begin), columns + begin, matrix.row_end(row) - begin, v.begin());
+            multiply_block_row(r, matrix.block(begin), columns + begin, matrix.row_end(row) - begin,
+                               v.begin());
             for (unsigned int c = 0; c < dim; ++c)
               r[c] = rhs.local_element(dim * row + c) - r[c];
           }

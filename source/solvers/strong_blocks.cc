@@ -18,6 +18,8 @@ namespace Signorini
     constexpr double stretched = .235;
     /// Strong couplings have this part of the most negative one.
     constexpr double strong = .5;
+    /// Blocks are kept where a forward and a backward sweep by node leave at least this part of an error.
+    constexpr double slow = .7;
     /// Larger blocks are cut: their factors would cost too much.
     constexpr std::size_t largest_block = 4000;
     /// Up to here factors are dense.
@@ -108,6 +110,8 @@ namespace Signorini
           if (rows.size() < 2)
             continue;
           std::sort(rows.begin(), rows.end());
+          if (sweep_rate(rows) < slow)
+            continue;
           // With a node that other ranks see the block waits for the turn of this rank.
           unsigned int phase = static_cast<unsigned int>(schedule.phases().size()) - 1;
           for (const unsigned int row : rows)
@@ -121,6 +125,58 @@ namespace Signorini
           blocks.emplace_back();
           blocks.back().rows = std::move(rows);
         }
+  }
+
+
+
+  double StrongBlocks::sweep_rate(const std::vector<unsigned int> &rows) const
+  {
+    constexpr unsigned int                           n_sweeps = 4;
+    std::vector<std::pair<const double *, unsigned>> entries;
+    std::vector<std::size_t>                         start = {0};
+    std::vector<Tensor<2, dim>>                      inverse(rows.size());
+    std::vector<Vector3>                             error(rows.size());
+    for (unsigned int i = 0; i < rows.size(); ++i)
+      {
+        for (std::size_t k = matrix.row_begin(rows[i]); k < matrix.row_end(rows[i]); ++k)
+          if (const auto it = std::lower_bound(rows.begin(), rows.end(), matrix.column(k));
+              it != rows.end() && *it == matrix.column(k))
+            entries.emplace_back(matrix.block(k), it - rows.begin());
+        start.push_back(entries.size());
+        std::copy_n(matrix.block(matrix.row_begin(rows[i])), dim * dim, inverse[i].begin_raw());
+        inverse[i] = invert(inverse[i]);
+        // The slow motions are constant along a block; something of all others.
+        for (unsigned int c = 0; c < dim; ++c)
+          error[i][c] = 1. + .1 * std::sin(1. + 7. * (dim * i + c));
+      }
+    const auto product = [&](const std::size_t i) {
+      Vector3 sum;
+      for (std::size_t l = start[i]; l < start[i + 1]; ++l)
+        {
+          const double *const a = entries[l].first;
+          const Vector3      &x = error[entries[l].second];
+          for (unsigned int c = 0; c < dim; ++c)
+            sum[c] += a[dim * c] * x[0] + a[dim * c + 1] * x[1] + a[dim * c + 2] * x[2];
+        }
+      return sum;
+    };
+    const auto energy = [&] {
+      double sum = 0.;
+      for (std::size_t i = 0; i < rows.size(); ++i)
+        sum += error[i] * product(i);
+      return sum;
+    };
+    double before = 0.;
+    for (unsigned int sweep = 0; sweep < n_sweeps; ++sweep)
+      {
+        if (sweep + 1 == n_sweeps)
+          before = energy();
+        for (std::size_t i = 0; i < rows.size(); ++i)
+          error[i] -= inverse[i] * product(i);
+        for (std::size_t i = rows.size(); i-- > 0;)
+          error[i] -= inverse[i] * product(i);
+      }
+    return before > 0. ? std::sqrt(std::max(0., energy() / before)) : 0.;
   }
 
 

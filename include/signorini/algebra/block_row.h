@@ -6,7 +6,8 @@
 
 #include <cstddef>
 
-// Compiled for processors with AVX2 as well; the loader chooses. Distributions build for the oldest processor.
+// Compiled for processors with AVX2 as well; the loader chooses. Distributions build for the oldest
+// processor.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
 #  define SIGNORINI_VECTORIZED __attribute__((target_clones("arch=x86-64-v3", "default")))
 #else
@@ -15,8 +16,8 @@
 
 namespace Signorini
 {
-  /// Kernels on consecutive 3x3 blocks (nine numbers each, row by row). They ask for the memory ahead of them:
-  /// without that the hardware's own fetching loses a quarter of the bandwidth.
+  /// Kernels on consecutive 3x3 blocks (nine numbers each, row by row). They ask for the memory ahead of
+  /// them: without that the hardware's own fetching loses a quarter of the bandwidth.
   ///
   /// sum[c] = Σ_k (A_k x_{columns[k]})_c over n blocks, reading forward.
   void multiply_block_row(double *sum, const double *blocks, const unsigned int *columns, std::size_t n,

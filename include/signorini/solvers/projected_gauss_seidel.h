@@ -69,9 +69,9 @@ namespace Signorini
     void smooth(Vector &v, const Vector &rhs, const SmoothingParameters &parameters,
                 const Direction direction);
 
-    /// smooth() forward from v = 0, and residual = rhs - A v. Cheaper by a sweep than the two by themselves: the
-    /// first sweep reads only the blocks of nodes visited before, the residual after the last one only those of
-    /// nodes visited later.
+    /// smooth() forward from v = 0, and residual = rhs - A v. Cheaper by a sweep than the two by themselves:
+    /// the first sweep reads only the blocks of nodes visited before, the residual after the last one only
+    /// those of nodes visited later.
     void smooth_from_zero(Vector &v, const Vector &rhs, const SmoothingParameters &parameters,
                           Vector &residual);
 
@@ -128,12 +128,12 @@ namespace Signorini
     void residual_after(Vector &residual, const Vector &v, const Vector &rhs, const Direction direction,
                         const bool with_interface_sweeps);
 
-    const NodeBlockMatrix     &matrix;
-    SweepSchedule              all_rows;
-    StrongBlocks               blocks;
-    SweepSchedule              interface_rows;
-    /// Position of the first block above the diagonal, of rows whose nodes are visited in ascending order with
-    /// all their neighbours; 0 for others (next to other ranks).
+    const NodeBlockMatrix &matrix;
+    SweepSchedule          all_rows;
+    StrongBlocks           blocks;
+    SweepSchedule          interface_rows;
+    /// Position of the first block above the diagonal, of rows whose nodes are visited in ascending order
+    /// with all their neighbours; 0 for others (next to other ranks).
     std::vector<std::size_t> first_above;
     /// Rows that interface sweeps change or that see such rows.
     std::vector<bool>          sees_interface;

@@ -36,7 +36,8 @@ namespace Signorini
     void correct(Vector &z, Vector &residual, const ObstacleProblem &problem, const bool search);
 
     /// One accelerated step from v with the correction z, az = A z; false, and nothing changed but the
-    /// direction, if it is not to be taken. On success z and az are the correction made and its product with A.
+    /// direction, if it is not to be taken. On success z and az are the correction made and its product with
+    /// A.
     bool accelerate(const Vector &v, const Vector &residual, Vector &z, Vector &az,
                     const HalfSpaces &half_spaces);
 
