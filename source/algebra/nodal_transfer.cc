@@ -1,11 +1,34 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/algebra/block_row.h>
 #include <signorini/algebra/nodal_transfer.h>
 
 namespace Signorini
 {
   using namespace dealii;
+
+  namespace
+  {
+    bool is_multiple_of_identity(const Block &block)
+    {
+      for (unsigned int c = 0; c < dim; ++c)
+        for (unsigned int d = 0; d < dim; ++d)
+          if (block[c][d] != (c == d ? block[0][0] : 0.))
+            return false;
+      return true;
+    }
+
+    /// x - n (n·x), in place.
+    void project(const Vector3 &n, double *const x)
+    {
+      const double normal = n[0] * x[0] + n[1] * x[1] + n[2] * x[2];
+      for (unsigned int c = 0; c < dim; ++c)
+        x[c] -= normal * n[c];
+    }
+  } // namespace
+
+
 
   void NodalTransfer::reinit(NodeRows rows, const std::vector<BlockRow> &block_rows,
                              const unsigned int n_owned_fine)
@@ -14,6 +37,8 @@ namespace Signorini
     block_start.assign(rows.n_rows(), no_blocks);
     blocks.clear();
     columns.clear();
+    plane_of_row.clear();
+    planes.clear();
     coarse.reset();
     if (block_rows.empty())
       {
@@ -33,10 +58,16 @@ namespace Signorini
       {
         if (next != block_rows.end() && next->row == i)
           {
-            block_start[i] = static_cast<unsigned int>(blocks.size());
-            blocks.insert(blocks.end(), next->blocks.begin(), next->blocks.end());
             global_columns.insert(global_columns.end(), next->columns.begin(), next->columns.end());
-            weights.resize(global_columns.size(), 0.);
+            if (std::all_of(next->blocks.begin(), next->blocks.end(), is_multiple_of_identity))
+              for (const Block &block : next->blocks)
+                weights.push_back(block[0][0]);
+            else
+              {
+                block_start[i] = static_cast<unsigned int>(blocks.size());
+                blocks.insert(blocks.end(), next->blocks.begin(), next->blocks.end());
+                weights.resize(global_columns.size(), 0.);
+              }
             ++next;
           }
         else
@@ -53,10 +84,23 @@ namespace Signorini
 
 
 
-  void NodalTransfer::set_block_row(const unsigned int row, const std::vector<Block> &new_blocks)
+  void NodalTransfer::set_plane(const unsigned int row, const Vector3 &normal)
   {
-    AssertDimension(new_blocks.size(), row_end(row) - row_begin(row));
-    std::copy(new_blocks.begin(), new_blocks.end(), blocks.begin() + block_start[row]);
+    if (plane_of_row.empty())
+      plane_of_row.assign(n_rows(), -1);
+    int &place = plane_of_row[row];
+    if (normal.norm_square() == 0.)
+      place = -1;
+    else
+      {
+        // Places of rows that are not truncated any more are not used again: there are few.
+        if (place < 0)
+          {
+            place = static_cast<int>(planes.size());
+            planes.emplace_back();
+          }
+        planes[place] = normal;
+      }
   }
 
 
@@ -111,6 +155,8 @@ namespace Signorini
           for (std::size_t k = row_start[i]; k < row_start[i + 1]; ++k)
             for (unsigned int c = 0; c < dim; ++c)
               s[c] += weights[k] * x[dim * static_cast<std::size_t>(columns[k]) + c];
+        if (const Vector3 *const n = plane(i))
+          project(*n, s);
         for (unsigned int c = 0; c < dim; ++c)
           y[dim * i + c] = s[c];
       }
@@ -125,7 +171,10 @@ namespace Signorini
     double *const       y = coarse_vector.begin();
     for (unsigned int i = 0; i < n_owned; ++i)
       {
-        const double *const v = x + dim * static_cast<std::size_t>(i);
+        double v[3];
+        std::copy_n(x + dim * static_cast<std::size_t>(i), dim, v);
+        if (const Vector3 *const n = plane(i))
+          project(*n, v);
         if (const Block *b = row_blocks(i))
           {
             for (std::size_t k = row_start[i]; k < row_start[i + 1]; ++k, ++b)
@@ -238,85 +287,115 @@ namespace Signorini
 
   namespace
   {
-    inline void add_scaled(double *y, const double factor, const double *x)
-    {
-      for (unsigned int c = 0; c < 9; ++c)
-        y[c] += factor * x[c];
-    }
-
-    /// One row of A P, as blocks of the coarse nodes it touches.
+    /// One row of A P, truncated to the plane of the row of P, as blocks of the coarse nodes it touches.
     class ProductRow
     {
     public:
       explicit ProductRow(const unsigned int n_coarse)
-        : slot(n_coarse, -1)
+        : place(n_coarse, -1)
       {
       }
 
       void compute(const NodeBlockMatrix &matrix, const NodalTransfer &transfer, const unsigned int row)
       {
         for (const unsigned int column : columns)
-          slot[column] = -1;
+          place[column] = -1;
         columns.clear();
-        blocks.clear();
+        terms.clear();
+        block_terms.clear();
+        projected.resize(n_entries * (matrix.row_end(row) - matrix.row_begin(row)));
+        double *next_projected = projected.data();
         for (std::size_t k = matrix.row_begin(row); k < matrix.row_end(row); ++k)
           {
             const unsigned int j = matrix.column(k);
             const double      *a = matrix.block(k);
-            const Block       *b = transfer.row_blocks(j);
-            for (std::size_t l = transfer.row_begin(j); l < transfer.row_end(j); ++l)
+            if (const Vector3 *const n = transfer.plane(j))
               {
-                double *const target = entry(transfer.column(l));
-                if (b == nullptr)
-                  add_scaled(target, transfer.weight(l), a);
-                else
-                  {
-                    const Block &p = b[l - transfer.row_begin(j)];
-                    for (unsigned int c = 0; c < dim; ++c)
-                      for (unsigned int d = 0; d < dim; ++d)
-                        target[dim * c + d] +=
-                            a[dim * c] * p[0][d] + a[dim * c + 1] * p[1][d] + a[dim * c + 2] * p[2][d];
-                  }
+                std::copy_n(a, n_entries, next_projected);
+                for (unsigned int c = 0; c < dim; ++c)
+                  project(*n, next_projected + dim * c);
+                a = next_projected;
+                next_projected += n_entries;
               }
+            const Block *b = transfer.row_blocks(j);
+            for (std::size_t l = transfer.row_begin(j); l < transfer.row_end(j); ++l)
+              if (b == nullptr)
+                terms.push_back({place_of(transfer.column(l)), a, transfer.weight(l)});
+              else
+                block_terms.push_back({place_of(transfer.column(l)), a, b + (l - transfer.row_begin(j))});
           }
+        blocks.assign(n_entries * columns.size(), 0.);
+        add_scaled_blocks(blocks.data(), terms.data(), terms.size());
+        for (const auto &[to, a, p] : block_terms)
+          for (unsigned int c = 0; c < dim; ++c)
+            for (unsigned int d = 0; d < dim; ++d)
+              blocks[to + dim * c + d] +=
+                  a[dim * c] * (*p)[0][d] + a[dim * c + 1] * (*p)[1][d] + a[dim * c + 2] * (*p)[2][d];
+        if (const Vector3 *const n = transfer.plane(row))
+          for (std::size_t to = 0; to < blocks.size(); to += n_entries)
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                double *const x      = blocks.data() + to + d;
+                const double  normal = (*n)[0] * x[0] + (*n)[1] * x[dim] + (*n)[2] * x[2 * dim];
+                for (unsigned int c = 0; c < dim; ++c)
+                  x[dim * c] -= normal * (*n)[c];
+              }
       }
 
-      /// Adds P_iI^T times this row to a row of the coarse matrix.
-      void add_to(NodeBlockMatrix &coarse, const unsigned int coarse_row, const double weight,
-                  const Block *p) const
+      /// Adds weight * this row, or pᵀ times this row, to a row of the coarse matrix.
+      void add_to(NodeBlockMatrix &coarse, const unsigned int coarse_row, const double weight, const Block *p)
       {
-        const std::size_t end = coarse.row_end(coarse_row);
-        for (std::size_t k = coarse.row_begin(coarse_row); k < end; ++k)
+        const std::size_t begin = coarse.row_begin(coarse_row), end = coarse.row_end(coarse_row);
+        double *const     sums = coarse.block(begin);
+        terms.resize(end - begin);
+        std::size_t n = 0;
+        for (std::size_t k = begin; k < end; ++k)
           {
-            const int s = slot[coarse.column(k)];
-            if (s < 0)
-              continue;
-            const double *const x = blocks.data() + s;
-            double *const       y = coarse.block(k);
-            if (p == nullptr)
-              add_scaled(y, weight, x);
-            else
+            const int s = place[coarse.column(k)];
+            terms[n]    = {n_entries * (k - begin), blocks.data() + std::max(s, 0), weight};
+            n += s >= 0;
+          }
+        if (p == nullptr)
+          add_scaled_blocks(sums, terms.data(), n);
+        else
+          for (std::size_t t = 0; t < n; ++t)
+            {
+              const double *const x = terms[t].from;
+              double *const       y = sums + terms[t].to;
               for (unsigned int c = 0; c < dim; ++c)
                 for (unsigned int d = 0; d < dim; ++d)
                   y[dim * c + d] += (*p)[0][c] * x[d] + (*p)[1][c] * x[dim + d] + (*p)[2][c] * x[2 * dim + d];
-          }
+            }
       }
 
     private:
-      double *entry(const unsigned int column)
+      static constexpr unsigned int n_entries = dim * dim;
+
+      struct BlockTerm
       {
-        if (slot[column] < 0)
+        std::size_t   to;
+        const double *from;
+        const Block  *block;
+      };
+
+      std::size_t place_of(const unsigned int column)
+      {
+        if (place[column] < 0)
           {
-            slot[column] = static_cast<int>(blocks.size());
+            place[column] = static_cast<int>(n_entries * columns.size());
             columns.push_back(column);
-            blocks.resize(blocks.size() + 9, 0.);
           }
-        return blocks.data() + slot[column];
+        return place[column];
       }
 
-      std::vector<int>          slot;
+      /// Where the block of a coarse node begins in `blocks`, or -1.
+      std::vector<int>          place;
       std::vector<unsigned int> columns;
       std::vector<double>       blocks;
+      std::vector<ScaledBlock>  terms;
+      std::vector<BlockTerm>    block_terms;
+      /// Blocks of A times the planes of rows of P.
+      std::vector<double> projected;
     };
   } // namespace
 

@@ -145,15 +145,8 @@ namespace Signorini
             rows.add(partition.to_global(i), 1.);
             rows.finish_row();
           }
-        std::vector<NodalTransfer::BlockRow> no_block_rows;
-        NodalTransfer                        identity;
-        // Block rows everywhere: this level is small, and any of its nodes may get truncated.
-        Block one;
-        for (unsigned int c = 0; c < dim; ++c)
-          one[c][c] = 1.;
-        for (unsigned int i = 0; i < partition.n_local(); ++i)
-          no_block_rows.push_back({i, {partition.to_global(i)}, {one}});
-        identity.reinit(rows, no_block_rows, partition.n_owned());
+        NodalTransfer identity;
+        identity.reinit(rows, {}, partition.n_owned());
         IndexSet owned(partition.n_global());
         owned.add_range(partition.first_owned(), partition.first_owned() + partition.n_owned());
         const std::vector<FixedMask> fixed(levels[0]->fixed.begin(),
@@ -168,25 +161,13 @@ namespace Signorini
 
   void MultigridHierarchy::truncate_transfer(const Vector &planes, const Vector &changed)
   {
-    NodalTransfer     &transfer = levels[1]->to_finer;
-    std::vector<Block> blocks;
     for (unsigned int i = 0; i < levels[0]->matrix.partition().n_local(); ++i)
       if (changed.local_element(dim * i) != 0.)
         {
-          auto &original = original_blocks[i];
-          if (original.empty())
-            {
-              const Block *const b = transfer.row_blocks(i);
-              AssertThrow(b != nullptr, ExcInternalError());
-              original.assign(b, b + (transfer.row_end(i) - transfer.row_begin(i)));
-            }
           Vector3 normal;
           for (unsigned int c = 0; c < dim; ++c)
             normal[c] = planes.local_element(dim * i + c);
-          blocks.clear();
-          for (const Block &b : original)
-            blocks.push_back(b - outer_product(normal, normal * b));
-          transfer.set_block_row(i, blocks);
+          levels[1]->to_finer.set_plane(i, normal);
         }
   }
 

@@ -16,8 +16,8 @@ namespace Signorini
     , all_rows(matrix.partition())
     , blocks(matrix, all_rows)
     , interface_rows(all_rows.subset({}))
-    , inverse_diagonal(9 * static_cast<std::size_t>(matrix.n_rows()))
     , sees_interface(matrix.n_rows(), false)
+    , inverse_diagonal(9 * static_cast<std::size_t>(matrix.n_rows()))
     , half_space_of_row(matrix.n_rows(), -1)
   {
     split_rows();

@@ -26,6 +26,18 @@ namespace Signorini
   /// The same, reading from the last block to the first: for sweeps that go backward.
   void multiply_block_row_backward(double *sum, const double *blocks, const unsigned int *columns,
                                    std::size_t n, const double *x);
+
+  /// One term of a sum of blocks.
+  struct ScaledBlock
+  {
+    /// Where the block it is added to begins, in numbers.
+    std::size_t   to;
+    const double *from;
+    double        weight;
+  };
+
+  /// For all terms: sums[to + c] += weight * from[c], c < 9.
+  void add_scaled_blocks(double *sums, const ScaledBlock *terms, std::size_t n);
 } // namespace Signorini
 
 #endif

@@ -29,11 +29,13 @@ namespace Signorini
       std::vector<Block>     blocks;
     };
 
-    /// Scalar rows of all local fine nodes; block_rows (sorted by row) replace some of them.
+    /// Scalar rows of all local fine nodes; block_rows (sorted by row) replace some of them. Those with
+    /// multiples of the identity only become scalar rows as well.
     void reinit(NodeRows rows, const std::vector<BlockRow> &block_rows, const unsigned int n_owned_fine);
 
-    /// Replaces the blocks of a block row (same columns), e.g. by truncated ones.
-    void set_block_row(const unsigned int row, const std::vector<Block> &blocks);
+    /// Truncates a row to a plane: it is (I - n nᵀ) times the original row from now on. A zero vector undoes
+    /// that. n is a unit vector otherwise.
+    void set_plane(const unsigned int row, const Vector3 &normal);
 
     /// Global coarse nodes in the columns.
     dealii::IndexSet coarse_nodes(const NodeIndex n_coarse_nodes) const;
@@ -82,7 +84,13 @@ namespace Signorini
       return weights[k];
     }
 
-    /// The blocks of a row, or nullptr for a scalar row.
+    /// The unit normal of the plane to which a row is truncated, or nullptr.
+    const Vector3 *plane(const unsigned int row) const
+    {
+      return plane_of_row.empty() || plane_of_row[row] < 0 ? nullptr : &planes[plane_of_row[row]];
+    }
+
+    /// The blocks of a row before truncation, or nullptr for a scalar row.
     const Block *row_blocks(const unsigned int row) const
     {
       return block_start[row] == no_blocks ? nullptr : blocks.data() + block_start[row];
@@ -91,13 +99,16 @@ namespace Signorini
   private:
     static constexpr unsigned int no_blocks = dealii::numbers::invalid_unsigned_int;
 
-    unsigned int                         n_owned = 0;
-    std::vector<std::size_t>             row_start;
-    std::vector<NodeIndex>               global_columns;
-    std::vector<unsigned int>            columns;
-    std::vector<double>                  weights;
-    std::vector<unsigned int>            block_start;
-    std::vector<Block>                   blocks;
+    unsigned int              n_owned = 0;
+    std::vector<std::size_t>  row_start;
+    std::vector<NodeIndex>    global_columns;
+    std::vector<unsigned int> columns;
+    std::vector<double>       weights;
+    std::vector<unsigned int> block_start;
+    std::vector<Block>        blocks;
+    /// The place of each row in `planes`, or -1; empty before the first truncation.
+    std::vector<int>                     plane_of_row;
+    std::vector<Vector3>                 planes;
     std::shared_ptr<const NodePartition> coarse;
   };
 

@@ -11,7 +11,6 @@
 #include <signorini/solvers/projected_gauss_seidel.h>
 
 #include <memory>
-#include <unordered_map>
 #include <vector>
 
 namespace Signorini
@@ -105,10 +104,8 @@ namespace Signorini
     std::vector<std::unique_ptr<MultigridLevel>> levels;
     LevelZero                                    level_zero;
     LevelZeroSolver                              level_zero_solver;
-    /// The blocks, before truncation, of the rows of the finest transfer that were ever truncated.
-    std::unordered_map<unsigned int, std::vector<Block>> original_blocks;
-    std::vector<unsigned char>                           truncated;
-    std::vector<double>                                  scales;
+    std::vector<unsigned char>                   truncated;
+    std::vector<double>                          scales;
   };
 } // namespace Signorini
 
