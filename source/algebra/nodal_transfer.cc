@@ -301,8 +301,12 @@ namespace Signorini
         for (const unsigned int column : columns)
           place[column] = -1;
         columns.clear();
-        terms.clear();
         block_terms.clear();
+        std::size_t n_terms = 0;
+        for (std::size_t k = matrix.row_begin(row); k < matrix.row_end(row); ++k)
+          n_terms += transfer.row_end(matrix.column(k)) - transfer.row_begin(matrix.column(k));
+        terms.resize(n_terms);
+        ScaledBlock *term = terms.data();
         projected.resize(n_entries * (matrix.row_end(row) - matrix.row_begin(row)));
         double *next_projected = projected.data();
         for (std::size_t k = matrix.row_begin(row); k < matrix.row_end(row); ++k)
@@ -317,15 +321,20 @@ namespace Signorini
                 a = next_projected;
                 next_projected += n_entries;
               }
-            const Block *b = transfer.row_blocks(j);
-            for (std::size_t l = transfer.row_begin(j); l < transfer.row_end(j); ++l)
-              if (b == nullptr)
-                terms.push_back({place_of(transfer.column(l)), a, transfer.weight(l)});
-              else
-                block_terms.push_back({place_of(transfer.column(l)), a, b + (l - transfer.row_begin(j))});
+            const std::size_t begin = transfer.row_begin(j), end = transfer.row_end(j);
+            if (const Block *const b = transfer.row_blocks(j))
+              for (std::size_t l = begin; l < end; ++l)
+                block_terms.push_back({place_of(transfer.column(l)), a, b + (l - begin)});
+            else
+              for (std::size_t l = begin; l < end; ++l, ++term)
+                {
+                  term->to     = place_of(transfer.column(l));
+                  term->from   = a;
+                  term->weight = transfer.weight(l);
+                }
           }
         blocks.assign(n_entries * columns.size(), 0.);
-        add_scaled_blocks(blocks.data(), terms.data(), terms.size());
+        add_scaled_blocks(blocks.data(), terms.data(), term - terms.data());
         for (const auto &[to, a, p] : block_terms)
           for (unsigned int c = 0; c < dim; ++c)
             for (unsigned int d = 0; d < dim; ++d)
@@ -351,8 +360,11 @@ namespace Signorini
         std::size_t n = 0;
         for (std::size_t k = begin; k < end; ++k)
           {
-            const int s = place[coarse.column(k)];
-            terms[n]    = {n_entries * (k - begin), blocks.data() + std::max(s, 0), weight};
+            // Written in any case: cheaper than a branch that is hard to predict.
+            const int s     = place[coarse.column(k)];
+            terms[n].to     = n_entries * (k - begin);
+            terms[n].from   = blocks.data() + std::max(s, 0);
+            terms[n].weight = weight;
             n += s >= 0;
           }
         if (p == nullptr)
