@@ -11,9 +11,6 @@ namespace Signorini
   {
     typedef double Vector4 __attribute__((vector_size(4 * sizeof(double))));
 
-    /// Numbers to fetch ahead: about four rows of a hexahedral mesh.
-    constexpr std::ptrdiff_t ahead = 1024;
-
     /// Adds up A_k x_k number by number, without mixing within a block, and sorts the sums out at the end.
     struct RowSum
     {
@@ -44,12 +41,12 @@ namespace Signorini
 
   SIGNORINI_VECTORIZED
   void multiply_block_row(double *const sum, const double *const blocks, const unsigned int *const columns,
-                          const std::size_t n, const double *const x)
+                          const std::size_t n, const double *const x, const double *const wanted)
   {
     RowSum row;
     for (std::size_t k = 0; k < n; ++k)
       {
-        __builtin_prefetch(blocks + 9 * k + ahead);
+        __builtin_prefetch(wanted + 9 * k);
         row.add(blocks + 9 * k, x + 3 * static_cast<std::size_t>(columns[k]));
       }
     row.write(sum);
@@ -60,16 +57,34 @@ namespace Signorini
   SIGNORINI_VECTORIZED
   void multiply_block_row_backward(double *const sum, const double *const blocks,
                                    const unsigned int *const columns, const std::size_t n,
-                                   const double *const x)
+                                   const double *const x, const double *const wanted)
   {
     RowSum row;
     for (std::size_t k = n; k-- > 0;)
       {
-        __builtin_prefetch(blocks + 9 * k - ahead);
+        __builtin_prefetch(wanted + 9 * k);
         row.add(blocks + 9 * k, x + 3 * static_cast<std::size_t>(columns[k]));
       }
     row.write(sum);
   }
+
+
+  SIGNORINI_VECTORIZED
+  void subtract_transposed_block_row(double *const values, const double *const blocks,
+                                     const unsigned int *const columns, const std::size_t n,
+                                     const double *const change)
+  {
+    const double c0 = change[0], c1 = change[1], c2 = change[2];
+    for (std::size_t k = 0; k < n; ++k)
+      {
+        const double *const a = blocks + 9 * k;
+        double *const       y = values + 3 * static_cast<std::size_t>(columns[k]);
+        y[0] -= c0 * a[0] + c1 * a[3] + c2 * a[6];
+        y[1] -= c0 * a[1] + c1 * a[4] + c2 * a[7];
+        y[2] -= c0 * a[2] + c1 * a[5] + c2 * a[8];
+      }
+  }
+
 
 
   SIGNORINI_VECTORIZED

@@ -181,8 +181,9 @@ namespace Signorini
     double *const       y = dst.begin();
     const unsigned int  n = n_rows();
     for (unsigned int i = 0; i < n; ++i)
-      multiply_block_row(y + dim * i, values.data() + 9 * row_start[i], columns.data() + row_start[i],
-                         row_start[i + 1] - row_start[i], x);
+      multiply_block_row(y + dim * i, block(row_start[i]), columns.data() + row_start[i],
+                         row_start[i + 1] - row_start[i], x,
+                         block(row_start[std::min(i + rows_ahead, n - 1)]));
   }
 
 

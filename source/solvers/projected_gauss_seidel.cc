@@ -29,20 +29,19 @@ namespace Signorini
   void ProjectedGaussSeidel::split_rows()
   {
     // The last phase is for nodes that no other rank sees.
-    std::vector<bool> is_inner(matrix.n_rows(), false);
+    is_inner.assign(matrix.n_rows(), false);
     for (const unsigned int row : all_rows.phases().back())
       is_inner[row] = true;
-    first_above.assign(matrix.n_rows(), 0);
-    for (const unsigned int row : all_rows.phases().back())
+    first_above.resize(matrix.n_rows());
+    is_ordered                        = is_inner;
+    const unsigned int *const columns = matrix.column_data();
+    for (unsigned int row = 0; row < matrix.n_rows(); ++row)
       {
-        const unsigned int *const columns = matrix.column_data();
-        const std::size_t         end     = matrix.row_end(row);
-        const std::size_t         above =
+        const std::size_t end = matrix.row_end(row);
+        first_above[row] =
             std::upper_bound(columns + matrix.row_begin(row) + 1, columns + end, row) - columns;
-        if (std::all_of(columns + above, columns + end, [&](const unsigned int column) {
-              return column < matrix.n_rows() && is_inner[column];
-            }))
-          first_above[row] = above;
+        for (std::size_t k = first_above[row]; k < end && is_ordered[row]; ++k)
+          is_ordered[row] = columns[k] < matrix.n_rows() && is_inner[columns[k]];
       }
   }
 
@@ -122,17 +121,25 @@ namespace Signorini
 
 
 
+  inline std::pair<std::size_t, std::size_t> ProjectedGaussSeidel::range(const unsigned int  row,
+                                                                         const SweepOptions &options) const
+  {
+    return {matrix.row_begin(row) + 1,
+            options.from_zero && is_ordered[row] ? first_above[row] : matrix.row_end(row)};
+  }
+
+
+
   template <ProjectedGaussSeidel::Direction direction>
   inline void ProjectedGaussSeidel::relax(double *const v, const double *const rhs, const unsigned int row,
-                                          const SweepOptions &options)
+                                          const unsigned int later_row, const SweepOptions &options)
   {
-    double            sum[3];
-    const std::size_t begin = matrix.row_begin(row) + 1;
-    const std::size_t end =
-        options.from_zero && first_above[row] != 0 ? first_above[row] : matrix.row_end(row);
+    double sum[3];
+    const auto [begin, end] = range(row, options);
     // Memory is read in one direction throughout, also within a row.
     (direction == forward ? multiply_block_row : multiply_block_row_backward)(
-        sum, matrix.block(begin), matrix.column_data() + begin, end - begin, v);
+        sum, matrix.block(begin), matrix.column_data() + begin, end - begin, v,
+        matrix.block(range(later_row, options).first));
     const double s0 = rhs[dim * row] - sum[0], s1 = rhs[dim * row + 1] - sum[1],
                  s2            = rhs[dim * row + 2] - sum[2];
     const double *const d      = inverse_diagonal.data() + 9 * static_cast<std::size_t>(row);
@@ -143,9 +150,16 @@ namespace Signorini
     y[2]                       = d[6] * s0 + d[7] * s1 + d[8] * s2;
     if (half_space_of_row[row] >= 0)
       project_row(y, half_space_of_row[row]);
-    if (options.change != nullptr)
-      for (unsigned int c = 0; c < dim; ++c)
-        options.change[dim * static_cast<std::size_t>(row) + c] = y[c] - old[c];
+    if (options.residual != nullptr && (is_inner[row] || direction == backward))
+      {
+        // To those that were visited before.
+        const double      change[3] = {y[0] - old[0], y[1] - old[1], y[2] - old[2]};
+        const std::size_t from =
+            direction == forward || !is_inner[row] ? matrix.row_begin(row) + 1 : first_above[row];
+        const std::size_t to = direction == backward ? matrix.row_end(row) : first_above[row];
+        subtract_transposed_block_row(options.residual, matrix.block(from), matrix.column_data() + from,
+                                      to - from, change);
+      }
   }
 
 
@@ -157,13 +171,15 @@ namespace Signorini
     for (std::size_t i = 0; i < n_phases; ++i)
       {
         v.update_ghost_values();
-        const auto &rows = schedule.phases()[direction == forward ? i : n_phases - 1 - i];
+        const auto       &rows = schedule.phases()[direction == forward ? i : n_phases - 1 - i];
+        const std::size_t n    = rows.size();
         if (direction == forward)
-          for (auto row = rows.begin(); row != rows.end(); ++row)
-            relax<forward>(v.begin(), rhs.begin(), *row, options);
+          for (std::size_t k = 0; k < n; ++k)
+            relax<forward>(v.begin(), rhs.begin(), rows[k], rows[std::min(k + rows_ahead, n - 1)], options);
         else
-          for (auto row = rows.rbegin(); row != rows.rend(); ++row)
-            relax<backward>(v.begin(), rhs.begin(), *row, options);
+          for (std::size_t k = n; k-- > 0;)
+            relax<backward>(v.begin(), rhs.begin(), rows[k],
+                            rows[std::max<std::size_t>(k, rows_ahead) - rows_ahead], options);
       }
   }
 
@@ -204,34 +220,31 @@ namespace Signorini
 
 
 
-  void ProjectedGaussSeidel::residual_after(Vector &residual, const Vector &v, const Vector &rhs,
-                                            const Direction direction, const bool with_interface_sweeps)
+  void ProjectedGaussSeidel::last_sweep(Vector &v, const Vector &rhs, const Direction direction,
+                                        const bool from_zero, Vector &residual)
   {
-    // When a node was visited its equation held, up to projections; what came after is the change of the
-    // nodes visited later.
+    residual.zero_out_ghost_values();
+    residual = 0.;
+    run(v, rhs, all_rows, direction, {from_zero, residual.begin()});
+    residual.zero_out_ghost_values();
+  }
+
+
+
+  void ProjectedGaussSeidel::complete_residual(Vector &residual, const Vector &v, const Vector &rhs,
+                                               const bool with_interface_sweeps)
+  {
     v.update_ghost_values();
-    const unsigned int *const columns = matrix.column_data();
     for (unsigned int row = 0; row < matrix.n_rows(); ++row)
-      {
-        double *const r = residual.begin() + dim * static_cast<std::size_t>(row);
-        if (first_above[row] == 0 || half_space_of_row[row] >= 0 ||
-            (with_interface_sweeps && sees_interface[row]))
-          {
-            const std::size_t begin = matrix.row_begin(row);
-            multiply_block_row(r, matrix.block(begin), columns + begin, matrix.row_end(row) - begin,
-                               v.begin());
-            for (unsigned int c = 0; c < dim; ++c)
-              r[c] = rhs.local_element(dim * row + c) - r[c];
-          }
-        else
-          {
-            const std::size_t begin = direction == forward ? first_above[row] : matrix.row_begin(row) + 1;
-            const std::size_t end   = direction == forward ? matrix.row_end(row) : first_above[row];
-            multiply_block_row(r, matrix.block(begin), columns + begin, end - begin, change.data());
-            for (unsigned int c = 0; c < dim; ++c)
-              r[c] = -r[c];
-          }
-      }
+      if (!is_inner[row] || half_space_of_row[row] >= 0 || (with_interface_sweeps && sees_interface[row]))
+        {
+          double *const     r     = residual.begin() + dim * static_cast<std::size_t>(row);
+          const std::size_t begin = matrix.row_begin(row);
+          multiply_block_row(r, matrix.block(begin), matrix.column_data() + begin,
+                             matrix.row_end(row) - begin, v.begin(), matrix.block(begin));
+          for (unsigned int c = 0; c < dim; ++c)
+            r[c] = rhs.local_element(dim * row + c) - r[c];
+        }
   }
 
 
@@ -239,15 +252,18 @@ namespace Signorini
   void ProjectedGaussSeidel::smooth_from_zero(Vector &v, const Vector &rhs,
                                               const SmoothingParameters &parameters, Vector &residual)
   {
-    v = 0.;
-    change.resize(dim * static_cast<std::size_t>(matrix.n_rows()));
+    v                   = 0.;
+    const bool collects = parameters.n_pre > 0 && blocks.empty();
     for (unsigned int i = 0; i < parameters.n_pre; ++i)
-      run(v, rhs, all_rows, forward, {i == 0, i + 1 == parameters.n_pre ? change.data() : nullptr});
+      if (collects && i + 1 == parameters.n_pre)
+        last_sweep(v, rhs, forward, i == 0, residual);
+      else
+        run(v, rhs, all_rows, forward, {i == 0, nullptr});
     blocks.sweep(v, rhs, true, constraints, half_space_of_row, is_active);
     for (unsigned int i = 0; i < parameters.n_interface_sweeps; ++i)
       interface_sweep(v, rhs, forward);
-    if (parameters.n_pre > 0 && blocks.empty())
-      residual_after(residual, v, rhs, forward, parameters.n_interface_sweeps > 0);
+    if (collects)
+      complete_residual(residual, v, rhs, parameters.n_interface_sweeps > 0);
     else
       {
         matrix.vmult(residual, v);
@@ -265,9 +281,8 @@ namespace Signorini
     smooth(v, rhs, all_but_last, backward);
     if (parameters.n_post > 0)
       {
-        change.resize(dim * static_cast<std::size_t>(matrix.n_rows()));
-        run(v, rhs, all_rows, backward, {false, change.data()});
-        residual_after(residual, v, rhs, backward, false);
+        last_sweep(v, rhs, backward, false, residual);
+        complete_residual(residual, v, rhs, false);
       }
     else
       {

@@ -16,16 +16,25 @@
 
 namespace Signorini
 {
-  /// Kernels on consecutive 3x3 blocks (nine numbers each, row by row). They ask for the memory ahead of
-  /// them: without that the hardware's own fetching loses a quarter of the bandwidth.
+  /// Kernels on consecutive 3x3 blocks (nine numbers each, row by row). `wanted` is where the blocks of a
+  /// later call begin: their memory is asked for on the way. Without that the hardware's own fetching loses a
+  /// quarter of the bandwidth, and more where rows are read in part.
   ///
   /// sum[c] = Σ_k (A_k x_{columns[k]})_c over n blocks, reading forward.
   void multiply_block_row(double *sum, const double *blocks, const unsigned int *columns, std::size_t n,
-                          const double *x);
+                          const double *x, const double *wanted);
 
   /// The same, reading from the last block to the first: for sweeps that go backward.
   void multiply_block_row_backward(double *sum, const double *blocks, const unsigned int *columns,
-                                   std::size_t n, const double *x);
+                                   std::size_t n, const double *x, const double *wanted);
+
+  /// values_{columns[k]} -= A_kᵀ change for n blocks: what a change of the row's node does to its neighbours,
+  /// if the matrix is symmetric.
+  void subtract_transposed_block_row(double *values, const double *blocks, const unsigned int *columns,
+                                     std::size_t n, const double *change);
+
+  /// How many calls ahead `wanted` should be.
+  constexpr unsigned int rows_ahead = 6;
 
   /// One term of a sum of blocks.
   struct ScaledBlock

@@ -69,13 +69,13 @@ namespace Signorini
     void smooth(Vector &v, const Vector &rhs, const SmoothingParameters &parameters,
                 const Direction direction);
 
-    /// smooth() forward from v = 0, and residual = rhs - A v. Cheaper by a sweep than the two by themselves:
-    /// the first sweep reads only the blocks of nodes visited before, the residual after the last one only
-    /// those of nodes visited later.
+    /// smooth() forward from v = 0, and residual = rhs - A v. The first sweep reads only the blocks of nodes
+    /// visited before; the last one passes the changes of a node on to the residuals of those visited before
+    /// while it has the row at hand. The residual costs no further pass over the matrix.
     void smooth_from_zero(Vector &v, const Vector &rhs, const SmoothingParameters &parameters,
                           Vector &residual);
 
-    /// smooth() backward, and residual = rhs - A v at the cost of half a sweep.
+    /// smooth() backward, and residual = rhs - A v, in the same way.
     void smooth_to_residual(Vector &v, const Vector &rhs, const SmoothingParameters &parameters,
                             Vector &residual);
 
@@ -109,12 +109,13 @@ namespace Signorini
     {
       /// v is zero at nodes that were not visited.
       bool from_zero = false;
-      /// Where to write the change of v, for residual_after(); may be null.
-      double *change = nullptr;
+      /// Where to collect rhs - A v at nodes that no other rank sees, up to projections; may be null.
+      double *residual = nullptr;
     };
 
     template <Direction direction>
-    void relax(double *v, const double *rhs, const unsigned int row, const SweepOptions &options);
+    void relax(double *v, const double *rhs, const unsigned int row, const unsigned int later_row,
+               const SweepOptions &options);
 
     void project_row(double *v_row, const int half_space);
 
@@ -124,20 +125,28 @@ namespace Signorini
     /// Splits the rows at the diagonal.
     void split_rows();
 
-    /// residual = rhs - A v after a sweep that changed v by `change`, and interface sweeps.
-    void residual_after(Vector &residual, const Vector &v, const Vector &rhs, const Direction direction,
-                        const bool with_interface_sweeps);
+    /// The blocks of a row that a sweep multiplies, from and to.
+    std::pair<std::size_t, std::size_t> range(const unsigned int row, const SweepOptions &options) const;
+
+    /// The last sweep of smoothing, which collects the residual, but for the rows of complete_residual().
+    void last_sweep(Vector &v, const Vector &rhs, const Direction direction, const bool from_zero,
+                    Vector &residual);
+
+    /// Residuals that the last sweep cannot collect: at nodes that other ranks see, at contact nodes (where
+    /// it may project), near interface sweeps.
+    void complete_residual(Vector &residual, const Vector &v, const Vector &rhs,
+                           const bool with_interface_sweeps);
 
     const NodeBlockMatrix &matrix;
     SweepSchedule          all_rows;
     StrongBlocks           blocks;
     SweepSchedule          interface_rows;
-    /// Position of the first block above the diagonal, of rows whose nodes are visited in ascending order
-    /// with all their neighbours; 0 for others (next to other ranks).
+    /// Position of the first block above the diagonal.
     std::vector<std::size_t> first_above;
+    /// Rows of nodes that no other rank sees; those whose columns after first_above are visited after them.
+    std::vector<bool> is_inner, is_ordered;
     /// Rows that interface sweeps change or that see such rows.
     std::vector<bool>          sees_interface;
-    std::vector<double>        change;
     std::vector<double>        inverse_diagonal;
     HalfSpaces                 constraints;
     std::vector<int>           half_space_of_row;

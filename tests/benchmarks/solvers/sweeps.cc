@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+// The parts of a cycle on a cube of n^3 cells (n a power of two), in sweeps of its finest level:
+//   bench_sweeps [n]
+
+#include <deal.II/base/mpi.h>
+
+#include <chrono>
+#include <cstdio>
+#include <solvers/cube_problem.h>
+
+using namespace Signorini;
+
+namespace
+{
+  /// Median of some runs, in seconds.
+  template <class Function>
+  double median_time(const Function &function)
+  {
+    std::vector<double> times;
+    for (unsigned int i = 0; i < 7; ++i)
+      {
+        const auto start = std::chrono::steady_clock::now();
+        function();
+        times.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+      }
+    std::sort(times.begin(), times.end());
+    return times[times.size() / 2];
+  }
+} // namespace
+
+int
+main(int argc, char **argv)
+{
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  const unsigned int                             n         = argc > 1 ? std::stoi(argv[1]) : 64;
+  MultigridHierarchy                             hierarchy = CubeProblem::hierarchy(n);
+  const NodeBlockMatrix                         &matrix    = hierarchy.finest().matrix;
+  ProjectedGaussSeidel                          &smoother  = *hierarchy.finest().smoother;
+  Vector                                         v, rhs, residual;
+  for (Vector *vector : {&v, &rhs, &residual})
+    matrix.partition().reinit(*vector);
+  for (unsigned int i = 0; i < v.locally_owned_size(); ++i)
+    rhs.local_element(i) = std::sin(i);
+
+  const double sweep = median_time([&] { smoother.sweep(v, rhs, ProjectedGaussSeidel::forward); });
+  const auto   print = [&](const char *name, const double time) {
+    std::printf("%-44s %8.2f ms %7.2f sweeps\n", name, 1e3 * time, time / sweep);
+  };
+  double       sum  = 0.;
+  const double read = median_time([&] {
+    double        s[8]    = {};
+    const double *numbers = matrix.block(0);
+    for (std::size_t k = 0; k + 8 <= 9 * matrix.n_blocks(); k += 8)
+      for (unsigned int j = 0; j < 8; ++j)
+        s[j] += numbers[k + j];
+    sum += std::accumulate(s, s + 8, 0.);
+  });
+  std::printf("%u unknowns, sweep %.1f GB/s, read %.1f GB/s (%g)\n", 3 * matrix.n_rows(),
+              1e-9 * smoother.sweep_bytes() / sweep, 72e-9 * matrix.n_blocks() / read, sum * 0.);
+  print("forward sweep", sweep);
+  print("backward sweep", median_time([&] { smoother.sweep(v, rhs, ProjectedGaussSeidel::backward); }));
+  print("product", median_time([&] { matrix.vmult(residual, v); }));
+  print("V(1,1) down: sweep from zero, residual", median_time([&] {
+          smoother.smooth_from_zero(v, rhs, {1, 1, 0}, residual);
+        }));
+  print("V(1,1) up: sweep, residual", median_time([&] {
+          smoother.smooth_to_residual(v, rhs, {1, 1, 0}, residual);
+        }));
+  print("V(3,3) down", median_time([&] { smoother.smooth_from_zero(v, rhs, {3, 3, 0}, residual); }));
+  print("V(3,3) up", median_time([&] { smoother.smooth_to_residual(v, rhs, {3, 3, 0}, residual); }));
+  print("vector: a += b", median_time([&] { v += rhs; }));
+  MultigridLevel &coarse = hierarchy.level(hierarchy.n_levels() - 2);
+  Vector          small;
+  coarse.matrix.partition().reinit(small);
+  print("restriction", median_time([&] { restrict_defect(coarse, small, residual); }));
+  print("prolongation", median_time([&] { coarse.to_finer.prolongate(residual, small); }));
+  print("Galerkin product", median_time([&] { compute_galerkin(coarse.matrix, matrix, coarse.to_finer); }));
+  print("structure of the Galerkin product", median_time([&] {
+          NodeBlockMatrix  product;
+          NodalTransfer    transfer = coarse.to_finer;
+          dealii::IndexSet owned(coarse.matrix.partition().n_global());
+          owned.add_range(coarse.matrix.partition().first_owned(),
+                          coarse.matrix.partition().first_owned() + coarse.matrix.n_rows());
+          reinit_galerkin(product, matrix, transfer, owned);
+        }));
+  print("smoother: setup", median_time([&] { ProjectedGaussSeidel again(matrix); }));
+}
