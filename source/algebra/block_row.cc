@@ -3,8 +3,6 @@
 
 #include <signorini/algebra/block_row.h>
 
-#include <cstring>
-
 namespace Signorini
 {
   namespace
@@ -82,29 +80,6 @@ namespace Signorini
         y[0] -= c0 * a[0] + c1 * a[3] + c2 * a[6];
         y[1] -= c0 * a[1] + c1 * a[4] + c2 * a[7];
         y[2] -= c0 * a[2] + c1 * a[5] + c2 * a[8];
-      }
-  }
-
-
-
-  SIGNORINI_VECTORIZED
-  void add_scaled_blocks(double *const sums, const ScaledBlock *const terms, const std::size_t n)
-  {
-    for (std::size_t k = 0; k < n; ++k)
-      {
-        double *const       y = sums + terms[k].to;
-        const double *const x = terms[k].from;
-        const double        w = terms[k].weight;
-        Vector4             x_first, x_second, y_first, y_second;
-        std::memcpy(&x_first, x, sizeof(Vector4));
-        std::memcpy(&x_second, x + 4, sizeof(Vector4));
-        std::memcpy(&y_first, y, sizeof(Vector4));
-        std::memcpy(&y_second, y + 4, sizeof(Vector4));
-        y_first += w * x_first;
-        y_second += w * x_second;
-        std::memcpy(y, &y_first, sizeof(Vector4));
-        std::memcpy(y + 4, &y_second, sizeof(Vector4));
-        y[8] += w * x[8];
       }
   }
 } // namespace Signorini

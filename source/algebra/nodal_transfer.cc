@@ -285,6 +285,62 @@ namespace Signorini
 
 
 
+  namespace GalerkinKernels
+  {
+    constexpr unsigned int n_entries = dim * dim;
+
+    /// A row of blocks under construction. place[column] is where the block of a coarse node begins in
+    /// `blocks`; 0 stands for nodes that do not occur, and for a block of zeros.
+    struct Row
+    {
+      std::vector<int>          place;
+      std::vector<unsigned int> columns;
+      std::vector<double>       blocks;
+    };
+
+    inline __attribute__((always_inline)) double *find(double *const blocks, int *const place,
+                                                       unsigned int *const columns, unsigned int &n_columns,
+                                                       const unsigned int column)
+    {
+      double *block = blocks + place[column];
+      if (block == blocks)
+        {
+          columns[n_columns++] = column;
+          place[column]        = static_cast<int>(n_entries * n_columns);
+          block                = blocks + n_entries * n_columns;
+          std::fill_n(block, n_entries, 0.);
+        }
+      return block;
+    }
+
+    /// blocks += Σ_k A_k P_k: the blocks of a row of A times scalar rows of P. Returns the number of columns.
+    SIGNORINI_VECTORIZED
+    unsigned int multiply_scalar_rows(double *const blocks, int *const place, unsigned int *const columns,
+                                      const double *const a, const unsigned int *const rows,
+                                      const std::size_t n, const std::size_t *const row_start,
+                                      const unsigned int *const p_columns, const double *const p_weights)
+    {
+      unsigned int n_columns = 0;
+      for (std::size_t k = 0; k < n; ++k)
+        for (std::size_t l = row_start[rows[k]]; l < row_start[rows[k] + 1]; ++l)
+          add_scaled_block(find(blocks, place, columns, n_columns, p_columns[l]), p_weights[l],
+                           a + n_entries * k);
+      return n_columns;
+    }
+
+    /// A row of the coarse matrix += weight * row. Also at nodes where the row is zero: cheaper than a branch
+    /// that is hard to predict.
+    SIGNORINI_VECTORIZED
+    void add_row(double *const sums, const unsigned int *const columns, const std::size_t n,
+                 const double weight, const double *const blocks, const int *const place)
+    {
+      for (std::size_t k = 0; k < n; ++k)
+        add_scaled_block(sums + n_entries * k, weight, blocks + place[columns[k]]);
+    }
+  } // namespace GalerkinKernels
+
+
+
   namespace
   {
     /// One row of A P, truncated to the plane of the row of P, as blocks of the coarse nodes it touches.
@@ -292,59 +348,38 @@ namespace Signorini
     {
     public:
       explicit ProductRow(const unsigned int n_coarse)
-        : place(n_coarse, -1)
       {
+        row.place.assign(n_coarse, 0);
       }
 
-      void compute(const NodeBlockMatrix &matrix, const NodalTransfer &transfer, const unsigned int row)
+      void compute(const NodeBlockMatrix &matrix, const NodalTransfer &transfer, const unsigned int i)
       {
-        for (const unsigned int column : columns)
-          place[column] = -1;
-        columns.clear();
-        block_terms.clear();
-        std::size_t n_terms = 0;
-        for (std::size_t k = matrix.row_begin(row); k < matrix.row_end(row); ++k)
-          n_terms += transfer.row_end(matrix.column(k)) - transfer.row_begin(matrix.column(k));
-        terms.resize(n_terms);
-        ScaledBlock *term = terms.data();
-        projected.resize(n_entries * (matrix.row_end(row) - matrix.row_begin(row)));
-        double *next_projected = projected.data();
-        for (std::size_t k = matrix.row_begin(row); k < matrix.row_end(row); ++k)
+        for (const unsigned int column : row.columns)
+          row.place[column] = 0;
+        const std::size_t begin = matrix.row_begin(i), end = matrix.row_end(i);
+        std::size_t       n_terms   = 0;
+        bool              is_scalar = true;
+        for (std::size_t k = begin; k < end; ++k)
           {
             const unsigned int j = matrix.column(k);
-            const double      *a = matrix.block(k);
-            if (const Vector3 *const n = transfer.plane(j))
-              {
-                std::copy_n(a, n_entries, next_projected);
-                for (unsigned int c = 0; c < dim; ++c)
-                  project(*n, next_projected + dim * c);
-                a = next_projected;
-                next_projected += n_entries;
-              }
-            const std::size_t begin = transfer.row_begin(j), end = transfer.row_end(j);
-            if (const Block *const b = transfer.row_blocks(j))
-              for (std::size_t l = begin; l < end; ++l)
-                block_terms.push_back({place_of(transfer.column(l)), a, b + (l - begin)});
-            else
-              for (std::size_t l = begin; l < end; ++l, ++term)
-                {
-                  term->to     = place_of(transfer.column(l));
-                  term->from   = a;
-                  term->weight = transfer.weight(l);
-                }
+            n_terms += transfer.row_end(j) - transfer.row_begin(j);
+            is_scalar = is_scalar && transfer.row_blocks(j) == nullptr && transfer.plane(j) == nullptr;
           }
-        blocks.assign(n_entries * columns.size(), 0.);
-        add_scaled_blocks(blocks.data(), terms.data(), term - terms.data());
-        for (const auto &[to, a, p] : block_terms)
-          for (unsigned int c = 0; c < dim; ++c)
-            for (unsigned int d = 0; d < dim; ++d)
-              blocks[to + dim * c + d] +=
-                  a[dim * c] * (*p)[0][d] + a[dim * c + 1] * (*p)[1][d] + a[dim * c + 2] * (*p)[2][d];
-        if (const Vector3 *const n = transfer.plane(row))
-          for (std::size_t to = 0; to < blocks.size(); to += n_entries)
+        row.columns.resize(n_terms);
+        row.blocks.resize(n_entries * (n_terms + 1));
+        std::fill_n(row.blocks.begin(), n_entries, 0.);
+        if (is_scalar)
+          row.columns.resize(GalerkinKernels::multiply_scalar_rows(
+              row.blocks.data(), row.place.data(), row.columns.data(), matrix.block(begin),
+              matrix.column_data() + begin, end - begin, transfer.row_start_data(), transfer.column_data(),
+              transfer.weight_data()));
+        else
+          multiply_rows(matrix, transfer, begin, end);
+        if (const Vector3 *const n = transfer.plane(i))
+          for (std::size_t b = 1; b <= row.columns.size(); ++b)
             for (unsigned int d = 0; d < dim; ++d)
               {
-                double *const x      = blocks.data() + to + d;
+                double *const x      = row.blocks.data() + n_entries * b + d;
                 const double  normal = (*n)[0] * x[0] + (*n)[1] * x[dim] + (*n)[2] * x[2 * dim];
                 for (unsigned int c = 0; c < dim; ++c)
                   x[dim * c] -= normal * (*n)[c];
@@ -352,28 +387,18 @@ namespace Signorini
       }
 
       /// Adds weight * this row, or pᵀ times this row, to a row of the coarse matrix.
-      void add_to(NodeBlockMatrix &coarse, const unsigned int coarse_row, const double weight, const Block *p)
+      void add_to(NodeBlockMatrix &coarse, const unsigned int coarse_row, const double weight,
+                  const Block *p) const
       {
         const std::size_t begin = coarse.row_begin(coarse_row), end = coarse.row_end(coarse_row);
-        double *const     sums = coarse.block(begin);
-        terms.resize(end - begin);
-        std::size_t n = 0;
-        for (std::size_t k = begin; k < end; ++k)
-          {
-            // Written in any case: cheaper than a branch that is hard to predict.
-            const int s     = place[coarse.column(k)];
-            terms[n].to     = n_entries * (k - begin);
-            terms[n].from   = blocks.data() + std::max(s, 0);
-            terms[n].weight = weight;
-            n += s >= 0;
-          }
         if (p == nullptr)
-          add_scaled_blocks(sums, terms.data(), n);
+          GalerkinKernels::add_row(coarse.block(begin), coarse.column_data() + begin, end - begin, weight,
+                                   row.blocks.data(), row.place.data());
         else
-          for (std::size_t t = 0; t < n; ++t)
+          for (std::size_t k = begin; k < end; ++k)
             {
-              const double *const x = terms[t].from;
-              double *const       y = sums + terms[t].to;
+              const double *const x = row.blocks.data() + row.place[coarse.column(k)];
+              double *const       y = coarse.block(k);
               for (unsigned int c = 0; c < dim; ++c)
                 for (unsigned int d = 0; d < dim; ++d)
                   y[dim * c + d] += (*p)[0][c] * x[d] + (*p)[1][c] * x[dim + d] + (*p)[2][c] * x[2 * dim + d];
@@ -381,33 +406,41 @@ namespace Signorini
       }
 
     private:
-      static constexpr unsigned int n_entries = dim * dim;
+      static constexpr unsigned int n_entries = GalerkinKernels::n_entries;
 
-      struct BlockTerm
+      void multiply_rows(const NodeBlockMatrix &matrix, const NodalTransfer &transfer,
+                         const std::size_t begin, const std::size_t end)
       {
-        std::size_t   to;
-        const double *from;
-        const Block  *block;
-      };
-
-      std::size_t place_of(const unsigned int column)
-      {
-        if (place[column] < 0)
+        unsigned int n_columns = 0;
+        for (std::size_t k = begin; k < end; ++k)
           {
-            place[column] = static_cast<int>(n_entries * columns.size());
-            columns.push_back(column);
+            const unsigned int j = matrix.column(k);
+            double             a[n_entries];
+            std::copy_n(matrix.block(k), n_entries, a);
+            if (const Vector3 *const n = transfer.plane(j))
+              for (unsigned int c = 0; c < dim; ++c)
+                project(*n, a + dim * c);
+            const Block *const b = transfer.row_blocks(j);
+            for (std::size_t l = transfer.row_begin(j); l < transfer.row_end(j); ++l)
+              {
+                double *const y = GalerkinKernels::find(row.blocks.data(), row.place.data(),
+                                                        row.columns.data(), n_columns, transfer.column(l));
+                if (b == nullptr)
+                  add_scaled_block(y, transfer.weight(l), a);
+                else
+                  {
+                    const Block &p = b[l - transfer.row_begin(j)];
+                    for (unsigned int c = 0; c < dim; ++c)
+                      for (unsigned int d = 0; d < dim; ++d)
+                        y[dim * c + d] +=
+                            a[dim * c] * p[0][d] + a[dim * c + 1] * p[1][d] + a[dim * c + 2] * p[2][d];
+                  }
+              }
           }
-        return place[column];
+        row.columns.resize(n_columns);
       }
 
-      /// Where the block of a coarse node begins in `blocks`, or -1.
-      std::vector<int>          place;
-      std::vector<unsigned int> columns;
-      std::vector<double>       blocks;
-      std::vector<ScaledBlock>  terms;
-      std::vector<BlockTerm>    block_terms;
-      /// Blocks of A times the planes of rows of P.
-      std::vector<double> projected;
+      GalerkinKernels::Row row;
     };
   } // namespace
 

@@ -5,6 +5,7 @@
 #define signorini_algebra_block_row_h
 
 #include <cstddef>
+#include <cstring>
 
 // Compiled for processors with AVX2 as well; the loader chooses. Distributions build for the oldest
 // processor.
@@ -36,17 +37,22 @@ namespace Signorini
   /// How many calls ahead `wanted` should be.
   constexpr unsigned int rows_ahead = 6;
 
-  /// One term of a sum of blocks.
-  struct ScaledBlock
+  /// y[c] += weight * x[c], c < 9.
+  inline __attribute__((always_inline)) void add_scaled_block(double *const y, const double weight,
+                                                              const double *const x)
   {
-    /// Where the block it is added to begins, in numbers.
-    std::size_t   to;
-    const double *from;
-    double        weight;
-  };
-
-  /// For all terms: sums[to + c] += weight * from[c], c < 9.
-  void add_scaled_blocks(double *sums, const ScaledBlock *terms, std::size_t n);
+    typedef double Vector4 __attribute__((vector_size(4 * sizeof(double))));
+    Vector4        x_first, x_second, y_first, y_second;
+    std::memcpy(&x_first, x, sizeof(Vector4));
+    std::memcpy(&x_second, x + 4, sizeof(Vector4));
+    std::memcpy(&y_first, y, sizeof(Vector4));
+    std::memcpy(&y_second, y + 4, sizeof(Vector4));
+    y_first += weight * x_first;
+    y_second += weight * x_second;
+    std::memcpy(y, &y_first, sizeof(Vector4));
+    std::memcpy(y + 4, &y_second, sizeof(Vector4));
+    y[8] += weight * x[8];
+  }
 } // namespace Signorini
 
 #endif

@@ -84,6 +84,22 @@ namespace Signorini
       return weights[k];
     }
 
+    /// The arrays behind row_begin(), column() and weight(), for kernels.
+    const std::size_t *row_start_data() const
+    {
+      return row_start.data();
+    }
+
+    const unsigned int *column_data() const
+    {
+      return columns.data();
+    }
+
+    const double *weight_data() const
+    {
+      return weights.data();
+    }
+
     /// The unit normal of the plane to which a row is truncated, or nullptr.
     const Vector3 *plane(const unsigned int row) const
     {
