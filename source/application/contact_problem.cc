@@ -76,7 +76,7 @@ namespace Signorini
   void ContactProblem::setup_space()
   {
     Discretization &d = discretization;
-    d.space = std::make_unique<NodalSpace>(comm, bodies.mesh(), parameters.refinement.adaptive_cycles > 0);
+    d.space = std::make_shared<NodalSpace>(comm, bodies.mesh(), parameters.refinement.adaptive_cycles > 0);
     d.partition    = std::make_unique<NodePartition>(d.space->owned(), d.space->relevant(), comm);
     d.dirichlet    = evaluate_dirichlet(*d.space, loads, true);
     d.free_motions = free_motions(bodies, *d.space, d.dirichlet);
@@ -146,7 +146,7 @@ namespace Signorini
 
     time.restart();
     progress.show("building levels");
-    const LevelSpaces levels(*d.space, bodies, loads);
+    const LevelSpaces levels(*d.space, coarser_spaces.update(bodies, d.space), bodies, loads);
     auto              hierarchy = make_hierarchy(std::move(system), levels);
     cycle.levels                = levels.n_levels();
     cycle.times["hierarchy"] += time.wall_time();

@@ -147,9 +147,10 @@ namespace Signorini
 
 
 
-  LevelSpaces::LevelSpaces(const NodalSpace &finest, const Bodies &bodies, const Loads &loads)
+  LevelSpaces::LevelSpaces(const NodalSpace &finest, std::vector<std::shared_ptr<const NodalSpace>> coarser,
+                           const Bodies &bodies, const Loads &loads)
     : finest(finest)
-    , coarse(coarser_spaces(bodies))
+    , coarse(std::move(coarser))
   {
     for (unsigned int l = 0; l < n_levels(); ++l)
       {

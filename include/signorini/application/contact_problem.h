@@ -43,13 +43,13 @@ namespace Signorini
   /// All that belongs to one mesh of the nested iteration.
   struct Discretization
   {
-    std::unique_ptr<NodalSpace>    space;
-    std::unique_ptr<NodePartition> partition;
-    DirichletData                  dirichlet;
-    std::vector<FreeMotion>        free_motions;
-    std::vector<ContactPair>       pairs;
-    std::vector<PairCoupling>      couplings;
-    InterfaceCoupling              coupling;
+    std::shared_ptr<const NodalSpace> space;
+    std::unique_ptr<NodePartition>    partition;
+    DirichletData                     dirichlet;
+    std::vector<FreeMotion>           free_motions;
+    std::vector<ContactPair>          pairs;
+    std::vector<PairCoupling>         couplings;
+    InterfaceCoupling                 coupling;
     /// Per row of the coupling: pair and row in the pair, fixed mask, normal, gap.
     std::vector<std::pair<unsigned int, std::size_t>> origin;
     std::vector<FixedMask>                            row_masks;
@@ -168,6 +168,7 @@ namespace Signorini
     const MPI_Comm              comm;
     dealii::ConditionalOStream &out;
     Bodies                      bodies;
+    CoarserSpaces               coarser_spaces;
     Loads                       loads;
     Refinement                  refinement;
     std::vector<PairDefinition> pair_definitions;

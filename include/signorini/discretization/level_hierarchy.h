@@ -23,13 +23,15 @@ namespace Signorini
   NodeRows interpolation_rows(const NodalSpace &fine, const NodalSpace &coarse,
                               const TetrahedralForest *const forest);
 
-  /// The nodal spaces on the meshes of the hierarchy (coarser_spaces()), and the interpolation between
+  /// The nodal spaces on the meshes of the hierarchy, and the interpolation between
   /// consecutive levels.
   class LevelSpaces
   {
   public:
-    /// Collective. The finest space must be that of the bodies as they are, and outlive the object.
-    LevelSpaces(const NodalSpace &finest, const Bodies &bodies, const Loads &loads);
+    /// Collective. The coarser spaces (CoarserSpaces::update()) come coarsest first. The finest must outlive
+    /// the object.
+    LevelSpaces(const NodalSpace &finest, std::vector<std::shared_ptr<const NodalSpace>> coarser,
+                const Bodies &bodies, const Loads &loads);
 
     /// Level 0 is the coarsest.
     unsigned int n_levels() const
@@ -55,10 +57,10 @@ namespace Signorini
     }
 
   private:
-    const NodalSpace                        &finest;
-    std::vector<std::unique_ptr<NodalSpace>> coarse;
-    std::vector<NodeRows>                    rows;
-    std::vector<std::vector<FixedMask>>      masks;
+    const NodalSpace                              &finest;
+    std::vector<std::shared_ptr<const NodalSpace>> coarse;
+    std::vector<NodeRows>                          rows;
+    std::vector<std::vector<FixedMask>>            masks;
   };
 
   /// The transfer operator on the next coarser level (method.md, section 5):

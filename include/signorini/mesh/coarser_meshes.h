@@ -9,6 +9,8 @@
 
 #include <deal.II/distributed/tria.h>
 
+#include <p8est.h>
+
 #include <memory>
 #include <vector>
 
@@ -31,22 +33,44 @@ namespace Signorini
     explicit CoarseningSequence(const DistributedMesh &finest);
     ~CoarseningSequence();
 
-    /// Collective. The next coarser mesh; null behind the coarsest.
-    std::unique_ptr<DistributedMesh> next();
+    /// Collective. Goes to the next coarser forest; false behind the coarsest.
+    bool coarsen();
+
+    /// The present forest, distributed.
+    const p8est &forest() const;
+
+    /// Collective. The present forest as a mesh.
+    std::unique_ptr<DistributedMesh> mesh() const;
 
   private:
     struct Forest;
 
     const DistributedMesh  &finest;
-    std::unique_ptr<Forest> forest;
+    std::unique_ptr<Forest> current;
     unsigned int            n_left;
   };
 
-  /// Collective. The nodal spaces of the multigrid hierarchy below the current mesh, coarsest first:
-  /// hexahedra by global coarsening, tetrahedra by the meshes they were refined from (except those without
-  /// which the next finer level halves no edge more than once). The kind with fewer meshes keeps its
-  /// coarsest.
-  std::vector<std::unique_ptr<NodalSpace>> coarser_spaces(const Bodies &bodies);
+  /// The nodal spaces of the multigrid hierarchy below the current mesh: hexahedra by global coarsening,
+  /// tetrahedra by the meshes they were refined from (except those without which the next finer level halves
+  /// no edge more than once). The kind with fewer meshes keeps its coarsest.
+  ///
+  /// Remembers the hierarchy of the last mesh: in nested iteration most levels come up again, and building
+  /// the triangulation of a level costs as much as some ten sweeps of a smoother.
+  class CoarserSpaces
+  {
+  public:
+    CoarserSpaces();
+    ~CoarserSpaces();
+
+    /// Collective. The spaces, coarsest first. `finest` is that of the bodies as they are.
+    std::vector<std::shared_ptr<const NodalSpace>> update(const Bodies                     &bodies,
+                                                          std::shared_ptr<const NodalSpace> finest);
+
+  private:
+    struct Level;
+
+    std::vector<Level> levels;
+  };
 } // namespace Signorini
 
 #endif

@@ -172,8 +172,8 @@ TEST(CoarseningSequence, HasTheMeshesOfDealII)
   refine_near_pole(bodies);
   CoarseningSequence                                                sequence(bodies.triangulation());
   std::vector<std::unique_ptr<CoarseningSequence::DistributedMesh>> ours;
-  while (auto mesh = sequence.next())
-    ours.push_back(std::move(mesh));
+  while (sequence.coarsen())
+    ours.push_back(sequence.mesh());
   std::reverse(ours.begin(), ours.end());
   const auto expected =
       MGTransferGlobalCoarseningTools::create_geometric_coarsening_sequence(bodies.triangulation());
@@ -198,6 +198,46 @@ TEST(CoarseningSequence, HasTheMeshesOfDealII)
         {
           EXPECT_EQ(a[i].first, b[i].first);
           EXPECT_NEAR(a[i].second, b[i].second, 1e-12);
+        }
+    }
+}
+
+
+
+// Levels that come up again after a refinement are those of before; the others are as if built anew.
+TEST(CoarserSpaces, KnowsTheLevelsOfTheLastMesh)
+{
+  Bodies        bodies(MPI_COMM_WORLD, {body("half ball")}, ".");
+  CoarserSpaces remembering;
+  const auto    space_of = [&] { return std::make_shared<const NodalSpace>(MPI_COMM_WORLD, bodies.mesh()); };
+  refine_near_pole(bodies);
+  const auto before = remembering.update(bodies, space_of());
+  const auto finest = space_of();
+  bodies.refine(*finest, std::vector<bool>(finest->cells().size(), true));
+  const auto after = remembering.update(bodies, space_of());
+  const auto anew  = CoarserSpaces().update(bodies, space_of());
+  ASSERT_EQ(after.size(), before.size() + 1);
+  ASSERT_EQ(after.size(), anew.size());
+  for (std::size_t l = 0; l < before.size(); ++l)
+    EXPECT_EQ(after[l], before[l]) << "level " << l;
+  for (std::size_t l = 0; l < after.size(); ++l)
+    {
+      // The order of cells and nodes may differ.
+      using Corners      = std::map<std::pair<std::uint64_t, std::uint64_t>, std::vector<Point<3>>>;
+      const auto corners = [](const NodalSpace &space) {
+        Corners result;
+        for (const NodalSpace::Cell &cell : space.cells())
+          for (const NodeIndex node : space.nodes(cell))
+            result[{cell.coarse_cell, cell.path}].push_back(space.position(node));
+        return result;
+      };
+      const Corners a = corners(*after[l]), b = corners(*anew[l]);
+      ASSERT_EQ(a.size(), b.size()) << "level " << l;
+      for (const auto &[cell, points] : a)
+        {
+          ASSERT_EQ(b.count(cell), 1u);
+          for (std::size_t v = 0; v < points.size(); ++v)
+            EXPECT_LT(points[v].distance(b.at(cell)[v]), 1e-12);
         }
     }
 }
