@@ -203,18 +203,23 @@ namespace Signorini
       start.assign(1, 0);
       start.reserve(matrix.n_rows() + 1);
       columns.reserve(16 * static_cast<std::size_t>(matrix.n_rows()));
+      std::vector<unsigned int> row(n_coarse + 1);
       for (unsigned int i = 0; i < matrix.n_rows(); ++i)
         {
+          unsigned int n = 0;
           for (std::size_t k = matrix.row_begin(i); k < matrix.row_end(i); ++k)
             {
               const unsigned int j = matrix.column(k);
               for (std::size_t l = transfer.row_begin(j); l < transfer.row_end(j); ++l)
-                if (seen[transfer.column(l)] != i)
-                  {
-                    seen[transfer.column(l)] = i;
-                    columns.push_back(transfer.column(l));
-                  }
+                {
+                  // Written in any case: cheaper than a branch that is hard to predict.
+                  const unsigned int column = transfer.column(l);
+                  row[n]                    = column;
+                  n += seen[column] != i;
+                  seen[column] = i;
+                }
             }
+          columns.insert(columns.end(), row.begin(), row.begin() + n);
           start.push_back(columns.size());
         }
     }
@@ -260,6 +265,7 @@ namespace Signorini
 
     NodePattern               pattern;
     std::vector<unsigned int> seen(coarse->n_local(), numbers::invalid_unsigned_int);
+    std::vector<unsigned int> columns(coarse->n_local() + 1);
     for (unsigned int row = 0; row < coarse->n_local(); ++row)
       {
         if (row >= coarse->n_owned())
@@ -268,13 +274,17 @@ namespace Signorini
               continue;
             pattern.foreign_rows.push_back(coarse->to_global(row));
           }
+        unsigned int n = 0;
         for (std::size_t l = fine_start[row]; l < fine_start[row + 1]; ++l)
           for (std::size_t k = product_start[fine_rows[l]]; k < product_start[fine_rows[l] + 1]; ++k)
-            if (seen[product_columns[k]] != row)
-              {
-                seen[product_columns[k]] = row;
-                pattern.columns.push_back(coarse->to_global(product_columns[k]));
-              }
+            {
+              const unsigned int column = product_columns[k];
+              columns[n]                = column;
+              n += seen[column] != row;
+              seen[column] = row;
+            }
+        for (unsigned int k = 0; k < n; ++k)
+          pattern.columns.push_back(coarse->to_global(columns[k]));
         pattern.row_start.push_back(pattern.columns.size());
       }
     product_columns = std::vector<unsigned int>();

@@ -147,8 +147,11 @@ namespace Signorini
     time.restart();
     progress.show("building levels");
     const LevelSpaces levels(*d.space, coarser_spaces.update(bodies, d.space), bodies, loads);
-    auto              hierarchy = make_hierarchy(std::move(system), levels);
-    cycle.levels                = levels.n_levels();
+    cycle.levels = levels.n_levels();
+    cycle.times["levels"] += time.wall_time();
+
+    time.restart();
+    auto hierarchy = make_hierarchy(std::move(system), levels);
     cycle.times["hierarchy"] += time.wall_time();
 
     time.restart();
@@ -264,9 +267,15 @@ namespace Signorini
         for (const auto *entry = d.coupling.begin(p); entry != d.coupling.end(p); ++entry)
           add(entry->node, entry->weight * project_free(d.row_masks[p], force));
       }
+    cycle.times["linear_assembly"] += time.wall_time();
+
+    time.restart();
     MultigridHierarchy hierarchy = build_hierarchy(
         std::move(system), levels, none,
         {{}, parameters.solver.level_zero, d.free_motions, &bodies, {}, parameters.solver.level_zero_steps});
+    cycle.times["linear_hierarchy"] += time.wall_time();
+
+    time.restart();
     const NodeBlockMatrix    &matrix = hierarchy.finest().matrix;
     const BasisTransformation plain(*d.space, *d.partition, d.dirichlet, none, no_masks);
     Vector                    v, solution, product;
@@ -278,6 +287,7 @@ namespace Signorini
     const auto solver                  = make_solver(hierarchy, linear_parameters);
     cycle.linear                       = solver->solve(v, problem);
     cycle.has_linear                   = true;
+    cycle.times["linear_solve"] += time.wall_time();
 
     matrix.partition().reinit(solution);
     matrix.partition().reinit(product);
@@ -294,7 +304,6 @@ namespace Signorini
       }
     matrix.vmult(product, solution);
     cycle.difference = scale > 0. ? std::sqrt(std::max(0., product * solution) / scale) : 0.;
-    cycle.times["linear_solve"] += time.wall_time();
   }
 
 

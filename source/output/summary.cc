@@ -86,8 +86,8 @@ namespace Signorini
       json.number("sweep_bytes_per_s", cycle.sweeps.bytes_per_second);
       json.number("read_bytes_per_s", cycle.sweeps.read_bytes_per_second);
       json.begin('{', "times_s");
-      for (const char *name : {"mesh", "mapping", "mortar", "assembly", "hierarchy", "solve", "linear_solve",
-                               "estimate", "output"})
+      for (const char *name : {"mesh", "mapping", "mortar", "assembly", "levels", "hierarchy", "solve",
+                               "linear_assembly", "linear_hierarchy", "linear_solve", "estimate", "output"})
         {
           const auto it = cycle.times.find(name);
           json.number(name, it == cycle.times.end() ? 0. : it->second);

@@ -21,6 +21,11 @@ namespace Signorini
     , half_space_of_row(matrix.n_rows(), -1)
   {
     split_rows();
+    std::vector<unsigned int> block_rows;
+    for (unsigned int row = 0; row < matrix.n_rows(); ++row)
+      if (blocks.contains(row))
+        block_rows.push_back(row);
+    sees_blocks = rows_that_see(block_rows);
     update_diagonal();
   }
 
@@ -97,14 +102,22 @@ namespace Signorini
 
 
 
-  void ProjectedGaussSeidel::set_interface(const std::vector<unsigned int> &rows)
+  std::vector<bool> ProjectedGaussSeidel::rows_that_see(const std::vector<unsigned int> &rows) const
   {
-    interface_rows = all_rows.subset(rows);
-    std::fill(sees_interface.begin(), sees_interface.end(), false);
+    std::vector<bool> result(matrix.n_rows(), false);
     for (const unsigned int row : rows)
       for (std::size_t k = matrix.row_begin(row); k < matrix.row_end(row); ++k)
         if (matrix.column(k) < matrix.n_rows())
-          sees_interface[matrix.column(k)] = true;
+          result[matrix.column(k)] = true;
+    return result;
+  }
+
+
+
+  void ProjectedGaussSeidel::set_interface(const std::vector<unsigned int> &rows)
+  {
+    interface_rows = all_rows.subset(rows);
+    sees_interface = rows_that_see(rows);
   }
 
 
@@ -199,44 +212,43 @@ namespace Signorini
 
 
 
-  void ProjectedGaussSeidel::smooth(Vector &v, const Vector &rhs, const SmoothingParameters &parameters,
-                                    const Direction direction)
+  void ProjectedGaussSeidel::sweep_with_blocks(Vector &v, const Vector &rhs, const Direction direction,
+                                               const SweepOptions &options)
   {
-    if (direction == forward)
-      {
-        for (unsigned int i = 0; i < parameters.n_pre; ++i)
-          sweep(v, rhs, direction);
-        blocks.sweep(v, rhs, true, constraints, half_space_of_row, is_active);
-      }
-    for (unsigned int i = 0; i < parameters.n_interface_sweeps; ++i)
-      interface_sweep(v, rhs, direction);
     if (direction == backward)
-      {
-        blocks.sweep(v, rhs, false, constraints, half_space_of_row, is_active);
-        for (unsigned int i = 0; i < parameters.n_post; ++i)
-          sweep(v, rhs, direction);
-      }
+      blocks.sweep(v, rhs, false, constraints, half_space_of_row, is_active);
+    run(v, rhs, all_rows, direction, options);
+    if (direction == forward)
+      blocks.sweep(v, rhs, true, constraints, half_space_of_row, is_active);
   }
 
 
 
-  void ProjectedGaussSeidel::last_sweep(Vector &v, const Vector &rhs, const Direction direction,
-                                        const bool from_zero, Vector &residual)
+  void ProjectedGaussSeidel::smooth(Vector &v, const Vector &rhs, const SmoothingParameters &parameters,
+                                    const Direction direction)
   {
-    residual.zero_out_ghost_values();
-    residual = 0.;
-    run(v, rhs, all_rows, direction, {from_zero, residual.begin()});
-    residual.zero_out_ghost_values();
+    if (direction == forward)
+      for (unsigned int i = 0; i < parameters.n_pre; ++i)
+        sweep_with_blocks(v, rhs, direction, {});
+    for (unsigned int i = 0; i < parameters.n_interface_sweeps; ++i)
+      interface_sweep(v, rhs, direction);
+    if (direction == backward)
+      for (unsigned int i = 0; i < parameters.n_post; ++i)
+        sweep_with_blocks(v, rhs, direction, {});
   }
 
 
 
   void ProjectedGaussSeidel::complete_residual(Vector &residual, const Vector &v, const Vector &rhs,
-                                               const bool with_interface_sweeps)
+                                               const std::vector<bool> *const changed,
+                                               const std::vector<bool> *const also_changed)
   {
+    // What the sweep left at ghosts.
+    residual.zero_out_ghost_values();
     v.update_ghost_values();
     for (unsigned int row = 0; row < matrix.n_rows(); ++row)
-      if (!is_inner[row] || half_space_of_row[row] >= 0 || (with_interface_sweeps && sees_interface[row]))
+      if (!is_inner[row] || half_space_of_row[row] >= 0 || (changed != nullptr && (*changed)[row]) ||
+          (also_changed != nullptr && (*also_changed)[row]))
         {
           double *const     r     = residual.begin() + dim * static_cast<std::size_t>(row);
           const std::size_t begin = matrix.row_begin(row);
@@ -252,18 +264,15 @@ namespace Signorini
   void ProjectedGaussSeidel::smooth_from_zero(Vector &v, const Vector &rhs,
                                               const SmoothingParameters &parameters, Vector &residual)
   {
-    v                   = 0.;
-    const bool collects = parameters.n_pre > 0 && blocks.empty();
+    v        = 0.;
+    residual = 0.;
     for (unsigned int i = 0; i < parameters.n_pre; ++i)
-      if (collects && i + 1 == parameters.n_pre)
-        last_sweep(v, rhs, forward, i == 0, residual);
-      else
-        run(v, rhs, all_rows, forward, {i == 0, nullptr});
-    blocks.sweep(v, rhs, true, constraints, half_space_of_row, is_active);
+      sweep_with_blocks(v, rhs, forward, {i == 0, i + 1 == parameters.n_pre ? residual.begin() : nullptr});
     for (unsigned int i = 0; i < parameters.n_interface_sweeps; ++i)
       interface_sweep(v, rhs, forward);
-    if (collects)
-      complete_residual(residual, v, rhs, parameters.n_interface_sweeps > 0);
+    if (parameters.n_pre > 0)
+      complete_residual(residual, v, rhs, &sees_blocks,
+                        parameters.n_interface_sweeps > 0 ? &sees_interface : nullptr);
     else
       {
         matrix.vmult(residual, v);
@@ -281,8 +290,9 @@ namespace Signorini
     smooth(v, rhs, all_but_last, backward);
     if (parameters.n_post > 0)
       {
-        last_sweep(v, rhs, backward, false, residual);
-        complete_residual(residual, v, rhs, false);
+        residual = 0.;
+        sweep_with_blocks(v, rhs, backward, {false, residual.begin()});
+        complete_residual(residual, v, rhs, nullptr, nullptr);
       }
     else
       {

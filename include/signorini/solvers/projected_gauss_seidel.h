@@ -64,8 +64,8 @@ namespace Signorini
     void interface_sweep(Vector &v, const Vector &rhs, const Direction direction);
 
     /// The sweeps before (forward) or after (backward) a coarse correction, interface sweeps nearest to it.
-    /// Where cells are stretched, one over lines and planes of nodes (StrongBlocks) between them. One is the
-    /// adjoint of the other, so that a cycle is symmetric.
+    /// Where cells are stretched each sweep goes over lines and planes of nodes (StrongBlocks) as well. One
+    /// is the adjoint of the other, so that a cycle is symmetric.
     void smooth(Vector &v, const Vector &rhs, const SmoothingParameters &parameters,
                 const Direction direction);
 
@@ -128,14 +128,18 @@ namespace Signorini
     /// The blocks of a row that a sweep multiplies, from and to.
     std::pair<std::size_t, std::size_t> range(const unsigned int row, const SweepOptions &options) const;
 
-    /// The last sweep of smoothing, which collects the residual, but for the rows of complete_residual().
-    void last_sweep(Vector &v, const Vector &rhs, const Direction direction, const bool from_zero,
-                    Vector &residual);
+    /// A sweep over all rows and one over the blocks, nearer to the coarse correction.
+    void sweep_with_blocks(Vector &v, const Vector &rhs, const Direction direction,
+                           const SweepOptions &options);
 
     /// Residuals that the last sweep cannot collect: at nodes that other ranks see, at contact nodes (where
-    /// it may project), near interface sweeps.
+    /// it may project), and at the given nodes (may be null), where something else has changed v since.
     void complete_residual(Vector &residual, const Vector &v, const Vector &rhs,
-                           const bool with_interface_sweeps);
+                           const std::vector<bool> *const changed,
+                           const std::vector<bool> *const also_changed);
+
+    /// The rows that see one of the given ones (themselves included).
+    std::vector<bool> rows_that_see(const std::vector<unsigned int> &rows) const;
 
     const NodeBlockMatrix &matrix;
     SweepSchedule          all_rows;
@@ -145,8 +149,8 @@ namespace Signorini
     std::vector<std::size_t> first_above;
     /// Rows of nodes that no other rank sees; those whose columns after first_above are visited after them.
     std::vector<bool> is_inner, is_ordered;
-    /// Rows that interface sweeps change or that see such rows.
-    std::vector<bool>          sees_interface;
+    /// Rows that see rows of interface sweeps, of blocks.
+    std::vector<bool>          sees_interface, sees_blocks;
     std::vector<double>        inverse_diagonal;
     HalfSpaces                 constraints;
     std::vector<int>           half_space_of_row;

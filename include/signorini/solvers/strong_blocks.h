@@ -34,6 +34,12 @@ namespace Signorini
       return is_empty;
     }
 
+    /// Whether an owned row belongs to a block.
+    bool contains(const unsigned int row) const
+    {
+      return block_of_row[row] >= 0;
+    }
+
     /// Rows of the matrix have changed.
     void update(const std::vector<unsigned int> &rows);
 

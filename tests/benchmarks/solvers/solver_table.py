@@ -3,7 +3,7 @@
 
 usage: solver_table.py PROGRAM [--large] [--tolerance T]
 
-Costs are those of the finest solve with its hierarchy, in seconds and in sweeps (time of a Gauss-Seidel sweep in the same run, method.md,
+Costs are those of the finest solve with its hierarchy (spaces and interpolation of the levels, Galerkin products, updates), in seconds and in sweeps (time of a Gauss-Seidel sweep in the same run, method.md,
 section 8). --large refines once more: 0.4 to 0.5 million unknowns (some minutes, 2 GB).
 """
 import argparse
@@ -49,8 +49,9 @@ def main():
                 linear = f'({c["linear"]["iterations"]})' if 'linear' in c and method != 'active set amg' else ''
                 amg = f'[{c["nonlinear"].get("amg_cycles", 0)}]' if method == 'active set amg' else ''
                 counts.append(f'{c["nonlinear"]["iterations"]}{linear}{amg}')
-            time = last['times_s']['solve'] + (0 if method == 'active set amg' else last['times_s']['hierarchy'])
-            linear = f'{time / last["times_s"]["linear_solve"]:9.2f}' if 'linear' in last and method != 'active set amg' else f'{"-":>9}'
+            times = last['times_s']
+            time = times['solve'] + (0 if method == 'active set amg' else times['levels'] + times['hierarchy'])
+            linear = f'{time / (times["levels"] + times["linear_hierarchy"] + times["linear_solve"]):9.2f}' if 'linear' in last and method != 'active set amg' else f'{"-":>9}'
             print(f'{name:<11}{last["dofs"]:>9}  {method:<28}{" ".join(counts):<66}{time:8.2f}{time / last["sweep_time_s"]:8.0f}{linear}', flush=True)
 
 
