@@ -338,14 +338,22 @@ namespace Signorini
       return n_columns;
     }
 
-    /// A row of the coarse matrix += weight * row. Also at nodes where the row is zero: cheaper than a branch
-    /// that is hard to predict.
+    /// A row of the coarse matrix += weight * row.
     SIGNORINI_VECTORIZED
     void add_row(double *const sums, const unsigned int *const columns, const std::size_t n,
-                 const double weight, const double *const blocks, const int *const place)
+                 const double weight, const double *const blocks, const int *const place,
+                 const bool is_sparse)
     {
-      for (std::size_t k = 0; k < n; ++k)
-        add_scaled_block(sums + n_entries * k, weight, blocks + place[columns[k]]);
+      if (is_sparse)
+        {
+          for (std::size_t k = 0; k < n; ++k)
+            if (place[columns[k]] != 0)
+              add_scaled_block(sums + n_entries * k, weight, blocks + place[columns[k]]);
+        }
+      else
+        // Also where the row is zero: cheaper than a branch that is hard to predict.
+        for (std::size_t k = 0; k < n; ++k)
+          add_scaled_block(sums + n_entries * k, weight, blocks + place[columns[k]]);
     }
   } // namespace GalerkinKernels
 
@@ -403,7 +411,7 @@ namespace Signorini
         const std::size_t begin = coarse.row_begin(coarse_row), end = coarse.row_end(coarse_row);
         if (p == nullptr)
           GalerkinKernels::add_row(coarse.block(begin), coarse.column_data() + begin, end - begin, weight,
-                                   row.blocks.data(), row.place.data());
+                                   row.blocks.data(), row.place.data(), end - begin > 4 * row.columns.size());
         else
           for (std::size_t k = begin; k < end; ++k)
             {

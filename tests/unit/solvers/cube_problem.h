@@ -56,8 +56,8 @@ namespace CubeProblem
     IndexSet     owned;
   };
 
-  /// Stiffness of E = 1, nu = 0.3; cells belong to the rank of their first node.
-  inline NodeBlockMatrix stiffness(const Grid &grid)
+  /// Stiffness of E = 1, nu = 0.3; cells belong to the rank of their first node. The cube may be flattened.
+  inline NodeBlockMatrix stiffness(const Grid &grid, const double height = 1.)
   {
     const unsigned int n     = grid.n;
     const NodeIndex    begin = grid.owned.nth_index_in_set(0), size = grid.owned.n_elements();
@@ -92,7 +92,7 @@ namespace CubeProblem
 
     Hexahedron::Corners corners;
     for (unsigned int v = 0; v < 8; ++v)
-      corners[v] = Point<3>((v & 1) / double(n), (v >> 1 & 1) / double(n), (v >> 2) / double(n));
+      corners[v] = Point<3>((v & 1) / double(n), (v >> 1 & 1) / double(n), height * (v >> 2) / double(n));
     std::array<double, 576> k;
     Hexahedron::stiffness(k, corners, 1., .3);
     for (const auto &cell : cells)

@@ -106,6 +106,61 @@ TEST(ProjectedGaussSeidel, EnergyFallsInEverySweep)
 
 
 
+// What smoothing collects on the way is the residual, with half-spaces, interface sweeps and lines of flat
+// cells.
+TEST(ProjectedGaussSeidel, SmoothingHandsOutItsResidual)
+{
+  for (const double height : {1., .05})
+    {
+      const CubeProblem::Grid grid(8);
+      const NodeBlockMatrix   matrix = CubeProblem::stiffness(grid, height);
+      // Each remembers its active nodes.
+      ProjectedGaussSeidel      smoother(matrix), other(matrix);
+      const NodePartition      &nodes       = matrix.partition();
+      HalfSpaces                half_spaces = CubeProblem::paraboloid(grid);
+      std::vector<unsigned int> near_contact;
+      for (unsigned int i = 0; i < nodes.n_owned(); ++i)
+        if (grid.index(nodes.to_global(i))[2] <= 1)
+          near_contact.push_back(i);
+      for (ProjectedGaussSeidel *one : {&smoother, &other})
+        {
+          one->set_half_spaces(half_spaces);
+          one->set_interface(near_contact);
+        }
+      Vector v, rhs, residual, plain, product;
+      for (Vector *vector : {&v, &rhs, &residual, &plain, &product})
+        nodes.reinit(*vector);
+      for (unsigned int i = 0; i < 3 * nodes.n_owned(); ++i)
+        rhs.local_element(i) = .01 * std::sin(1. + 3. * nodes.first_owned() + i);
+      const auto expect = [&](const SmoothingParameters &p) {
+        std::ostringstream text;
+        text << "height " << height << ", V(" << p.n_pre << "," << p.n_post << "), " << p.n_interface_sweeps
+             << " interface sweeps";
+        SCOPED_TRACE(text.str());
+        matrix.vmult(product, v);
+        product.sadd(-1., 1., rhs);
+        product -= residual;
+        EXPECT_LT(product.linfty_norm(), 1e-13);
+        product = v;
+        product -= plain;
+        EXPECT_LT(product.linfty_norm(), 1e-13 * plain.linfty_norm());
+      };
+      for (const SmoothingParameters &p :
+           {SmoothingParameters{0, 0, 2}, {1, 1, 0}, {1, 1, 1}, {2, 2, 0}, {3, 3, 2}})
+        {
+          smoother.smooth_from_zero(v, rhs, p, residual);
+          plain = 0.;
+          other.smooth(plain, rhs, p, ProjectedGaussSeidel::forward);
+          expect(p);
+          smoother.smooth_to_residual(v, rhs, p, residual);
+          other.smooth(plain, rhs, p, ProjectedGaussSeidel::backward);
+          expect(p);
+        }
+    }
+}
+
+
+
 // Truncating and releasing nodes must leave no trace in the coarse matrices.
 TEST(MultigridHierarchy, TruncationIsUndone)
 {
