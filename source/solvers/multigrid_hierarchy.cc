@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/algebra/galerkin_product.h>
 #include <signorini/solvers/multigrid_hierarchy.h>
 
 #include <deal.II/base/mpi.h>

@@ -12,6 +12,16 @@
 
 namespace Signorini
 {
+  /// x - n (n·x) in place, three numbers; n is a unit vector.
+  inline void project_to_plane(const Vector3 &n, double *const x)
+  {
+    const double normal = n[0] * x[0] + n[1] * x[1] + n[2] * x[2];
+    for (unsigned int c = 0; c < dim; ++c)
+      x[c] -= normal * n[c];
+  }
+
+
+
   /// Explicit prolongation from a coarse to a fine level, by node. Most rows have scalar weights
   /// (times the identity); rows at a contact interface have 3x3 blocks, so that truncation can
   /// remove directions from them.
@@ -127,26 +137,6 @@ namespace Signorini
     std::vector<Vector3>                 planes;
     std::shared_ptr<const NodePartition> coarse;
   };
-
-
-
-  /// The Galerkin product P^T A P, block by block.
-  ///
-  /// Collective. Builds the structure of the coarse matrix (independent of the values in A and P)
-  /// and localizes P on its partition.
-  void reinit_galerkin(NodeBlockMatrix &coarse_matrix, const NodeBlockMatrix &matrix, NodalTransfer &transfer,
-                       const dealii::IndexSet &owned_coarse_nodes);
-
-  /// Collective. Computes the values of those coarse rows (local coarse nodes) that are marked; an
-  /// empty list means all.
-  void compute_galerkin(NodeBlockMatrix &coarse_matrix, const NodeBlockMatrix &matrix,
-                        const NodalTransfer              &transfer,
-                        const std::vector<unsigned char> &marked_coarse_nodes = {});
-
-  /// Collective. Marks the local coarse nodes whose rows of P^T A P change with the given owned fine rows of
-  /// A. If rows of P change, the rows of A that couple to them are to be given as well.
-  std::vector<unsigned char> mark_coarse_nodes(const NodalTransfer             &transfer,
-                                               const std::vector<unsigned int> &fine_rows);
 } // namespace Signorini
 
 #endif

@@ -4,6 +4,8 @@
 // The parts of a cycle on a cube of n^3 cells (n a power of two), in sweeps of its finest level:
 //   bench_sweeps [n]
 
+#include <signorini/algebra/galerkin_product.h>
+
 #include <deal.II/base/mpi.h>
 
 #include <chrono>

@@ -3,7 +3,7 @@
 
 #include "random_matrix.h"
 
-#include <signorini/algebra/nodal_transfer.h>
+#include <signorini/algebra/galerkin_product.h>
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,328 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/algebra/block_row.h>
+#include <signorini/algebra/galerkin_product.h>
+
+namespace Signorini
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// The sparsity of the owned rows of A P, with local coarse columns.
+    void product_pattern(std::vector<std::size_t> &start, std::vector<unsigned int> &columns,
+                         const NodeBlockMatrix &matrix, const NodalTransfer &transfer,
+                         const unsigned int n_coarse)
+    {
+      std::vector<unsigned int> seen(n_coarse, numbers::invalid_unsigned_int);
+      start.assign(1, 0);
+      start.reserve(matrix.n_rows() + 1);
+      columns.reserve(16 * static_cast<std::size_t>(matrix.n_rows()));
+      std::vector<unsigned int> row(n_coarse + 1);
+      for (unsigned int i = 0; i < matrix.n_rows(); ++i)
+        {
+          unsigned int n = 0;
+          for (std::size_t k = matrix.row_begin(i); k < matrix.row_end(i); ++k)
+            {
+              const unsigned int j = matrix.column(k);
+              for (std::size_t l = transfer.row_begin(j); l < transfer.row_end(j); ++l)
+                {
+                  // Written in any case: cheaper than a branch that is hard to predict.
+                  const unsigned int column = transfer.column(l);
+                  row[n]                    = column;
+                  n += seen[column] != i;
+                  seen[column] = i;
+                }
+            }
+          columns.insert(columns.end(), row.begin(), row.begin() + n);
+          start.push_back(columns.size());
+        }
+    }
+
+
+
+    /// For each local coarse node the owned fine rows that depend on it.
+    void transpose_pattern(std::vector<std::size_t> &start, std::vector<unsigned int> &rows,
+                           const NodalTransfer &transfer, const unsigned int n_coarse)
+    {
+      start.assign(n_coarse + 1, 0);
+      const std::size_t end = transfer.row_end(transfer.n_owned_rows() - 1);
+      for (std::size_t k = 0; k < end; ++k)
+        ++start[transfer.column(k) + 1];
+      std::partial_sum(start.begin(), start.end(), start.begin());
+      rows.resize(end);
+      std::vector<std::size_t> next(start.begin(), start.end() - 1);
+      for (unsigned int i = 0; i < transfer.n_owned_rows(); ++i)
+        for (std::size_t k = transfer.row_begin(i); k < transfer.row_end(i); ++k)
+          rows[next[transfer.column(k)]++] = i;
+    }
+  } // namespace
+
+
+
+  void reinit_galerkin(NodeBlockMatrix &coarse_matrix, const NodeBlockMatrix &matrix, NodalTransfer &transfer,
+                       const IndexSet &owned_coarse_nodes)
+  {
+    const MPI_Comm communicator = matrix.partition().communicator();
+    const IndexSet coarse_nodes = transfer.coarse_nodes(owned_coarse_nodes.size());
+    const auto     coarse = std::make_shared<NodePartition>(owned_coarse_nodes, coarse_nodes, communicator);
+    transfer.localize(coarse);
+
+    std::vector<std::size_t>  product_start, fine_start;
+    std::vector<unsigned int> product_columns, fine_rows;
+    if (matrix.n_rows() > 0)
+      {
+        product_pattern(product_start, product_columns, matrix, transfer, coarse->n_local());
+        transpose_pattern(fine_start, fine_rows, transfer, coarse->n_local());
+      }
+    else
+      fine_start.assign(coarse->n_local() + 1, 0);
+
+    NodePattern               pattern;
+    std::vector<unsigned int> seen(coarse->n_local(), numbers::invalid_unsigned_int);
+    std::vector<unsigned int> columns(coarse->n_local() + 1);
+    for (unsigned int row = 0; row < coarse->n_local(); ++row)
+      {
+        if (row >= coarse->n_owned())
+          {
+            if (fine_start[row] == fine_start[row + 1])
+              continue;
+            pattern.foreign_rows.push_back(coarse->to_global(row));
+          }
+        unsigned int n = 0;
+        for (std::size_t l = fine_start[row]; l < fine_start[row + 1]; ++l)
+          for (std::size_t k = product_start[fine_rows[l]]; k < product_start[fine_rows[l] + 1]; ++k)
+            {
+              const unsigned int column = product_columns[k];
+              columns[n]                = column;
+              n += seen[column] != row;
+              seen[column] = row;
+            }
+        for (unsigned int k = 0; k < n; ++k)
+          pattern.columns.push_back(coarse->to_global(columns[k]));
+        pattern.row_start.push_back(pattern.columns.size());
+      }
+    product_columns = std::vector<unsigned int>();
+    fine_rows       = std::vector<unsigned int>();
+    coarse_matrix.reinit(owned_coarse_nodes, pattern, coarse_nodes, communicator);
+    transfer.localize(coarse_matrix.shared_partition());
+  }
+
+
+
+  namespace GalerkinKernels
+  {
+    constexpr unsigned int n_entries = dim * dim;
+
+    /// A row of blocks under construction. place[column] is where the block of a coarse node begins in
+    /// `blocks`; 0 stands for nodes that do not occur, and for a block of zeros.
+    struct Row
+    {
+      std::vector<int>          place;
+      std::vector<unsigned int> columns;
+      std::vector<double>       blocks;
+    };
+
+    inline __attribute__((always_inline)) double *find(double *const blocks, int *const place,
+                                                       unsigned int *const columns, unsigned int &n_columns,
+                                                       const unsigned int column)
+    {
+      double *block = blocks + place[column];
+      if (block == blocks)
+        {
+          columns[n_columns++] = column;
+          place[column]        = static_cast<int>(n_entries * n_columns);
+          block                = blocks + n_entries * n_columns;
+          std::fill_n(block, n_entries, 0.);
+        }
+      return block;
+    }
+
+    /// blocks += Σ_k A_k P_k: the blocks of a row of A times scalar rows of P. Returns the number of columns.
+    SIGNORINI_VECTORIZED
+    unsigned int multiply_scalar_rows(double *const blocks, int *const place, unsigned int *const columns,
+                                      const double *const a, const unsigned int *const rows,
+                                      const std::size_t n, const std::size_t *const row_start,
+                                      const unsigned int *const p_columns, const double *const p_weights)
+    {
+      unsigned int n_columns = 0;
+      for (std::size_t k = 0; k < n; ++k)
+        for (std::size_t l = row_start[rows[k]]; l < row_start[rows[k] + 1]; ++l)
+          add_scaled_block(find(blocks, place, columns, n_columns, p_columns[l]), p_weights[l],
+                           a + n_entries * k);
+      return n_columns;
+    }
+
+    /// A row of the coarse matrix += weight * row.
+    SIGNORINI_VECTORIZED
+    void add_row(double *const sums, const unsigned int *const columns, const std::size_t n,
+                 const double weight, const double *const blocks, const int *const place,
+                 const bool is_sparse)
+    {
+      if (is_sparse)
+        {
+          for (std::size_t k = 0; k < n; ++k)
+            if (place[columns[k]] != 0)
+              add_scaled_block(sums + n_entries * k, weight, blocks + place[columns[k]]);
+        }
+      else
+        // Also where the row is zero: cheaper than a branch that is hard to predict.
+        for (std::size_t k = 0; k < n; ++k)
+          add_scaled_block(sums + n_entries * k, weight, blocks + place[columns[k]]);
+    }
+  } // namespace GalerkinKernels
+
+
+
+  namespace
+  {
+    /// One row of A P, truncated to the plane of the row of P, as blocks of the coarse nodes it touches.
+    class ProductRow
+    {
+    public:
+      explicit ProductRow(const unsigned int n_coarse)
+      {
+        row.place.assign(n_coarse, 0);
+      }
+
+      void compute(const NodeBlockMatrix &matrix, const NodalTransfer &transfer, const unsigned int i)
+      {
+        for (const unsigned int column : row.columns)
+          row.place[column] = 0;
+        const std::size_t begin = matrix.row_begin(i), end = matrix.row_end(i);
+        std::size_t       n_terms   = 0;
+        bool              is_scalar = true;
+        for (std::size_t k = begin; k < end; ++k)
+          {
+            const unsigned int j = matrix.column(k);
+            n_terms += transfer.row_end(j) - transfer.row_begin(j);
+            is_scalar = is_scalar && transfer.row_blocks(j) == nullptr && transfer.plane(j) == nullptr;
+          }
+        row.columns.resize(n_terms);
+        row.blocks.resize(n_entries * (n_terms + 1));
+        std::fill_n(row.blocks.begin(), n_entries, 0.);
+        if (is_scalar)
+          row.columns.resize(GalerkinKernels::multiply_scalar_rows(
+              row.blocks.data(), row.place.data(), row.columns.data(), matrix.block(begin),
+              matrix.column_data() + begin, end - begin, transfer.row_start_data(), transfer.column_data(),
+              transfer.weight_data()));
+        else
+          multiply_rows(matrix, transfer, begin, end);
+        if (const Vector3 *const n = transfer.plane(i))
+          for (std::size_t b = 1; b <= row.columns.size(); ++b)
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                double *const x      = row.blocks.data() + n_entries * b + d;
+                const double  normal = (*n)[0] * x[0] + (*n)[1] * x[dim] + (*n)[2] * x[2 * dim];
+                for (unsigned int c = 0; c < dim; ++c)
+                  x[dim * c] -= normal * (*n)[c];
+              }
+      }
+
+      /// Adds weight * this row, or pᵀ times this row, to a row of the coarse matrix.
+      void add_to(NodeBlockMatrix &coarse, const unsigned int coarse_row, const double weight,
+                  const Block *p) const
+      {
+        const std::size_t begin = coarse.row_begin(coarse_row), end = coarse.row_end(coarse_row);
+        if (p == nullptr)
+          GalerkinKernels::add_row(coarse.block(begin), coarse.column_data() + begin, end - begin, weight,
+                                   row.blocks.data(), row.place.data(), end - begin > 4 * row.columns.size());
+        else
+          for (std::size_t k = begin; k < end; ++k)
+            {
+              const double *const x = row.blocks.data() + row.place[coarse.column(k)];
+              double *const       y = coarse.block(k);
+              for (unsigned int c = 0; c < dim; ++c)
+                for (unsigned int d = 0; d < dim; ++d)
+                  y[dim * c + d] += (*p)[0][c] * x[d] + (*p)[1][c] * x[dim + d] + (*p)[2][c] * x[2 * dim + d];
+            }
+      }
+
+    private:
+      static constexpr unsigned int n_entries = GalerkinKernels::n_entries;
+
+      void multiply_rows(const NodeBlockMatrix &matrix, const NodalTransfer &transfer,
+                         const std::size_t begin, const std::size_t end)
+      {
+        unsigned int n_columns = 0;
+        for (std::size_t k = begin; k < end; ++k)
+          {
+            const unsigned int j = matrix.column(k);
+            double             a[n_entries];
+            std::copy_n(matrix.block(k), n_entries, a);
+            if (const Vector3 *const n = transfer.plane(j))
+              for (unsigned int c = 0; c < dim; ++c)
+                project_to_plane(*n, a + dim * c);
+            const Block *const b = transfer.row_blocks(j);
+            for (std::size_t l = transfer.row_begin(j); l < transfer.row_end(j); ++l)
+              {
+                double *const y = GalerkinKernels::find(row.blocks.data(), row.place.data(),
+                                                        row.columns.data(), n_columns, transfer.column(l));
+                if (b == nullptr)
+                  add_scaled_block(y, transfer.weight(l), a);
+                else
+                  {
+                    const Block &p = b[l - transfer.row_begin(j)];
+                    for (unsigned int c = 0; c < dim; ++c)
+                      for (unsigned int d = 0; d < dim; ++d)
+                        y[dim * c + d] +=
+                            a[dim * c] * p[0][d] + a[dim * c + 1] * p[1][d] + a[dim * c + 2] * p[2][d];
+                  }
+              }
+          }
+        row.columns.resize(n_columns);
+      }
+
+      GalerkinKernels::Row row;
+    };
+  } // namespace
+
+
+
+  void compute_galerkin(NodeBlockMatrix &coarse_matrix, const NodeBlockMatrix &matrix,
+                        const NodalTransfer &transfer, const std::vector<unsigned char> &marked)
+  {
+    const NodePartition &coarse = coarse_matrix.partition();
+    for (unsigned int i = 0; i < coarse.n_local(); ++i)
+      if (const unsigned int row = coarse_matrix.row_of(i);
+          row != numbers::invalid_unsigned_int && (marked.empty() || marked[i]))
+        coarse_matrix.clear_row(row);
+
+    ProductRow product(coarse.n_local());
+    for (unsigned int i = 0; i < matrix.n_rows(); ++i)
+      {
+        bool wanted = marked.empty();
+        for (std::size_t k = transfer.row_begin(i); !wanted && k < transfer.row_end(i); ++k)
+          wanted = marked[transfer.column(k)];
+        if (!wanted || transfer.row_begin(i) == transfer.row_end(i))
+          continue;
+        product.compute(matrix, transfer, i);
+        const Block *b = transfer.row_blocks(i);
+        for (std::size_t k = transfer.row_begin(i); k < transfer.row_end(i); ++k)
+          if (marked.empty() || marked[transfer.column(k)])
+            product.add_to(coarse_matrix, coarse_matrix.row_of(transfer.column(k)), transfer.weight(k),
+                           b == nullptr ? nullptr : b + (k - transfer.row_begin(i)));
+      }
+    coarse_matrix.compress();
+  }
+
+
+
+  std::vector<unsigned char> mark_coarse_nodes(const NodalTransfer             &transfer,
+                                               const std::vector<unsigned int> &fine_rows)
+  {
+    const NodePartition &coarse = transfer.coarse_partition();
+    Vector               flags;
+    coarse.reinit(flags);
+    for (const unsigned int row : fine_rows)
+      for (std::size_t k = transfer.row_begin(row); k < transfer.row_end(row); ++k)
+        flags.local_element(dim * transfer.column(k)) = 1.;
+    flags.compress(VectorOperation::add);
+    flags.update_ghost_values();
+    std::vector<unsigned char> marked(coarse.n_local());
+    for (unsigned int i = 0; i < coarse.n_local(); ++i)
+      marked[i] = flags.local_element(dim * i) > 0.;
+    return marked;
+  }
+} // namespace Signorini
