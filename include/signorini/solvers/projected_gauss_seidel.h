@@ -71,7 +71,7 @@ namespace Signorini
 
     /// smooth() forward from v = 0, and residual = rhs - A v. The first sweep reads only the blocks of nodes
     /// visited before; the last one passes the changes of a node on to the residuals of those visited before
-    /// while it has the row at hand. The residual costs no further pass over the matrix.
+    /// while it has the row at hand (the matrix is symmetric). The residual costs no further pass over it.
     void smooth_from_zero(Vector &v, const Vector &rhs, const SmoothingParameters &parameters,
                           Vector &residual);
 
