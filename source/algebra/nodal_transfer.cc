@@ -80,18 +80,12 @@ namespace Signorini
     if (plane_of_row.empty())
       plane_of_row.assign(n_rows(), -1);
     int &place = plane_of_row[row];
-    if (normal.norm_square() == 0.)
-      place = -1;
-    else
+    if (place < 0)
       {
-        // Places of rows that are not truncated any more are not used again: there are few.
-        if (place < 0)
-          {
-            place = static_cast<int>(planes.size());
-            planes.emplace_back();
-          }
-        planes[place] = normal;
+        place = static_cast<int>(planes.size());
+        planes.emplace_back();
       }
+    planes[place] = normal;
   }
 
 

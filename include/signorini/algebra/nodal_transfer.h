@@ -113,7 +113,10 @@ namespace Signorini
     /// The unit normal of the plane to which a row is truncated, or nullptr.
     const Vector3 *plane(const unsigned int row) const
     {
-      return plane_of_row.empty() || plane_of_row[row] < 0 ? nullptr : &planes[plane_of_row[row]];
+      if (plane_of_row.empty() || plane_of_row[row] < 0)
+        return nullptr;
+      const Vector3 &normal = planes[plane_of_row[row]];
+      return normal.norm_square() > 0. ? &normal : nullptr;
     }
 
     /// The blocks of a row before truncation, or nullptr for a scalar row.
@@ -132,8 +135,9 @@ namespace Signorini
     std::vector<double>       weights;
     std::vector<unsigned int> block_start;
     std::vector<Block>        blocks;
-    /// The place of each row in `planes`, or -1; empty before the first truncation.
-    std::vector<int>                     plane_of_row;
+    /// The place in `planes` of each row that was ever truncated, or -1; empty before the first truncation.
+    std::vector<int> plane_of_row;
+    /// Zero where a row is not truncated any more.
     std::vector<Vector3>                 planes;
     std::shared_ptr<const NodePartition> coarse;
   };

@@ -28,12 +28,6 @@ namespace Signorini
     StrongBlocks(const NodeBlockMatrix &matrix, const SweepSchedule &all_rows);
     ~StrongBlocks();
 
-    /// Whether there are none on any rank.
-    bool empty() const
-    {
-      return is_empty;
-    }
-
     /// Whether an owned row belongs to a block.
     bool contains(const unsigned int row) const
     {
@@ -63,8 +57,9 @@ namespace Signorini
 
     const NodeBlockMatrix &matrix;
     const SweepSchedule   &schedule;
-    bool                   is_empty = true;
-    std::vector<Block>     blocks;
+    /// Whether there are none on any rank.
+    bool               is_empty = true;
+    std::vector<Block> blocks;
     /// Blocks of each phase of the schedule.
     std::vector<std::vector<unsigned int>> phases;
     /// The block of each owned row, or -1; its place in the block.

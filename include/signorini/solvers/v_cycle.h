@@ -9,7 +9,7 @@
 namespace Signorini
 {
   /// The linear V-cycle on the levels of a hierarchy below a given one. Not dealii::Multigrid: that computes
-  /// residuals by products of their own, which the smoother has for half the price.
+  /// residuals by products of their own, which the smoother hands out without one.
   class VCycle
   {
   public:

@@ -5,6 +5,7 @@
 //   bench_sweeps [n]
 
 #include <signorini/algebra/galerkin_product.h>
+#include <signorini/solvers/sweep_measurement.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -46,22 +47,13 @@ main(int argc, char **argv)
   for (unsigned int i = 0; i < v.locally_owned_size(); ++i)
     rhs.local_element(i) = std::sin(i);
 
-  const double sweep = median_time([&] { smoother.sweep(v, rhs, ProjectedGaussSeidel::forward); });
-  const auto   print = [&](const char *name, const double time) {
-    std::printf("%-44s %8.2f ms %7.2f sweeps\n", name, 1e3 * time, time / sweep);
+  const SweepMeasurement measured = measure_sweeps(hierarchy, rhs);
+  const auto             print    = [&](const char *name, const double time) {
+    std::printf("%-44s %8.2f ms %7.2f sweeps\n", name, 1e3 * time, time / measured.time);
   };
-  double       sum  = 0.;
-  const double read = median_time([&] {
-    double        s[8]    = {};
-    const double *numbers = matrix.block(0);
-    for (std::size_t k = 0; k + 8 <= 9 * matrix.n_blocks(); k += 8)
-      for (unsigned int j = 0; j < 8; ++j)
-        s[j] += numbers[k + j];
-    sum += std::accumulate(s, s + 8, 0.);
-  });
-  std::printf("%u unknowns, sweep %.1f GB/s, read %.1f GB/s (%g)\n", 3 * matrix.n_rows(),
-              1e-9 * smoother.sweep_bytes() / sweep, 72e-9 * matrix.n_blocks() / read, sum * 0.);
-  print("forward sweep", sweep);
+  std::printf("%u unknowns, sweep %.1f GB/s, read %.1f GB/s\n", 3 * matrix.n_rows(),
+              1e-9 * measured.bytes_per_second, 1e-9 * measured.read_bytes_per_second);
+  print("forward sweep", measured.time);
   print("backward sweep", median_time([&] { smoother.sweep(v, rhs, ProjectedGaussSeidel::backward); }));
   print("product", median_time([&] { matrix.vmult(residual, v); }));
   print("V(1,1) down: sweep from zero, residual", median_time([&] {
