@@ -33,21 +33,6 @@ namespace Signorini
         sum[2] = second[2] + second[3] + last;
       }
     };
-
-    template <bool backward>
-    inline __attribute__((always_inline)) void
-    multiply(double *const sum, const double *const blocks, const unsigned int *const columns,
-             const std::size_t n, const double *const x, const double *const wanted)
-    {
-      RowSum row;
-      for (std::size_t i = 0; i < n; ++i)
-        {
-          const std::size_t k = backward ? n - 1 - i : i;
-          __builtin_prefetch(wanted + 9 * k);
-          row.add(blocks + 9 * k, x + 3 * static_cast<std::size_t>(columns[k]));
-        }
-      row.write(sum);
-    }
   } // namespace
 
 
@@ -56,7 +41,13 @@ namespace Signorini
   void multiply_block_row(double *const sum, const double *const blocks, const unsigned int *const columns,
                           const std::size_t n, const double *const x, const double *const wanted)
   {
-    multiply<false>(sum, blocks, columns, n, x, wanted);
+    RowSum row;
+    for (std::size_t k = 0; k < n; ++k)
+      {
+        __builtin_prefetch(wanted + 9 * k);
+        row.add(blocks + 9 * k, x + 3 * static_cast<std::size_t>(columns[k]));
+      }
+    row.write(sum);
   }
 
 
@@ -66,9 +57,14 @@ namespace Signorini
                                    const unsigned int *const columns, const std::size_t n,
                                    const double *const x, const double *const wanted)
   {
-    multiply<true>(sum, blocks, columns, n, x, wanted);
+    RowSum row;
+    for (std::size_t k = n; k-- > 0;)
+      {
+        __builtin_prefetch(wanted + 9 * k);
+        row.add(blocks + 9 * k, x + 3 * static_cast<std::size_t>(columns[k]));
+      }
+    row.write(sum);
   }
-
 
 
   SIGNORINI_VECTORIZED
