@@ -52,7 +52,7 @@ namespace Signorini
               continue;
             const Block block =
                 restrict_to_planes(result.block(k), row_normal, column_normal, k == result.row_begin(i));
-            std::copy_n(block.begin_raw(), 9, result.block(k));
+            write_block(result.block(k), block);
           }
       }
     return result;
@@ -111,8 +111,7 @@ namespace Signorini
         changed = false;
         for (std::size_t p = 0; p < spaces.size(); ++p)
           {
-            Block block;
-            std::copy_n(matrix.block(matrix.row_begin(spaces.nodes[p])), 9, block.begin_raw());
+            const Block         block     = read_block(matrix.block(matrix.row_begin(spaces.nodes[p])));
             const double        stiffness = spaces.normals[p] * (block * spaces.normals[p]);
             const double        excess    = is_active[p] ? 0. : spaces.normal_part(p, v) - spaces.bounds[p];
             const double        force     = is_active[p] ? spaces.normal_part(p, residual) : 0.;

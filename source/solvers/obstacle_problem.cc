@@ -39,8 +39,7 @@ namespace Signorini
   Block restrict_to_planes(const double *const block, const Vector3 &row_normal, const Vector3 &column_normal,
                            const bool is_diagonal)
   {
-    Block result;
-    std::copy_n(block, 9, result.begin_raw());
+    Block        result    = read_block(block);
     const double stiffness = row_normal * (result * row_normal);
     result -= outer_product(row_normal, row_normal * result);
     result -= outer_product(result * column_normal, column_normal);

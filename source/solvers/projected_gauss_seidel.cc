@@ -64,13 +64,9 @@ namespace Signorini
   void ProjectedGaussSeidel::update_diagonal(const std::vector<unsigned int> &rows)
   {
     blocks.update(rows);
-    Block block;
     for (const unsigned int row : rows)
-      {
-        std::copy_n(matrix.block(matrix.row_begin(row)), 9, block.begin_raw());
-        block = invert(block);
-        std::copy_n(block.begin_raw(), 9, inverse_diagonal.data() + 9 * static_cast<std::size_t>(row));
-      }
+      write_block(inverse_diagonal.data() + 9 * static_cast<std::size_t>(row),
+                  invert(read_block(matrix.block(matrix.row_begin(row)))));
   }
 
 
@@ -83,10 +79,9 @@ namespace Signorini
     std::fill(half_space_of_row.begin(), half_space_of_row.end(), -1);
     for (std::size_t p = 0; p < constraints.size(); ++p)
       {
-        const unsigned int row = constraints.nodes[p];
-        half_space_of_row[row] = static_cast<int>(p);
-        Block inverse;
-        std::copy_n(inverse_diagonal.data() + 9 * static_cast<std::size_t>(row), 9, inverse.begin_raw());
+        const unsigned int row  = constraints.nodes[p];
+        half_space_of_row[row]  = static_cast<int>(p);
+        const Block   inverse   = read_block(inverse_diagonal.data() + 9 * static_cast<std::size_t>(row));
         const Vector3 w         = inverse * constraints.normals[p];
         projection_direction[p] = w / (w * constraints.normals[p]);
       }

@@ -144,8 +144,7 @@ namespace Signorini
               it != rows.end() && *it == matrix.column(k))
             entries.emplace_back(matrix.block(k), it - rows.begin());
         start.push_back(entries.size());
-        std::copy_n(matrix.block(matrix.row_begin(rows[i])), dim * dim, inverse[i].begin_raw());
-        inverse[i] = invert(inverse[i]);
+        inverse[i] = invert(read_block(matrix.block(matrix.row_begin(rows[i]))));
         // The slow motions are constant along a block; something of all others.
         for (unsigned int c = 0; c < dim; ++c)
           error[i][c] = 1. + .1 * std::sin(1. + 7. * (dim * i + c));

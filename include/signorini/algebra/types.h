@@ -25,6 +25,24 @@ namespace Signorini
   using Vector3 = dealii::Tensor<1, 3>;
   using Block   = dealii::Tensor<2, 3>;
 
+  /// A block from nine numbers, row by row, and back. (A tensor's own memory may have gaps from deal.II 9.6
+  /// on.)
+  inline Block read_block(const double *const numbers)
+  {
+    Block block;
+    for (unsigned int c = 0; c < dim; ++c)
+      for (unsigned int d = 0; d < dim; ++d)
+        block[c][d] = numbers[dim * c + d];
+    return block;
+  }
+
+  inline void write_block(double *const numbers, const Block &block)
+  {
+    for (unsigned int c = 0; c < dim; ++c)
+      for (unsigned int d = 0; d < dim; ++d)
+        numbers[dim * c + d] = block[c][d];
+  }
+
   /// Bit c is set if component c of the displacement of a node is prescribed.
   using FixedMask = std::uint8_t;
 
