@@ -5,7 +5,7 @@
 set -euo pipefail
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=$top/build/release
-packages=(g++ cmake ninja-build ccache libdeal.ii-dev libgmsh-dev libcgal-dev libeigen3-dev python3 python3-numpy python3-matplotlib)
+packages=(g++ cmake ninja-build ccache libdeal.ii-dev libgmsh-dev libcgal-dev libeigen3-dev libsuitesparse-dev python3 python3-numpy python3-matplotlib)
 usage() { sed -n '3,4s/^# *//p' "${BASH_SOURCE[0]}"; exit 2; }
 
 install_missing() {

@@ -102,7 +102,7 @@ namespace Signorini
     const unsigned int chosen = definition.parameters.nonmortar == "first" ? 0 : 1;
     if (young[chosen] > 10. * young[1 - chosen])
       note("warning: pair " + definition.parameters.name +
-           ": the nonmortar side is the stiffer body; the solver needs many more iterations this way.");
+           ": the nonmortar side is the stiffer body; the contact nodes need a direct solver this way.");
     return chosen;
   }
 

@@ -129,7 +129,7 @@ namespace Signorini
             rows.push_back(i);
             break;
           }
-    coarsest().smoother->set_interface(rows);
+    coarsest().smoother->set_interface(rows, contact_nodes);
   }
 
 

@@ -11,6 +11,18 @@ namespace Signorini
 {
   using namespace dealii;
 
+  namespace
+  {
+    /// From here on sweeps over the contact nodes are called slow: they leave 0.8 to 0.93 of an error where
+    /// the nonmortar side is as stiff as the mortar side or softer, 0.96 where it is ten times as stiff.
+    constexpr double slow = .95;
+    /// Sweeps after which that is measured. Soft motions that the first ones leave behind show only when
+    /// the stiff ones are gone: a stiffness ratio of 1e6 takes 15.
+    constexpr unsigned int n_measured_sweeps = 20;
+  } // namespace
+
+
+
   ProjectedGaussSeidel::ProjectedGaussSeidel(const NodeBlockMatrix &matrix)
     : matrix(matrix)
     , all_rows(matrix.partition())
@@ -64,6 +76,8 @@ namespace Signorini
   void ProjectedGaussSeidel::update_diagonal(const std::vector<unsigned int> &rows)
   {
     blocks.update(rows);
+    if (interface_correction)
+      interface_correction->update(rows);
     for (const unsigned int row : rows)
       write_block(inverse_diagonal.data() + 9 * static_cast<std::size_t>(row),
                   invert(read_block(matrix.block(matrix.row_begin(row)))));
@@ -109,10 +123,57 @@ namespace Signorini
 
 
 
-  void ProjectedGaussSeidel::set_interface(const std::vector<unsigned int> &rows)
+  void ProjectedGaussSeidel::set_interface(const std::vector<unsigned int> &rows,
+                                           const std::vector<NodeIndex>    &contact_nodes)
   {
     interface_rows = all_rows.subset(rows);
     sees_interface = rows_that_see(rows);
+    std::vector<unsigned int> contact_rows;
+    for (const NodeIndex node : contact_nodes)
+      if (matrix.partition().owns(node))
+        contact_rows.push_back(matrix.partition().to_local(node));
+    if (sweep_rate(all_rows.subset(contact_rows)) < slow)
+      return;
+    interface_correction = std::make_unique<InterfaceCorrection>(matrix, contact_nodes);
+    blocks.drop_within(interface_correction->contact_rows());
+  }
+
+
+
+  double ProjectedGaussSeidel::sweep_rate(const SweepSchedule &schedule)
+  {
+    Vector error, zero;
+    for (Vector *vector : {&error, &zero})
+      matrix.partition().reinit(*vector);
+    for (const auto &rows : schedule.phases())
+      for (const unsigned int row : rows)
+        for (unsigned int c = 0; c < dim; ++c)
+          error.local_element(dim * row + c) =
+              1. + .1 * std::sin(1. + 7. * (dim * matrix.partition().to_global(row) + c));
+    const auto energy = [&] {
+      error.update_ghost_values();
+      double sum = 0.;
+      for (const auto &rows : schedule.phases())
+        for (const unsigned int row : rows)
+          {
+            double            product[3];
+            const std::size_t begin = matrix.row_begin(row);
+            multiply_block_row(product, matrix.block(begin), matrix.column_data() + begin,
+                               matrix.row_end(row) - begin, error.begin(), matrix.block(begin));
+            for (unsigned int c = 0; c < dim; ++c)
+              sum += error.local_element(dim * row + c) * product[c];
+          }
+      return Utilities::MPI::sum(sum, matrix.partition().communicator());
+    };
+    double before = 0.;
+    for (unsigned int sweep = 0; sweep < n_measured_sweeps; ++sweep)
+      {
+        if (sweep + 1 == n_measured_sweeps)
+          before = energy();
+        run(error, zero, schedule, forward, {});
+        run(error, zero, schedule, backward, {});
+      }
+    return before > 0. ? std::sqrt(std::max(0., energy() / before)) : 0.;
   }
 
 
@@ -207,6 +268,23 @@ namespace Signorini
 
 
 
+  void ProjectedGaussSeidel::smooth_interface(Vector &v, const Vector &rhs,
+                                              const SmoothingParameters &parameters,
+                                              const Direction            direction)
+  {
+    const ContactState contact{constraints, half_space_of_row, is_active};
+    for (unsigned int i = 0; i < parameters.n_interface_sweeps; ++i)
+      {
+        if (interface_correction && direction == backward)
+          interface_correction->apply(v, rhs, contact);
+        interface_sweep(v, rhs, direction);
+        if (interface_correction && direction == forward)
+          interface_correction->apply(v, rhs, contact);
+      }
+  }
+
+
+
   void ProjectedGaussSeidel::sweep_with_blocks(Vector &v, const Vector &rhs, const Direction direction,
                                                const SweepOptions &options)
   {
@@ -225,8 +303,7 @@ namespace Signorini
     if (direction == forward)
       for (unsigned int i = 0; i < parameters.n_pre; ++i)
         sweep_with_blocks(v, rhs, direction, {});
-    for (unsigned int i = 0; i < parameters.n_interface_sweeps; ++i)
-      interface_sweep(v, rhs, direction);
+    smooth_interface(v, rhs, parameters, direction);
     if (direction == backward)
       for (unsigned int i = 0; i < parameters.n_post; ++i)
         sweep_with_blocks(v, rhs, direction, {});
@@ -263,8 +340,7 @@ namespace Signorini
     residual = 0.;
     for (unsigned int i = 0; i < parameters.n_pre; ++i)
       sweep_with_blocks(v, rhs, forward, {i == 0, i + 1 == parameters.n_pre ? residual.begin() : nullptr});
-    for (unsigned int i = 0; i < parameters.n_interface_sweeps; ++i)
-      interface_sweep(v, rhs, forward);
+    smooth_interface(v, rhs, parameters, forward);
     if (parameters.n_pre > 0)
       complete_residual(residual, v, rhs, &sees_blocks,
                         parameters.n_interface_sweeps > 0 ? &sees_interface : nullptr);

@@ -181,6 +181,30 @@ namespace Signorini
 
 
 
+  void StrongBlocks::drop_within(const std::vector<bool> &rows)
+  {
+    std::vector<bool> is_dropped(blocks.size(), false);
+    for (unsigned int b = 0; b < blocks.size(); ++b)
+      {
+        is_dropped[b] = std::all_of(blocks[b].rows.begin(), blocks[b].rows.end(),
+                                    [&](const unsigned int row) { return rows[row]; });
+        if (is_dropped[b])
+          for (const unsigned int row : blocks[b].rows)
+            block_of_row[row] = -1;
+      }
+    bool any = false;
+    for (auto &phase : phases)
+      {
+        phase.erase(
+            std::remove_if(phase.begin(), phase.end(), [&](const unsigned int b) { return is_dropped[b]; }),
+            phase.end());
+        any = any || !phase.empty();
+      }
+    is_empty = Utilities::MPI::max(static_cast<int>(any), matrix.partition().communicator()) == 0;
+  }
+
+
+
   void StrongBlocks::update(const std::vector<unsigned int> &rows)
   {
     for (const unsigned int row : rows)

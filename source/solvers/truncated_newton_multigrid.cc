@@ -59,6 +59,18 @@ namespace Signorini
 
 
 
+  double TruncatedNewtonMultigrid::safe_length(const Vector &z, const Vector &az, const Vector &residual,
+                                               const bool keeps_active) const
+  {
+    double slope = residual * z;
+    if (keeps_active)
+      slope -= hierarchy.finest().smoother->normal_product(residual, z);
+    const double curvature = z * az;
+    return slope <= 0. ? 0. : curvature > slope ? slope / curvature : 1.;
+  }
+
+
+
   bool TruncatedNewtonMultigrid::accelerate(const Vector &v, const Vector &residual, Vector &z, Vector &az,
                                             const HalfSpaces &half_spaces)
   {
@@ -117,13 +129,16 @@ namespace Signorini
     };
     while (goes_on(report))
       {
-        const std::vector<unsigned char> active = smoother.active();
+        const std::vector<unsigned char> active   = smoother.active();
+        const bool                       searches = !rests;
         smoother.set_bounds_from(problem.half_spaces, v);
         smoother.smooth_from_zero(z, residual, parameters.smoothing, new_residual);
-        check(true);
+        // Without a search only the whole iteration is sure to lower the energy.
+        if (searches)
+          check(true);
         bool keeps_active = smoother.active() == active;
-        correct(z, new_residual, problem, !rests);
-        if (!rests)
+        correct(z, new_residual, problem, searches);
+        if (searches)
           check(true);
         smoother.smooth_to_residual(z, residual, parameters.smoothing, new_residual);
         keeps_active = all_ranks(keeps_active && smoother.active() == active);
@@ -132,14 +147,22 @@ namespace Signorini
         product -= new_residual;
         rests = keeps_active && parameters.method == SolverMethod::accelerated &&
                 accelerate(v, residual, z, product, problem.half_spaces);
+        // Before it is shortened: a correction that was cut off does not mean convergence.
+        double norm = std::sqrt(std::max(0., z * product));
         if (rests)
           residual -= product;
         else
           {
-            has_direction = false;
-            residual.swap(new_residual);
+            has_direction       = false;
+            const double length = searches ? 1. : safe_length(z, product, residual, keeps_active);
+            if (length == 1.)
+              residual.swap(new_residual);
+            else
+              {
+                z *= length;
+                residual.add(-length, product);
+              }
           }
-        const double norm = std::sqrt(std::max(0., z * product));
         v.zero_out_ghost_values();
         z.zero_out_ghost_values();
         v += z;

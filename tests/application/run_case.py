@@ -234,12 +234,13 @@ def bowl(p):
                 check(last['nonlinear']['iterations'] <= 10, f'S2, {n}, {method}: {last["nonlinear"]["iterations"]} iterations')
 
 
-def bounded_iterations(p, text, bound, *settings, prm='cubes/cubes.prm'):
-    s = p.solve(prm, 'Pair interface/Nonmortar=auto', *settings)
+def bounded_iterations(p, text, bound, *settings, prm='cubes/cubes.prm', nonmortar='auto'):
+    s = p.solve(prm, f'Pair interface/Nonmortar={nonmortar}', *settings)
     check(s['converged'], f'{text}: not converged')
     worst = max(c['nonlinear']['iterations'] for c in s['cycles'])
     print(f'{text}: {worst} iterations')
     check(worst <= bound, f'{text}: {worst} iterations')
+    return s
 
 
 def stretched(p):
@@ -248,6 +249,21 @@ def stretched(p):
     bounded_iterations(p, 'flat cells', bound, 'Body upper/Upper corner=1, 1, 0.05', 'Body lower/Young modulus=7e3', 'Refinement/Global cycles=2')
     bounded_iterations(p, 'long cells', bound, 'Body upper/Divisions=1, 20, 20', 'Body lower/Divisions=1, 15, 15', 'Body lower/Young modulus=7e3',
                        'Refinement/Global cycles=1')
+
+
+def stiff_nonmortar(p):
+    """The stiffer body chosen as nonmortar side, its mesh finer or coarser than the other."""
+    two = 'Refinement/Global cycles=2'
+    for ratio in ('1e-1', '1e-2', '1e-4', '1e-6'):
+        stiff = ('Body upper/Young modulus=1', f'Body lower/Young modulus={ratio}', two)
+        bounded_iterations(p, f'ratio {ratio}, finer', 25, *stiff, nonmortar='first')
+        if ratio == '1e-4':
+            bounded_iterations(p, f'ratio {ratio}, coarser', 25, *stiff, 'Body upper/Divisions=2, 2, 2', 'Body lower/Divisions=3, 3, 3', nonmortar='first')
+    # Without interface sweeps the active set goes to and fro while the solver takes it to rest.
+    s = bounded_iterations(p, 'no interface sweeps', 40, 'Body upper/Young modulus=1', 'Body lower/Young modulus=1e-3', 'Refinement/Global cycles=0',
+                           'Solver/Interface sweeps=0', 'Solver/Check monotonicity=true', nonmortar='first')
+    rise = max(c['nonlinear']['monotonicity']['largest_energy_rise'] for c in s['cycles'])
+    check(rise <= 1e-12, f'the energy rises by {rise}')
 
 
 def robust(p):

@@ -5,6 +5,7 @@
 #define signorini_solvers_projected_gauss_seidel_h
 
 #include <signorini/algebra/node_block_matrix.h>
+#include <signorini/solvers/interface_correction.h>
 #include <signorini/solvers/obstacle_problem.h>
 #include <signorini/solvers/strong_blocks.h>
 #include <signorini/solvers/sweep_schedule.h>
@@ -54,8 +55,9 @@ namespace Signorini
       return constraints;
     }
 
-    /// Chooses the rows of interface_sweep().
-    void set_interface(const std::vector<unsigned int> &rows);
+    /// Collective. Chooses the rows of interface_sweep(), and the contact nodes of both sides among them
+    /// (global numbers, sorted, the same on all ranks) for the InterfaceCorrection.
+    void set_interface(const std::vector<unsigned int> &rows, const std::vector<NodeIndex> &contact_nodes);
 
     /// One sweep over all rows: v <- minimizer row by row. Energy never rises.
     void sweep(Vector &v, const Vector &rhs, const Direction direction);
@@ -128,6 +130,10 @@ namespace Signorini
     /// The blocks of a row that a sweep multiplies, from and to.
     std::pair<std::size_t, std::size_t> range(const unsigned int row, const SweepOptions &options) const;
 
+    /// Interface sweeps, each with the interface correction after it (before it, backward).
+    void smooth_interface(Vector &v, const Vector &rhs, const SmoothingParameters &parameters,
+                          const Direction direction);
+
     /// A sweep over all rows and one over the blocks, nearer to the coarse correction.
     void sweep_with_blocks(Vector &v, const Vector &rhs, const Direction direction,
                            const SweepOptions &options);
@@ -138,6 +144,10 @@ namespace Signorini
                            const std::vector<bool> *const changed,
                            const std::vector<bool> *const also_changed);
 
+    /// Collective. By how much a forward and a backward sweep over some rows reduce the energy norm of an
+    /// error there, everything else at rest, after some sweeps.
+    double sweep_rate(const SweepSchedule &schedule);
+
     /// The rows that see one of the given ones (themselves included).
     std::vector<bool> rows_that_see(const std::vector<unsigned int> &rows) const;
 
@@ -145,6 +155,8 @@ namespace Signorini
     SweepSchedule          all_rows;
     StrongBlocks           blocks;
     SweepSchedule          interface_rows;
+    /// Null where sweeps by node are fast enough.
+    std::unique_ptr<InterfaceCorrection> interface_correction;
     /// Position of the first block above the diagonal.
     std::vector<std::size_t> first_above;
     /// Rows of nodes that no other rank sees; those whose columns after first_above are visited after them.

@@ -34,6 +34,9 @@ namespace Signorini
       return block_of_row[row] >= 0;
     }
 
+    /// Collective. Drops the blocks that have none but the given rows: something else solves those at once.
+    void drop_within(const std::vector<bool> &rows);
+
     /// Rows of the matrix have changed.
     void update(const std::vector<unsigned int> &rows);
 

@@ -41,6 +41,11 @@ namespace Signorini
     bool accelerate(const Vector &v, const Vector &residual, Vector &z, Vector &az,
                     const HalfSpaces &half_spaces);
 
+    /// Length of z (at most 1) that lowers the energy, for an admissible v + z that was not searched because
+    /// the active set seemed to rest. az = A z.
+    double safe_length(const Vector &z, const Vector &az, const Vector &residual,
+                       const bool keeps_active) const;
+
     bool all_ranks(const bool condition) const;
 
     VCycle       cycle;

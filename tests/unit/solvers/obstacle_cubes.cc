@@ -106,6 +106,58 @@ TEST(ProjectedGaussSeidel, EnergyFallsInEverySweep)
 
 
 
+// After the correction the contact nodes are in equilibrium with each other: nothing pulls at free ones, and
+// the active ones are pressed against their planes.
+TEST(InterfaceCorrection, SolvesTheObstacleProblemOfTheContactNodes)
+{
+  const CubeProblem::Grid grid(8);
+  const NodeBlockMatrix   matrix      = CubeProblem::stiffness(grid);
+  const NodePartition    &nodes       = matrix.partition();
+  const HalfSpaces        half_spaces = CubeProblem::paraboloid(grid);
+  std::vector<NodeIndex>  contact;
+  for (NodeIndex p = 0; p < (grid.n + 1) * (grid.n + 1); ++p)
+    contact.push_back(p);
+  std::vector<int>           half_space_of_row(nodes.n_owned(), -1);
+  std::vector<unsigned char> active(half_spaces.size(), 0);
+  Vector                     v, rhs, residual;
+  for (Vector *vector : {&v, &rhs, &residual})
+    nodes.reinit(*vector);
+  for (std::size_t p = 0; p < half_spaces.size(); ++p)
+    {
+      half_space_of_row[half_spaces.nodes[p]] = static_cast<int>(p);
+      half_spaces.add_normal(v, p, std::min(0., half_spaces.bounds[p]));
+      rhs.local_element(3 * half_spaces.nodes[p])     = .001;
+      rhs.local_element(3 * half_spaces.nodes[p] + 2) = -.0005;
+    }
+  const auto energy = [&] {
+    matrix.vmult(residual, v);
+    return .5 * (residual * v) - rhs * v;
+  };
+  const double        before = energy();
+  InterfaceCorrection correction(matrix, contact);
+  correction.apply(v, rhs, {half_spaces, half_space_of_row, active});
+  EXPECT_LT(energy(), before);
+
+  residual.sadd(-1., 1., rhs);
+  unsigned int n_active = 0;
+  for (std::size_t p = 0; p < half_spaces.size(); ++p)
+    {
+      const auto row = half_spaces.nodes[p];
+      n_active += active[p];
+      EXPECT_NEAR(residual.local_element(3 * row), 0., 1e-14);
+      EXPECT_NEAR(residual.local_element(3 * row + 1), 0., 1e-14);
+      const double force = half_spaces.normal_part(p, residual);
+      const double room  = half_spaces.bounds[p] - half_spaces.normal_part(p, v);
+      EXPECT_GE(room, -1e-14);
+      EXPECT_GE(force, -1e-14);
+      EXPECT_NEAR(active[p] ? room : force, 0., 1e-14);
+    }
+  n_active = dealii::Utilities::MPI::sum(n_active, MPI_COMM_WORLD);
+  EXPECT_EQ(n_active, 9u);
+}
+
+
+
 // What smoothing collects on the way is the residual, with half-spaces, interface sweeps and lines of flat
 // cells.
 TEST(ProjectedGaussSeidel, SmoothingHandsOutItsResidual)
@@ -125,7 +177,7 @@ TEST(ProjectedGaussSeidel, SmoothingHandsOutItsResidual)
       for (ProjectedGaussSeidel *one : {&smoother, &other})
         {
           one->set_half_spaces(half_spaces);
-          one->set_interface(near_contact);
+          one->set_interface(near_contact, {});
         }
       Vector v, rhs, residual, plain, product;
       for (Vector *vector : {&v, &rhs, &residual, &plain, &product})
