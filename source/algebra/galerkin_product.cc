@@ -65,8 +65,8 @@ namespace Signorini
                        const IndexSet &owned_coarse_nodes)
   {
     const MPI_Comm communicator = matrix.partition().communicator();
-    const IndexSet coarse_nodes = transfer.coarse_nodes(owned_coarse_nodes.size());
-    const auto     coarse = std::make_shared<NodePartition>(owned_coarse_nodes, coarse_nodes, communicator);
+    const IndexSet foreign      = transfer.foreign_coarse_nodes(owned_coarse_nodes);
+    const auto     coarse       = std::make_shared<NodePartition>(owned_coarse_nodes, foreign, communicator);
     transfer.localize(coarse);
 
     std::vector<std::size_t>  product_start, fine_start;
@@ -105,7 +105,7 @@ namespace Signorini
       }
     product_columns = std::vector<unsigned int>();
     fine_rows       = std::vector<unsigned int>();
-    coarse_matrix.reinit(owned_coarse_nodes, pattern, coarse_nodes, communicator);
+    coarse_matrix.reinit(owned_coarse_nodes, pattern, foreign, communicator);
     transfer.localize(coarse_matrix.shared_partition());
   }
 

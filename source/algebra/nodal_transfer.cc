@@ -90,12 +90,17 @@ namespace Signorini
 
 
 
-  IndexSet NodalTransfer::coarse_nodes(const NodeIndex n_coarse_nodes) const
+  IndexSet NodalTransfer::foreign_coarse_nodes(const IndexSet &owned) const
   {
-    std::vector<NodeIndex> nodes(global_columns);
+    const NodeIndex        begin = owned.n_elements() > 0 ? owned.nth_index_in_set(0) : 0;
+    const NodeIndex        end   = begin + owned.n_elements();
+    std::vector<NodeIndex> nodes;
+    for (const NodeIndex column : global_columns)
+      if (column < begin || column >= end)
+        nodes.push_back(column);
     std::sort(nodes.begin(), nodes.end());
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-    IndexSet set(n_coarse_nodes);
+    IndexSet set(owned.size());
     set.add_indices(nodes.begin(), nodes.end());
     set.compress();
     return set;

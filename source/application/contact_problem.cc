@@ -125,6 +125,11 @@ namespace Signorini
       return std::make_unique<MultigridHierarchy>(std::move(system.matrix), std::move(system.fixed));
     HierarchyOptions options{{},      parameters.solver.level_zero, discretization.free_motions,
                              &bodies, discretization.tied,          parameters.solver.level_zero_steps};
+    for (const ContactPair &pair : discretization.pairs)
+      options.has_stiff_nonmortar =
+          options.has_stiff_nonmortar ||
+          (pair.mortar_body != numbers::invalid_unsigned_int &&
+           parameters.bodies[pair.nonmortar_body].young > parameters.bodies[pair.mortar_body].young);
     if (method == SolverMethod::monotone_multigrid)
       options.contact_normals = discretization.normals;
     return std::make_unique<MultigridHierarchy>(

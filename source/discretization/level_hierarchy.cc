@@ -417,7 +417,7 @@ namespace Signorini
         const NodePartition         &partition = hierarchy.coarsest().matrix.partition();
         const std::vector<NodeIndex> nodes     = interface_nodes(fine);
         if (!nodes.empty())
-          hierarchy.set_interface(nodes);
+          hierarchy.set_interface(nodes, options.has_stiff_nonmortar);
         if (l == 0)
           break;
 

@@ -113,7 +113,7 @@ namespace Signorini
 
 
 
-  void MultigridHierarchy::set_interface(const std::vector<NodeIndex> &contact_nodes)
+  void MultigridHierarchy::set_interface(const std::vector<NodeIndex> &contact_nodes, const bool may_be_slow)
   {
     const NodeBlockMatrix &matrix = coarsest().matrix;
     std::vector<bool>      is_contact(matrix.partition().n_local(), false);
@@ -129,7 +129,9 @@ namespace Signorini
             rows.push_back(i);
             break;
           }
-    coarsest().smoother->set_interface(rows, contact_nodes);
+    coarsest().smoother->set_interface(rows);
+    if (may_be_slow)
+      coarsest().smoother->correct_slow_interface(contact_nodes);
   }
 
 

@@ -123,11 +123,16 @@ namespace Signorini
 
 
 
-  void ProjectedGaussSeidel::set_interface(const std::vector<unsigned int> &rows,
-                                           const std::vector<NodeIndex>    &contact_nodes)
+  void ProjectedGaussSeidel::set_interface(const std::vector<unsigned int> &rows)
   {
     interface_rows = all_rows.subset(rows);
     sees_interface = rows_that_see(rows);
+  }
+
+
+
+  void ProjectedGaussSeidel::correct_slow_interface(const std::vector<NodeIndex> &contact_nodes)
+  {
     std::vector<unsigned int> contact_rows;
     for (const NodeIndex node : contact_nodes)
       if (matrix.partition().owns(node))

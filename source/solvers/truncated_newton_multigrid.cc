@@ -133,9 +133,11 @@ namespace Signorini
         const bool                       searches = !rests;
         smoother.set_bounds_from(problem.half_spaces, v);
         smoother.smooth_from_zero(z, residual, parameters.smoothing, new_residual);
-        // Without a search only the whole iteration is sure to lower the energy.
-        if (searches)
-          check(true);
+        const double before = energy;
+        check(true);
+        // Without a search the iteration as a whole lowers the energy, not each step after this one.
+        if (!searches)
+          energy = before;
         bool keeps_active = smoother.active() == active;
         correct(z, new_residual, problem, searches);
         if (searches)

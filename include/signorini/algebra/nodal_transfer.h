@@ -47,10 +47,10 @@ namespace Signorini
     /// that. n is a unit vector otherwise.
     void set_plane(const unsigned int row, const Vector3 &normal);
 
-    /// Global coarse nodes in the columns.
-    dealii::IndexSet coarse_nodes(const NodeIndex n_coarse_nodes) const;
+    /// Coarse nodes in the columns that this rank does not own.
+    dealii::IndexSet foreign_coarse_nodes(const dealii::IndexSet &owned_coarse_nodes) const;
 
-    /// Gives the columns local numbers of a partition that knows all of coarse_nodes().
+    /// Gives the columns local numbers of a partition that knows all of them.
     void localize(std::shared_ptr<const NodePartition> coarse);
 
     const NodePartition &coarse_partition() const

@@ -83,6 +83,8 @@ namespace Signorini
     /// none.
     std::vector<unsigned char> tied;
     unsigned int               level_zero_steps = 1;
+    /// Whether a nonmortar side is stiffer than its mortar side.
+    bool has_stiff_nonmortar = false;
   };
 
   /// Collective. Galerkin hierarchy with P̂_k = T_k⁻¹ P_k T_{k-1} on all levels. An empty coupling gives the

@@ -52,8 +52,9 @@ namespace Signorini
                            const std::vector<FixedMask> &fixed);
 
     /// Collective. Chooses the interface rows of the level added last: contact nodes (global numbers, the
-    /// same on all ranks) and one layer of neighbours.
-    void set_interface(const std::vector<NodeIndex> &contact_nodes);
+    /// same on all ranks, sorted) and one layer of neighbours. Where sweeps may be slow, because of a stiff
+    /// nonmortar side, that is measured (ProjectedGaussSeidel::correct_slow_interface).
+    void set_interface(const std::vector<NodeIndex> &contact_nodes, const bool may_be_slow = false);
 
     /// Collective. After the last level: sets up the solver of level 0. A hierarchy of a single level gets an
     /// algebraic copy of it as level 0, so that the truncated problem has an exact coarse solver.

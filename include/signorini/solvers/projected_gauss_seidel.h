@@ -55,9 +55,12 @@ namespace Signorini
       return constraints;
     }
 
-    /// Collective. Chooses the rows of interface_sweep(), and the contact nodes of both sides among them
-    /// (global numbers, sorted, the same on all ranks) for the InterfaceCorrection.
-    void set_interface(const std::vector<unsigned int> &rows, const std::vector<NodeIndex> &contact_nodes);
+    /// Chooses the rows of interface_sweep().
+    void set_interface(const std::vector<unsigned int> &rows);
+
+    /// Collective. Measures how fast sweeps over the contact nodes of both sides are (global numbers, sorted,
+    /// the same on all ranks), and adds an InterfaceCorrection to the interface sweeps if they are slow.
+    void correct_slow_interface(const std::vector<NodeIndex> &contact_nodes);
 
     /// One sweep over all rows: v <- minimizer row by row. Energy never rises.
     void sweep(Vector &v, const Vector &rhs, const Direction direction);

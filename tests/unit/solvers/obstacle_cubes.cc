@@ -177,7 +177,7 @@ TEST(ProjectedGaussSeidel, SmoothingHandsOutItsResidual)
       for (ProjectedGaussSeidel *one : {&smoother, &other})
         {
           one->set_half_spaces(half_spaces);
-          one->set_interface(near_contact, {});
+          one->set_interface(near_contact);
         }
       Vector v, rhs, residual, plain, product;
       for (Vector *vector : {&v, &rhs, &residual, &plain, &product})
