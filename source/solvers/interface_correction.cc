@@ -150,7 +150,8 @@ namespace Signorini
       Eigen::VectorXd                  step, residual;
       // Sweeps by node leave a poor guess behind; the factors of the last visit are a better one.
       if (has_factors)
-        active = factorized;
+        for (std::size_t i = 0; i < n; ++i)
+          active[i] = factorized[i] && state[i].room >= 0.;
       for (unsigned int k = 0; k < n_steps; ++k)
         {
           if (!minimize(step, residual, state, active, true))
