@@ -40,6 +40,14 @@ namespace Signorini
       }
     };
 
+    void add_block(std::vector<Eigen::Triplet<double>> &entries, const std::size_t row,
+                   const std::size_t column, const Block &block)
+    {
+      for (unsigned int c = 0; c < dim; ++c)
+        for (unsigned int d = 0; d < dim; ++d)
+          entries.emplace_back(dim * row + c, dim * column + d, block[c][d]);
+    }
+
     double normal_part(const Eigen::VectorXd &x, const std::size_t node, const Vector3 &n)
     {
       return n[0] * x[dim * node] + n[1] * x[dim * node + 1] + n[2] * x[dim * node + 2];
@@ -57,6 +65,7 @@ namespace Signorini
   /// The obstacle problem of the contact nodes.
   struct InterfaceCorrection::Gathered
   {
+    PackedMatrix                                             blocks;
     Eigen::SparseMatrix<double>                              matrix;
     Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>> cholesky;
     bool                                                     is_analyzed = false, is_definite = false;
@@ -73,39 +82,21 @@ namespace Signorini
     {
       if (has_factors && factorized == active)
         return;
-      factorized  = active;
-      has_factors = true;
-      // Planes by Qᵀ A Q with Q = I - n nᵀ, and the stiffness along n on the diagonal.
-      const auto                          n = state.size();
-      std::vector<Eigen::Triplet<double>> projector;
-      std::vector<Eigen::Triplet<double>> normal_stiffness;
-      bool                                any = false;
-      for (std::size_t i = 0; i < n; ++i)
-        for (unsigned int c = 0; c < dim; ++c)
-          for (unsigned int d = 0; d < dim; ++d)
-            {
-              const double nn = active[i] ? state[i].normal[c] * state[i].normal[d] : 0.;
-              any             = any || active[i];
-              if (nn != 0. || c == d)
-                projector.emplace_back(dim * i + c, dim * i + d, (c == d ? 1. : 0.) - nn);
-              if (nn != 0.)
-                {
-                  double stiffness = 0.;
-                  for (unsigned int e = 0; e < dim; ++e)
-                    for (unsigned int f = 0; f < dim; ++f)
-                      stiffness +=
-                          state[i].normal[e] * state[i].normal[f] * matrix.coeff(dim * i + e, dim * i + f);
-                  normal_stiffness.emplace_back(dim * i + c, dim * i + d, stiffness * nn);
-                }
-            }
-      Eigen::SparseMatrix<double> truncated = matrix;
-      if (any)
+      factorized           = active;
+      has_factors          = true;
+      const auto normal_of = [&](const std::size_t node) {
+        return active[node] ? state[node].normal : Vector3();
+      };
+      std::vector<Eigen::Triplet<double>> entries;
+      for (std::size_t k = 0; k < blocks.rows.size(); ++k)
         {
-          Eigen::SparseMatrix<double> q(dim * n, dim * n), rest(dim * n, dim * n);
-          q.setFromTriplets(projector.begin(), projector.end());
-          rest.setFromTriplets(normal_stiffness.begin(), normal_stiffness.end());
-          truncated = Eigen::SparseMatrix<double>(q * matrix * q) + rest;
+          const std::size_t row = blocks.rows[k], column = blocks.columns[k];
+          add_block(entries, row, column,
+                    restrict_to_planes(blocks.values.data() + dim * dim * k, normal_of(row),
+                                       normal_of(column), row == column));
         }
+      Eigen::SparseMatrix<double> truncated(matrix.rows(), matrix.cols());
+      truncated.setFromTriplets(entries.begin(), entries.end());
       // The blocks that occur stay the same.
       if (!is_analyzed)
         cholesky.analyzePattern(truncated);
@@ -230,15 +221,19 @@ namespace Signorini
     const auto pieces = Utilities::MPI::gather(partition.communicator(), packed, 0);
     if (Utilities::MPI::this_mpi_process(partition.communicator()) != 0)
       return;
-    std::vector<Eigen::Triplet<double>> entries;
-    for (const PackedMatrix &piece : pieces)
-      for (std::size_t k = 0; k < piece.rows.size(); ++k)
-        for (unsigned int c = 0; c < dim; ++c)
-          for (unsigned int d = 0; d < dim; ++d)
-            entries.emplace_back(dim * piece.rows[k] + c, dim * piece.columns[k] + d,
-                                 piece.values[dim * dim * k + dim * c + d]);
     if (!gathered)
       gathered = std::make_unique<Gathered>();
+    PackedMatrix &all = gathered->blocks;
+    all               = PackedMatrix();
+    for (const PackedMatrix &piece : pieces)
+      {
+        all.rows.insert(all.rows.end(), piece.rows.begin(), piece.rows.end());
+        all.columns.insert(all.columns.end(), piece.columns.begin(), piece.columns.end());
+        all.values.insert(all.values.end(), piece.values.begin(), piece.values.end());
+      }
+    std::vector<Eigen::Triplet<double>> entries;
+    for (std::size_t k = 0; k < all.rows.size(); ++k)
+      add_block(entries, all.rows[k], all.columns[k], read_block(all.values.data() + dim * dim * k));
     const auto n = static_cast<Eigen::Index>(dim * nodes.size());
     gathered->matrix.resize(n, n);
     gathered->matrix.setFromTriplets(entries.begin(), entries.end());
