@@ -36,7 +36,7 @@ namespace Signorini
       const IndexSet       owned     = owned_dofs(partition);
       std::size_t          longest   = 0;
       for (unsigned int i = 0; i < matrix.n_rows(); ++i)
-        longest = std::max(longest, matrix.row_end(i) - matrix.row_begin(i));
+        longest = std::max(longest, matrix.row_length(i));
       auto result = std::make_unique<TrilinosWrappers::SparseMatrix>(
           owned, owned, partition.communicator(), static_cast<unsigned int>(dim * longest));
       std::vector<types::global_dof_index> columns;
@@ -44,14 +44,16 @@ namespace Signorini
       for (unsigned int i = 0; i < matrix.n_rows(); ++i)
         {
           columns.clear();
-          for (std::size_t k = matrix.row_begin(i); k < matrix.row_end(i); ++k)
-            for (unsigned int d = 0; d < dim; ++d)
-              columns.push_back(dim * partition.to_global(matrix.column(k)) + d);
+          for (const BlockRange &range : matrix.ranges(i))
+            for (std::size_t k = range.begin; k < range.end; ++k)
+              for (unsigned int d = 0; d < dim; ++d)
+                columns.push_back(dim * partition.to_global(matrix.column(k)) + d);
           for (unsigned int c = 0; c < dim; ++c)
             {
               values.clear();
-              for (std::size_t k = matrix.row_begin(i); k < matrix.row_end(i); ++k)
-                values.insert(values.end(), matrix.block(k) + dim * c, matrix.block(k) + dim * (c + 1));
+              for (const BlockRange &range : matrix.ranges(i))
+                for (std::size_t k = range.begin; k < range.end; ++k)
+                  values.insert(values.end(), matrix.block(k) + dim * c, matrix.block(k) + dim * (c + 1));
               result->set(dim * partition.to_global(i) + c, columns.size(), columns.data(), values.data());
             }
         }

@@ -7,7 +7,7 @@ namespace Signorini
 {
   namespace
   {
-    typedef double Vector4 __attribute__((vector_size(4 * sizeof(double))));
+    typedef double Vector2 __attribute__((vector_size(2 * sizeof(double))));
 
     /// Adds up A_k x_k number by number, without mixing within a block, and sorts the sums out at the end.
     struct RowSum
@@ -38,47 +38,70 @@ namespace Signorini
 
 
   SIGNORINI_VECTORIZED
-  void multiply_block_row(double *const sum, const double *const blocks, const unsigned int *const columns,
-                          const std::size_t n, const double *const x, const double *const wanted)
+  void multiply_block_ranges(double *const sums, const double *const blocks,
+                             const unsigned int *const columns, const BlockRange *const ranges,
+                             const BlockRange *const wanted, const unsigned int n_ranges,
+                             const double *const x)
   {
-    RowSum row;
-    for (std::size_t k = 0; k < n; ++k)
+    for (unsigned int r = 0; r < n_ranges; ++r)
       {
-        __builtin_prefetch(wanted + 9 * k);
-        row.add(blocks + 9 * k, x + 3 * static_cast<std::size_t>(columns[k]));
+        RowSum              row;
+        const double *const next = blocks + 9 * wanted[r].begin;
+        const double *const a    = blocks + 9 * ranges[r].begin;
+        const unsigned int *c    = columns + ranges[r].begin;
+        const std::size_t   n    = ranges[r].size();
+        for (std::size_t k = 0; k < n; ++k)
+          {
+            __builtin_prefetch(next + 9 * k);
+            row.add(a + 9 * k, x + 3 * static_cast<std::size_t>(c[k]));
+          }
+        row.write(sums + 3 * r);
       }
-    row.write(sum);
   }
 
 
 
   SIGNORINI_VECTORIZED
-  void multiply_block_row_backward(double *const sum, const double *const blocks,
-                                   const unsigned int *const columns, const std::size_t n,
-                                   const double *const x, const double *const wanted)
+  void multiply_block_ranges_backward(double *const sums, const double *const blocks,
+                                      const unsigned int *const columns, const BlockRange *const ranges,
+                                      const BlockRange *const wanted, const unsigned int n_ranges,
+                                      const double *const x)
   {
-    RowSum row;
-    for (std::size_t k = n; k-- > 0;)
+    for (unsigned int r = n_ranges; r-- > 0;)
       {
-        __builtin_prefetch(wanted + 9 * k);
-        row.add(blocks + 9 * k, x + 3 * static_cast<std::size_t>(columns[k]));
+        RowSum              row;
+        const double *const next = blocks + 9 * wanted[r].begin;
+        const double *const a    = blocks + 9 * ranges[r].begin;
+        const unsigned int *c    = columns + ranges[r].begin;
+        for (std::size_t k = ranges[r].size(); k-- > 0;)
+          {
+            __builtin_prefetch(next + 9 * k);
+            row.add(a + 9 * k, x + 3 * static_cast<std::size_t>(c[k]));
+          }
+        row.write(sums + 3 * r);
       }
-    row.write(sum);
   }
 
 
+
   SIGNORINI_VECTORIZED
-  void subtract_transposed_block_row(double *const values, const double *const blocks,
-                                     const unsigned int *const columns, const std::size_t n,
-                                     const double *const change)
+  void subtract_transposed_blocks(double *const values, const double *const blocks,
+                                  const unsigned int *const columns, const BlockRange range,
+                                  const double *const change)
   {
-    const double c0 = change[0], c1 = change[1], c2 = change[2];
-    for (std::size_t k = 0; k < n; ++k)
+    const double  c0 = change[0], c1 = change[1], c2 = change[2];
+    const Vector2 d0 = {c0, c0}, d1 = {c1, c1}, d2 = {c2, c2};
+    for (std::size_t k = range.begin; k < range.end; ++k)
       {
         const double *const a = blocks + 9 * k;
         double *const       y = values + 3 * static_cast<std::size_t>(columns[k]);
-        y[0] -= c0 * a[0] + c1 * a[3] + c2 * a[6];
-        y[1] -= c0 * a[1] + c1 * a[4] + c2 * a[7];
+        Vector2             a0, a1, a2, first;
+        std::memcpy(&a0, a, sizeof(Vector2));
+        std::memcpy(&a1, a + 3, sizeof(Vector2));
+        std::memcpy(&a2, a + 6, sizeof(Vector2));
+        std::memcpy(&first, y, sizeof(Vector2));
+        first -= d0 * a0 + d1 * a1 + d2 * a2;
+        std::memcpy(y, &first, sizeof(Vector2));
         y[2] -= c0 * a[2] + c1 * a[5] + c2 * a[8];
       }
   }

@@ -23,18 +23,19 @@ namespace Signorini
       for (unsigned int i = 0; i < matrix.n_rows(); ++i)
         {
           unsigned int n = 0;
-          for (std::size_t k = matrix.row_begin(i); k < matrix.row_end(i); ++k)
-            {
-              const unsigned int j = matrix.column(k);
-              for (std::size_t l = transfer.row_begin(j); l < transfer.row_end(j); ++l)
-                {
-                  // Written in any case: cheaper than a branch that is hard to predict.
-                  const unsigned int column = transfer.column(l);
-                  row[n]                    = column;
-                  n += seen[column] != i;
-                  seen[column] = i;
-                }
-            }
+          for (const BlockRange &range : matrix.ranges(i))
+            for (std::size_t k = range.begin; k < range.end; ++k)
+              {
+                const unsigned int j = matrix.column(k);
+                for (std::size_t l = transfer.row_begin(j); l < transfer.row_end(j); ++l)
+                  {
+                    // Written in any case: cheaper than a branch that is hard to predict.
+                    const unsigned int column = transfer.column(l);
+                    row[n]                    = column;
+                    n += seen[column] != i;
+                    seen[column] = i;
+                  }
+              }
           columns.insert(columns.end(), row.begin(), row.begin() + n);
           start.push_back(columns.size());
         }
@@ -139,15 +140,16 @@ namespace Signorini
       return block;
     }
 
-    /// blocks += Σ_k A_k P_k: the blocks of a row of A times scalar rows of P. Returns the number of columns.
+    /// blocks += Σ_k A_k P_k: the blocks of a range of a row of A times scalar rows of P. Returns the number of
+    /// columns, n_columns of which were there before.
     SIGNORINI_VECTORIZED
     unsigned int multiply_scalar_rows(double *const blocks, int *const place, unsigned int *const columns,
-                                      const double *const a, const unsigned int *const rows,
-                                      const std::size_t n, const std::size_t *const row_start,
-                                      const unsigned int *const p_columns, const double *const p_weights)
+                                      unsigned int n_columns, const double *const a,
+                                      const unsigned int *const rows, const BlockRange range,
+                                      const std::size_t *const row_start, const unsigned int *const p_columns,
+                                      const double *const p_weights)
     {
-      unsigned int n_columns = 0;
-      for (std::size_t k = 0; k < n; ++k)
+      for (std::size_t k = range.begin; k < range.end; ++k)
         for (std::size_t l = row_start[rows[k]]; l < row_start[rows[k] + 1]; ++l)
           add_scaled_block(find(blocks, place, columns, n_columns, p_columns[l]), p_weights[l],
                            a + n_entries * k);
@@ -190,25 +192,29 @@ namespace Signorini
       {
         for (const unsigned int column : row.columns)
           row.place[column] = 0;
-        const std::size_t begin = matrix.row_begin(i), end = matrix.row_end(i);
-        std::size_t       n_terms   = 0;
-        bool              is_scalar = true;
-        for (std::size_t k = begin; k < end; ++k)
-          {
-            const unsigned int j = matrix.column(k);
-            n_terms += transfer.row_end(j) - transfer.row_begin(j);
-            is_scalar = is_scalar && transfer.row_blocks(j) == nullptr && transfer.plane(j) == nullptr;
-          }
+        const auto  ranges    = matrix.ranges(i);
+        std::size_t n_terms   = 0;
+        bool        is_scalar = true;
+        for (const BlockRange &range : ranges)
+          for (std::size_t k = range.begin; k < range.end; ++k)
+            {
+              const unsigned int j = matrix.column(k);
+              n_terms += transfer.row_end(j) - transfer.row_begin(j);
+              is_scalar = is_scalar && transfer.row_blocks(j) == nullptr && transfer.plane(j) == nullptr;
+            }
         row.columns.resize(n_terms);
         row.blocks.resize(n_entries * (n_terms + 1));
         std::fill_n(row.blocks.begin(), n_entries, 0.);
-        if (is_scalar)
-          row.columns.resize(GalerkinKernels::multiply_scalar_rows(
-              row.blocks.data(), row.place.data(), row.columns.data(), matrix.block(begin),
-              matrix.column_data() + begin, end - begin, transfer.row_start_data(), transfer.column_data(),
-              transfer.weight_data()));
-        else
-          multiply_rows(matrix, transfer, begin, end);
+        unsigned int n_columns = 0;
+        for (const BlockRange &range : ranges)
+          if (is_scalar)
+            n_columns = GalerkinKernels::multiply_scalar_rows(
+                row.blocks.data(), row.place.data(), row.columns.data(), n_columns, matrix.block_data(),
+                matrix.column_data(), range, transfer.row_start_data(), transfer.column_data(),
+                transfer.weight_data());
+          else
+            multiply_rows(n_columns, matrix, transfer, range);
+        row.columns.resize(n_columns);
         if (const Vector3 *const n = transfer.plane(i))
           for (std::size_t b = 1; b <= row.columns.size(); ++b)
             for (unsigned int d = 0; d < dim; ++d)
@@ -224,29 +230,30 @@ namespace Signorini
       void add_to(NodeBlockMatrix &coarse, const unsigned int coarse_row, const double weight,
                   const Block *p) const
       {
-        const std::size_t begin = coarse.row_begin(coarse_row), end = coarse.row_end(coarse_row);
-        if (p == nullptr)
-          GalerkinKernels::add_row(coarse.block(begin), coarse.column_data() + begin, end - begin, weight,
-                                   row.blocks.data(), row.place.data(), end - begin > 4 * row.columns.size());
-        else
-          for (std::size_t k = begin; k < end; ++k)
-            {
-              const double *const x = row.blocks.data() + row.place[coarse.column(k)];
-              double *const       y = coarse.block(k);
-              for (unsigned int c = 0; c < dim; ++c)
-                for (unsigned int d = 0; d < dim; ++d)
-                  y[dim * c + d] += (*p)[0][c] * x[d] + (*p)[1][c] * x[dim + d] + (*p)[2][c] * x[2 * dim + d];
-            }
+        const bool is_sparse = coarse.row_length(coarse_row) > 4 * row.columns.size();
+        for (const BlockRange &range : coarse.ranges(coarse_row))
+          if (p == nullptr)
+            GalerkinKernels::add_row(coarse.block(range.begin), coarse.column_data() + range.begin,
+                                     range.size(), weight, row.blocks.data(), row.place.data(), is_sparse);
+          else
+            for (std::size_t k = range.begin; k < range.end; ++k)
+              {
+                const double *const x = row.blocks.data() + row.place[coarse.column(k)];
+                double *const       y = coarse.block(k);
+                for (unsigned int c = 0; c < dim; ++c)
+                  for (unsigned int d = 0; d < dim; ++d)
+                    y[dim * c + d] +=
+                        (*p)[0][c] * x[d] + (*p)[1][c] * x[dim + d] + (*p)[2][c] * x[2 * dim + d];
+              }
       }
 
     private:
       static constexpr unsigned int n_entries = GalerkinKernels::n_entries;
 
-      void multiply_rows(const NodeBlockMatrix &matrix, const NodalTransfer &transfer,
-                         const std::size_t begin, const std::size_t end)
+      void multiply_rows(unsigned int &n_columns, const NodeBlockMatrix &matrix,
+                         const NodalTransfer &transfer, const BlockRange &range)
       {
-        unsigned int n_columns = 0;
-        for (std::size_t k = begin; k < end; ++k)
+        for (std::size_t k = range.begin; k < range.end; ++k)
           {
             const unsigned int j = matrix.column(k);
             double             a[n_entries];
@@ -271,7 +278,6 @@ namespace Signorini
                   }
               }
           }
-        row.columns.resize(n_columns);
       }
 
       GalerkinKernels::Row row;

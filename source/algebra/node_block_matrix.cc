@@ -68,11 +68,12 @@ namespace Signorini
     ghosts.compress();
     nodes = std::make_shared<NodePartition>(owned, ghosts, communicator);
 
-    row_start.assign(1, 0);
-    row_start.reserve(pattern.row_start.size());
-    columns.clear();
-    columns.reserve(pattern.columns.size());
-    std::vector<unsigned int> row;
+    // Lengths first, shifted to their places in the array of all blocks below.
+    lower_start.assign(1, 0);
+    upper_start.assign(1, 0);
+    std::vector<unsigned int> lower_columns, upper_columns, row;
+    for (auto *part : {&lower_columns, &upper_columns})
+      part->reserve(pattern.columns.size() / 2);
     for (std::size_t r = 0; r + 1 < pattern.row_start.size(); ++r)
       {
         row.clear();
@@ -86,13 +87,30 @@ namespace Signorini
         row.push_back(diagonal);
         std::sort(row.begin(), row.end());
         row.erase(std::unique(row.begin(), row.end()), row.end());
-        // The diagonal block first: sweeps skip it and use its inverse.
-        std::rotate(row.begin(), std::lower_bound(row.begin(), row.end(), diagonal),
-                    std::lower_bound(row.begin(), row.end(), diagonal) + 1);
-        columns.insert(columns.end(), row.begin(), row.end());
-        row_start.push_back(columns.size());
+        auto upper = row.begin();
+        if (is_owned)
+          {
+            const auto place = std::lower_bound(row.begin(), row.end(), diagonal);
+            lower_columns.insert(lower_columns.end(), row.begin(), place);
+            lower_start.push_back(lower_columns.size());
+            upper = place + 1;
+          }
+        upper_columns.insert(upper_columns.end(), upper, row.end());
+        upper_start.push_back(upper_columns.size());
       }
-    columns.shrink_to_fit();
+    for (std::size_t &start : lower_start)
+      start += n_owned;
+    for (std::size_t &start : upper_start)
+      start += lower_start.back();
+    columns.clear();
+    columns.reserve(upper_start.back());
+    for (unsigned int r = 0; r < n_owned; ++r)
+      columns.push_back(r);
+    for (auto *part : {&lower_columns, &upper_columns})
+      {
+        columns.insert(columns.end(), part->begin(), part->end());
+        *part = std::vector<unsigned int>();
+      }
     values.assign(9 * columns.size(), 0.);
 
     foreign_row_of_ghost.assign(nodes->ghosts().size(), numbers::invalid_unsigned_int);
@@ -110,8 +128,8 @@ namespace Signorini
         send_rows.back().second.second = n_owned + f + 1;
         auto &header                   = headers[rank];
         header.push_back(pattern.foreign_rows[f]);
-        header.push_back(row_start[n_owned + f + 1] - row_start[n_owned + f]);
-        for (std::size_t k = row_start[n_owned + f]; k < row_start[n_owned + f + 1]; ++k)
+        header.push_back(row_length(n_owned + f));
+        for (std::size_t k = upper_start[n_owned + f]; k < upper_start[n_owned + f + 1]; ++k)
           header.push_back(nodes->to_global(columns[k]));
       }
     receive_positions.clear();
@@ -131,12 +149,12 @@ namespace Signorini
 
   std::size_t NodeBlockMatrix::find(const unsigned int row, const unsigned int local_column) const
   {
-    const std::size_t begin = row_start[row];
-    if (columns[begin] == local_column)
-      return begin;
-    const auto it =
-        std::lower_bound(columns.begin() + begin + 1, columns.begin() + row_start[row + 1], local_column);
-    Assert(it != columns.begin() + row_start[row + 1] && *it == local_column, ExcInternalError());
+    if (row < n_rows() && local_column == row)
+      return diagonal(row);
+    const BlockRange range = row < n_rows() && local_column < row ? lower(row) : upper(row);
+    const auto       end   = columns.begin() + range.end;
+    const auto       it    = std::lower_bound(columns.begin() + range.begin, end, local_column);
+    Assert(it != end && *it == local_column, ExcInternalError());
     return it - columns.begin();
   }
 
@@ -144,7 +162,8 @@ namespace Signorini
 
   void NodeBlockMatrix::clear_row(const unsigned int row)
   {
-    std::fill(values.begin() + 9 * row_start[row], values.begin() + 9 * row_start[row + 1], 0.);
+    for (const BlockRange &range : ranges(row))
+      std::fill(values.begin() + 9 * range.begin, values.begin() + 9 * range.end, 0.);
   }
 
 
@@ -156,8 +175,8 @@ namespace Signorini
     std::map<unsigned int, std::vector<double>> packets;
     for (const auto &[rank, rows] : send_rows)
       {
-        const auto begin = values.begin() + 9 * row_start[rows.first];
-        const auto end   = values.begin() + 9 * row_start[rows.second];
+        const auto begin = values.begin() + 9 * upper_start[rows.first];
+        const auto end   = values.begin() + 9 * upper_start[rows.second];
         packets[rank].assign(begin, end);
         std::fill(begin, end, 0.);
       }
@@ -174,16 +193,23 @@ namespace Signorini
 
 
 
+  void NodeBlockMatrix::multiply_row(double *const product, const unsigned int row, const Vector &src) const
+  {
+    const auto here = ranges(row), later = ranges(std::min(row + rows_ahead, n_rows() - 1));
+    double     sums[9];
+    multiply_block_ranges(sums, values.data(), columns.data(), here.data(), later.data(), here.size(),
+                          src.begin());
+    for (unsigned int c = 0; c < dim; ++c)
+      product[c] = sums[c] + sums[3 + c] + sums[6 + c];
+  }
+
+
+
   void NodeBlockMatrix::vmult(Vector &dst, const Vector &src) const
   {
     src.update_ghost_values();
-    const double *const x = src.begin();
-    double *const       y = dst.begin();
-    const unsigned int  n = n_rows();
-    for (unsigned int i = 0; i < n; ++i)
-      multiply_block_row(y + dim * i, block(row_start[i]), columns.data() + row_start[i],
-                         row_start[i + 1] - row_start[i], x,
-                         block(row_start[std::min(i + rows_ahead, n - 1)]));
+    for (unsigned int i = 0; i < n_rows(); ++i)
+      multiply_row(dst.begin() + dim * static_cast<std::size_t>(i), i, src);
   }
 
 
@@ -191,7 +217,7 @@ namespace Signorini
   std::size_t NodeBlockMatrix::memory_consumption() const
   {
     return values.capacity() * sizeof(double) + columns.capacity() * sizeof(unsigned int) +
-           row_start.capacity() * sizeof(std::size_t);
+           (lower_start.capacity() + upper_start.capacity()) * sizeof(std::size_t);
   }
 
 
@@ -201,7 +227,7 @@ namespace Signorini
     double scale = 0.;
     for (unsigned int i = 0; i < matrix.n_rows(); ++i)
       for (unsigned int c = 0; c < dim; ++c)
-        scale = std::max(scale, matrix.block(matrix.row_begin(i))[(dim + 1) * c]);
+        scale = std::max(scale, matrix.block(matrix.diagonal(i))[(dim + 1) * c]);
     return Utilities::MPI::max(scale, matrix.partition().communicator());
   }
 } // namespace Signorini

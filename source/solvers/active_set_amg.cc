@@ -45,15 +45,16 @@ namespace Signorini
     for (unsigned int i = 0; i < result.n_rows(); ++i)
       {
         const Vector3 row_normal = plane(i);
-        for (std::size_t k = result.row_begin(i); k < result.row_end(i); ++k)
-          {
-            const Vector3 column_normal = plane(result.column(k));
-            if (row_normal.norm_square() == 0. && column_normal.norm_square() == 0.)
-              continue;
-            const Block block =
-                restrict_to_planes(result.block(k), row_normal, column_normal, k == result.row_begin(i));
-            write_block(result.block(k), block);
-          }
+        for (const BlockRange &range : result.ranges(i))
+          for (std::size_t k = range.begin; k < range.end; ++k)
+            {
+              const Vector3 column_normal = plane(result.column(k));
+              if (row_normal.norm_square() == 0. && column_normal.norm_square() == 0.)
+                continue;
+              const Block block =
+                  restrict_to_planes(result.block(k), row_normal, column_normal, k == result.diagonal(i));
+              write_block(result.block(k), block);
+            }
       }
     return result;
   }
@@ -111,7 +112,7 @@ namespace Signorini
         changed = false;
         for (std::size_t p = 0; p < spaces.size(); ++p)
           {
-            const Block         block     = read_block(matrix.block(matrix.row_begin(spaces.nodes[p])));
+            const Block         block     = read_block(matrix.block(matrix.diagonal(spaces.nodes[p])));
             const double        stiffness = spaces.normals[p] * (block * spaces.normals[p]);
             const double        excess    = is_active[p] ? 0. : spaces.normal_part(p, v) - spaces.bounds[p];
             const double        force     = is_active[p] ? spaces.normal_part(p, residual) : 0.;

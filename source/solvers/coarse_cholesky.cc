@@ -37,12 +37,13 @@ namespace Signorini
     {
       PackedMatrix packed;
       for (unsigned int i = 0; i < matrix.n_rows(); ++i)
-        for (std::size_t k = matrix.row_begin(i); k < matrix.row_end(i); ++k)
-          {
-            packed.rows.push_back(matrix.partition().to_global(i));
-            packed.columns.push_back(matrix.partition().to_global(matrix.column(k)));
-            packed.values.insert(packed.values.end(), matrix.block(k), matrix.block(k) + 9);
-          }
+        for (const BlockRange &range : matrix.ranges(i))
+          for (std::size_t k = range.begin; k < range.end; ++k)
+            {
+              packed.rows.push_back(matrix.partition().to_global(i));
+              packed.columns.push_back(matrix.partition().to_global(matrix.column(k)));
+              packed.values.insert(packed.values.end(), matrix.block(k), matrix.block(k) + 9);
+            }
       return packed;
     }
   } // namespace

@@ -211,13 +211,14 @@ namespace Signorini
     };
     PackedMatrix packed;
     for (const unsigned int row : rows)
-      for (std::size_t k = matrix.row_begin(row); k < matrix.row_end(row); ++k)
-        if (is_contact[matrix.column(k)])
-          {
-            packed.rows.push_back(place(row));
-            packed.columns.push_back(place(matrix.column(k)));
-            packed.values.insert(packed.values.end(), matrix.block(k), matrix.block(k) + dim * dim);
-          }
+      for (const BlockRange &range : matrix.ranges(row))
+        for (std::size_t k = range.begin; k < range.end; ++k)
+          if (is_contact[matrix.column(k)])
+            {
+              packed.rows.push_back(place(row));
+              packed.columns.push_back(place(matrix.column(k)));
+              packed.values.insert(packed.values.end(), matrix.block(k), matrix.block(k) + dim * dim);
+            }
     const auto pieces = Utilities::MPI::gather(partition.communicator(), packed, 0);
     if (Utilities::MPI::this_mpi_process(partition.communicator()) != 0)
       return;
@@ -257,13 +258,10 @@ namespace Signorini
         NodeState          state;
         for (unsigned int c = 0; c < dim; ++c)
           state.residual[c] = rhs.local_element(dim * row + c);
-        for (std::size_t k = matrix.row_begin(row); k < matrix.row_end(row); ++k)
-          {
-            const double *const a = matrix.block(k);
-            const double *const x = v.begin() + dim * static_cast<std::size_t>(matrix.column(k));
-            for (unsigned int c = 0; c < dim; ++c)
-              state.residual[c] -= a[dim * c] * x[0] + a[dim * c + 1] * x[1] + a[dim * c + 2] * x[2];
-          }
+        double product[dim];
+        matrix.multiply_row(product, row, v);
+        for (unsigned int c = 0; c < dim; ++c)
+          state.residual[c] -= product[c];
         if (const int p = contact.half_space_of_row[row]; p >= 0)
           {
             state.normal = contact.half_spaces.normals[p];

@@ -85,7 +85,7 @@ namespace Signorini
     definite = singular;
     for (unsigned int i = 0; i < definite.n_rows(); ++i)
       for (unsigned int k = 0; k < 9; ++k)
-        definite.block(definite.row_begin(i))[k] *= 1. + regularization;
+        definite.block(definite.diagonal(i))[k] *= 1. + regularization;
   }
 
 

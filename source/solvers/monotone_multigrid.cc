@@ -127,7 +127,7 @@ namespace Signorini
     w.correction.zero_out_ghost_values();
     w.correction += below.finer;
 
-    here.smoother->smooth(w.correction, w.rhs, parameters.smoothing, ProjectedGaussSeidel::backward);
+    here.smoother->smooth_to_residual(w.correction, w.rhs, parameters.smoothing, nullptr);
     here.smoother->set_half_spaces(HalfSpaces());
   }
 

@@ -61,24 +61,25 @@ namespace Signorini
   {
     for (const unsigned int i : rows)
       {
-        for (std::size_t k = matrix.row_begin(i); k < matrix.row_end(i); ++k)
-          {
-            const FixedMask row_mask = fixed[i], column_mask = fixed[matrix.column(k)];
-            if (row_mask == 0 && column_mask == 0)
-              continue;
-            const bool    is_diagonal = k == matrix.row_begin(i);
-            double *const b           = matrix.block(k);
-            for (unsigned int c = 0; c < dim; ++c)
-              for (unsigned int d = 0; d < dim; ++d)
-                if ((row_mask & (1u << c)) || (column_mask & (1u << d)))
-                  {
-                    if (is_diagonal && c == d)
-                      b[dim * c + d] = b[dim * c + d] > 0. ? b[dim * c + d] : scale;
-                    else
-                      b[dim * c + d] = 0.;
-                  }
-          }
-        fill_empty_directions(matrix.block(matrix.row_begin(i)), scale);
+        for (const BlockRange &range : matrix.ranges(i))
+          for (std::size_t k = range.begin; k < range.end; ++k)
+            {
+              const FixedMask row_mask = fixed[i], column_mask = fixed[matrix.column(k)];
+              if (row_mask == 0 && column_mask == 0)
+                continue;
+              const bool    is_diagonal = k == matrix.diagonal(i);
+              double *const b           = matrix.block(k);
+              for (unsigned int c = 0; c < dim; ++c)
+                for (unsigned int d = 0; d < dim; ++d)
+                  if ((row_mask & (1u << c)) || (column_mask & (1u << d)))
+                    {
+                      if (is_diagonal && c == d)
+                        b[dim * c + d] = b[dim * c + d] > 0. ? b[dim * c + d] : scale;
+                      else
+                        b[dim * c + d] = 0.;
+                    }
+            }
+        fill_empty_directions(matrix.block(matrix.diagonal(i)), scale);
       }
   }
 
@@ -121,14 +122,8 @@ namespace Signorini
       if (const unsigned int local = matrix.partition().to_local(node);
           local != numbers::invalid_unsigned_int)
         is_contact[local] = true;
-    std::vector<unsigned int> rows;
-    for (unsigned int i = 0; i < matrix.n_rows(); ++i)
-      for (std::size_t k = matrix.row_begin(i); k < matrix.row_end(i); ++k)
-        if (is_contact[matrix.column(k)])
-          {
-            rows.push_back(i);
-            break;
-          }
+    const std::vector<unsigned int> rows =
+        matrix.rows_with_column([&](const unsigned int column) { return is_contact[column]; });
     coarsest().smoother->set_interface(rows);
     if (may_be_slow)
       coarsest().smoother->correct_slow_interface(contact_nodes);
@@ -204,14 +199,8 @@ namespace Signorini
 
     truncate_transfer(planes, changed);
 
-    std::vector<unsigned int> rows;
-    for (unsigned int i = 0; i < fine.n_rows(); ++i)
-      for (std::size_t k = fine.row_begin(i); k < fine.row_end(i); ++k)
-        if (changed.local_element(dim * fine.column(k)) != 0.)
-          {
-            rows.push_back(i);
-            break;
-          }
+    std::vector<unsigned int> rows = fine.rows_with_column(
+        [&](const unsigned int column) { return changed.local_element(dim * column) != 0.; });
     for (std::size_t l = 1; l < levels.size(); ++l)
       {
         MultigridLevel &level  = *levels[l];

@@ -28,37 +28,29 @@ namespace Signorini
     , all_rows(matrix.partition())
     , blocks(matrix, all_rows)
     , interface_rows(all_rows.subset({}))
-    , sees_interface(matrix.n_rows(), false)
+    , reduced_rhs(dim * static_cast<std::size_t>(matrix.partition().n_local()))
     , inverse_diagonal(9 * static_cast<std::size_t>(matrix.n_rows()))
     , half_space_of_row(matrix.n_rows(), -1)
   {
-    split_rows();
-    std::vector<unsigned int> block_rows;
-    for (unsigned int row = 0; row < matrix.n_rows(); ++row)
-      if (blocks.contains(row))
-        block_rows.push_back(row);
-    sees_blocks = rows_that_see(block_rows);
+    find_ordered_rows();
+    block_rows = blocks.rows();
     update_diagonal();
   }
 
 
 
-  void ProjectedGaussSeidel::split_rows()
+  void ProjectedGaussSeidel::find_ordered_rows()
   {
     // The last phase is for nodes that no other rank sees.
-    is_inner.assign(matrix.n_rows(), false);
+    std::vector<bool> is_inner(matrix.n_rows(), false);
     for (const unsigned int row : all_rows.phases().back())
       is_inner[row] = true;
-    first_above.resize(matrix.n_rows());
-    is_ordered                        = is_inner;
-    const unsigned int *const columns = matrix.column_data();
+    is_ordered = is_inner;
     for (unsigned int row = 0; row < matrix.n_rows(); ++row)
       {
-        const std::size_t end = matrix.row_end(row);
-        first_above[row] =
-            std::upper_bound(columns + matrix.row_begin(row) + 1, columns + end, row) - columns;
-        for (std::size_t k = first_above[row]; k < end && is_ordered[row]; ++k)
-          is_ordered[row] = columns[k] < matrix.n_rows() && is_inner[columns[k]];
+        const BlockRange upper = matrix.upper(row);
+        for (std::size_t k = upper.begin; k < upper.end && is_ordered[row]; ++k)
+          is_ordered[row] = matrix.column(k) < matrix.n_rows() && is_inner[matrix.column(k)];
       }
   }
 
@@ -80,7 +72,7 @@ namespace Signorini
       interface_correction->update(rows);
     for (const unsigned int row : rows)
       write_block(inverse_diagonal.data() + 9 * static_cast<std::size_t>(row),
-                  invert(read_block(matrix.block(matrix.row_begin(row)))));
+                  invert(read_block(matrix.block(matrix.diagonal(row)))));
   }
 
 
@@ -111,22 +103,9 @@ namespace Signorini
 
 
 
-  std::vector<bool> ProjectedGaussSeidel::rows_that_see(const std::vector<unsigned int> &rows) const
-  {
-    std::vector<bool> result(matrix.n_rows(), false);
-    for (const unsigned int row : rows)
-      for (std::size_t k = matrix.row_begin(row); k < matrix.row_end(row); ++k)
-        if (matrix.column(k) < matrix.n_rows())
-          result[matrix.column(k)] = true;
-    return result;
-  }
-
-
-
   void ProjectedGaussSeidel::set_interface(const std::vector<unsigned int> &rows)
   {
     interface_rows = all_rows.subset(rows);
-    sees_interface = rows_that_see(rows);
   }
 
 
@@ -141,6 +120,7 @@ namespace Signorini
       return;
     interface_correction = std::make_unique<InterfaceCorrection>(matrix, contact_nodes);
     blocks.drop_within(interface_correction->contact_rows());
+    block_rows = blocks.rows();
   }
 
 
@@ -161,10 +141,8 @@ namespace Signorini
       for (const auto &rows : schedule.phases())
         for (const unsigned int row : rows)
           {
-            double            product[3];
-            const std::size_t begin = matrix.row_begin(row);
-            multiply_block_row(product, matrix.block(begin), matrix.column_data() + begin,
-                               matrix.row_end(row) - begin, error.begin(), matrix.block(begin));
+            double product[3];
+            matrix.multiply_row(product, row, error);
             for (unsigned int c = 0; c < dim; ++c)
               sum += error.local_element(dim * row + c) * product[c];
           }
@@ -175,8 +153,8 @@ namespace Signorini
       {
         if (sweep + 1 == n_measured_sweeps)
           before = energy();
-        run(error, zero, schedule, forward, {});
-        run(error, zero, schedule, backward, {});
+        run(error, zero, schedule, forward);
+        run(error, zero, schedule, backward);
       }
     return before > 0. ? std::sqrt(std::max(0., energy() / before)) : 0.;
   }
@@ -195,51 +173,110 @@ namespace Signorini
 
 
 
-  inline std::pair<std::size_t, std::size_t> ProjectedGaussSeidel::range(const unsigned int  row,
-                                                                         const SweepOptions &options) const
+  inline void ProjectedGaussSeidel::minimize_row(double *const y, const double *const s, const unsigned int row)
   {
-    return {matrix.row_begin(row) + 1,
-            options.from_zero && is_ordered[row] ? first_above[row] : matrix.row_end(row)};
+    const double *const d = inverse_diagonal.data() + 9 * static_cast<std::size_t>(row);
+    y[0]                  = d[0] * s[0] + d[1] * s[1] + d[2] * s[2];
+    y[1]                  = d[3] * s[0] + d[4] * s[1] + d[5] * s[2];
+    y[2]                  = d[6] * s[0] + d[7] * s[1] + d[8] * s[2];
+    if (half_space_of_row[row] >= 0)
+      project_row(y, half_space_of_row[row]);
   }
 
 
 
   template <ProjectedGaussSeidel::Direction direction>
   inline void ProjectedGaussSeidel::relax(double *const v, const double *const rhs, const unsigned int row,
-                                          const unsigned int later_row, const SweepOptions &options)
+                                          const unsigned int later_row)
   {
-    double sum[3];
-    const auto [begin, end] = range(row, options);
+    const BlockRange here[2]  = {matrix.lower(row), matrix.upper(row)};
+    const BlockRange later[2] = {matrix.lower(later_row), matrix.upper(later_row)};
+    double           sums[6];
     // Memory is read in one direction throughout, also within a row.
-    (direction == forward ? multiply_block_row : multiply_block_row_backward)(
-        sum, matrix.block(begin), matrix.column_data() + begin, end - begin, v,
-        matrix.block(range(later_row, options).first));
-    const double s0 = rhs[dim * row] - sum[0], s1 = rhs[dim * row + 1] - sum[1],
-                 s2            = rhs[dim * row + 2] - sum[2];
-    const double *const d      = inverse_diagonal.data() + 9 * static_cast<std::size_t>(row);
-    double *const       y      = v + dim * static_cast<std::size_t>(row);
-    const double        old[3] = {y[0], y[1], y[2]};
-    y[0]                       = d[0] * s0 + d[1] * s1 + d[2] * s2;
-    y[1]                       = d[3] * s0 + d[4] * s1 + d[5] * s2;
-    y[2]                       = d[6] * s0 + d[7] * s1 + d[8] * s2;
-    if (half_space_of_row[row] >= 0)
-      project_row(y, half_space_of_row[row]);
-    if (options.residual != nullptr && (is_inner[row] || direction == backward))
-      {
-        // To those that were visited before.
-        const double      change[3] = {y[0] - old[0], y[1] - old[1], y[2] - old[2]};
-        const std::size_t from =
-            direction == forward || !is_inner[row] ? matrix.row_begin(row) + 1 : first_above[row];
-        const std::size_t to = direction == backward ? matrix.row_end(row) : first_above[row];
-        subtract_transposed_block_row(options.residual, matrix.block(from), matrix.column_data() + from,
-                                      to - from, change);
-      }
+    (direction == forward ? multiply_block_ranges : multiply_block_ranges_backward)(
+        sums, matrix.block_data(), matrix.column_data(), here, later, 2, v);
+    const double s[3] = {rhs[dim * row] - sums[0] - sums[3], rhs[dim * row + 1] - sums[1] - sums[4],
+                         rhs[dim * row + 2] - sums[2] - sums[5]};
+    minimize_row(v + dim * static_cast<std::size_t>(row), s, row);
   }
 
 
 
-  void ProjectedGaussSeidel::run(Vector &v, const Vector &rhs, const SweepSchedule &schedule,
-                                 const Direction direction, const SweepOptions &options)
+  template <ProjectedGaussSeidel::Direction direction>
+  inline void ProjectedGaussSeidel::relax_by_halves(double *const v, const double *const rhs,
+                                                    const unsigned int row, const unsigned int later_row,
+                                                    const bool is_first, double *const residual)
+  {
+    const auto visited = [&](const unsigned int i) {
+      return direction == forward ? matrix.lower(i) : matrix.upper(i);
+    };
+    const auto unvisited = [&](const unsigned int i) {
+      return direction == forward ? matrix.upper(i) : matrix.lower(i);
+    };
+    const bool       reads_all = is_first || !is_ordered[row];
+    const BlockRange here[2]   = {visited(row), unvisited(row)};
+    const BlockRange later[2]  = {visited(later_row), unvisited(later_row)};
+    double           sums[6];
+    (direction == forward ? multiply_block_ranges : multiply_block_ranges_backward)(
+        sums, matrix.block_data(), matrix.column_data(), here, later, reads_all ? 2 : 1, v);
+    const std::size_t i       = dim * static_cast<std::size_t>(row);
+    double *const     reduced = reduced_rhs.data() + i;
+    if (reads_all)
+      for (unsigned int c = 0; c < dim; ++c)
+        reduced[c] = rhs[i + c] - sums[dim + c];
+    const double  s[3]   = {reduced[0] - sums[0], reduced[1] - sums[1], reduced[2] - sums[2]};
+    double *const y      = v + i;
+    const double  old[3] = {y[0], y[1], y[2]};
+    minimize_row(y, s, row);
+    if (residual != nullptr)
+      {
+        const bool          is_contact = half_space_of_row[row] >= 0;
+        const double *const a          = matrix.block(matrix.diagonal(row));
+        for (unsigned int c = 0; c < dim; ++c)
+          residual[i + c] =
+              is_contact ? s[c] - a[dim * c] * y[0] - a[dim * c + 1] * y[1] - a[dim * c + 2] * y[2] : 0.;
+      }
+    const double change[3] = {y[0] - old[0], y[1] - old[1], y[2] - old[2]};
+    subtract_transposed_blocks(residual != nullptr ? residual : reduced_rhs.data(), matrix.block_data(),
+                               matrix.column_data(), visited(row), change);
+  }
+
+
+
+  inline void ProjectedGaussSeidel::relax_with_residual(double *const v, const double *const rhs,
+                                                        const unsigned int row, double *const residual)
+  {
+    double *const y      = v + dim * static_cast<std::size_t>(row);
+    const double  old[3] = {y[0], y[1], y[2]};
+    if (is_ordered[row])
+      {
+        const double *const a = matrix.block(matrix.diagonal(row));
+        const double *const r = residual + dim * static_cast<std::size_t>(row);
+        double              s[3];
+        for (unsigned int c = 0; c < dim; ++c)
+          s[c] = r[c] + a[dim * c] * y[0] + a[dim * c + 1] * y[1] + a[dim * c + 2] * y[2];
+        minimize_row(y, s, row);
+      }
+    else
+      relax<forward>(v, rhs, row, row);
+    const double change[3] = {y[0] - old[0], y[1] - old[1], y[2] - old[2]};
+    pass_on(residual, row, change);
+  }
+
+
+
+  inline void ProjectedGaussSeidel::pass_on(double *const residual, const unsigned int row,
+                                            const double *const change) const
+  {
+    for (const BlockRange &range : matrix.ranges(row))
+      subtract_transposed_blocks(residual, matrix.block_data(), matrix.column_data(), range, change);
+  }
+
+
+
+  template <typename Visit>
+  void ProjectedGaussSeidel::visit(Vector &v, const SweepSchedule &schedule, const Direction direction,
+                                   const unsigned int ahead, const Visit &visit_row)
   {
     const std::size_t n_phases = schedule.phases().size();
     for (std::size_t i = 0; i < n_phases; ++i)
@@ -249,26 +286,48 @@ namespace Signorini
         const std::size_t n    = rows.size();
         if (direction == forward)
           for (std::size_t k = 0; k < n; ++k)
-            relax<forward>(v.begin(), rhs.begin(), rows[k], rows[std::min(k + rows_ahead, n - 1)], options);
+            visit_row(rows[k], rows[std::min(k + ahead, n - 1)]);
         else
           for (std::size_t k = n; k-- > 0;)
-            relax<backward>(v.begin(), rhs.begin(), rows[k],
-                            rows[std::max<std::size_t>(k, rows_ahead) - rows_ahead], options);
+            visit_row(rows[k], rows[std::max<std::size_t>(k, ahead) - ahead]);
       }
+  }
+
+
+
+  void ProjectedGaussSeidel::run(Vector &v, const Vector &rhs, const SweepSchedule &schedule,
+                                 const Direction direction)
+  {
+    visit(v, schedule, direction, rows_ahead, [&](const unsigned int row, const unsigned int later_row) {
+      direction == forward ? relax<forward>(v.begin(), rhs.begin(), row, later_row) :
+                             relax<backward>(v.begin(), rhs.begin(), row, later_row);
+    });
+  }
+
+
+
+  template <ProjectedGaussSeidel::Direction direction>
+  void ProjectedGaussSeidel::run_by_halves(Vector &v, const Vector &rhs, const bool is_first,
+                                           Vector *const residual)
+  {
+    double *const r = residual != nullptr ? residual->begin() : nullptr;
+    visit(v, all_rows, direction, half_rows_ahead, [&](const unsigned int row, const unsigned int later_row) {
+      relax_by_halves<direction>(v.begin(), rhs.begin(), row, later_row, is_first, r);
+    });
   }
 
 
 
   void ProjectedGaussSeidel::sweep(Vector &v, const Vector &rhs, const Direction direction)
   {
-    run(v, rhs, all_rows, direction, {});
+    run(v, rhs, all_rows, direction);
   }
 
 
 
   void ProjectedGaussSeidel::interface_sweep(Vector &v, const Vector &rhs, const Direction direction)
   {
-    run(v, rhs, interface_rows, direction, {});
+    run(v, rhs, interface_rows, direction);
   }
 
 
@@ -277,27 +336,28 @@ namespace Signorini
                                               const SmoothingParameters &parameters,
                                               const Direction            direction)
   {
-    const ContactState contact{constraints, half_space_of_row, is_active};
     for (unsigned int i = 0; i < parameters.n_interface_sweeps; ++i)
       {
         if (interface_correction && direction == backward)
-          interface_correction->apply(v, rhs, contact);
+          correct_interface(v, rhs);
         interface_sweep(v, rhs, direction);
         if (interface_correction && direction == forward)
-          interface_correction->apply(v, rhs, contact);
+          correct_interface(v, rhs);
       }
   }
 
 
 
-  void ProjectedGaussSeidel::sweep_with_blocks(Vector &v, const Vector &rhs, const Direction direction,
-                                               const SweepOptions &options)
+  void ProjectedGaussSeidel::correct_interface(Vector &v, const Vector &rhs)
   {
-    if (direction == backward)
-      blocks.sweep(v, rhs, false, constraints, half_space_of_row, is_active);
-    run(v, rhs, all_rows, direction, options);
-    if (direction == forward)
-      blocks.sweep(v, rhs, true, constraints, half_space_of_row, is_active);
+    interface_correction->apply(v, rhs, ContactState{constraints, half_space_of_row, is_active});
+  }
+
+
+
+  void ProjectedGaussSeidel::sweep_blocks(Vector &v, const Vector &rhs, const Direction direction)
+  {
+    blocks.sweep(v, rhs, direction == forward, constraints, half_space_of_row, is_active);
   }
 
 
@@ -307,30 +367,51 @@ namespace Signorini
   {
     if (direction == forward)
       for (unsigned int i = 0; i < parameters.n_pre; ++i)
-        sweep_with_blocks(v, rhs, direction, {});
+        {
+          sweep(v, rhs, forward);
+          sweep_blocks(v, rhs, forward);
+        }
     smooth_interface(v, rhs, parameters, direction);
     if (direction == backward)
       for (unsigned int i = 0; i < parameters.n_post; ++i)
-        sweep_with_blocks(v, rhs, direction, {});
+        {
+          sweep_blocks(v, rhs, backward);
+          sweep(v, rhs, backward);
+        }
   }
 
 
 
-  void ProjectedGaussSeidel::complete_residual(Vector &residual, const Vector &v, const Vector &rhs,
-                                               const std::vector<bool> *const changed,
-                                               const std::vector<bool> *const also_changed)
+  template <typename Action, typename PassOn>
+  void ProjectedGaussSeidel::follow_changes(const std::vector<unsigned int> &rows, const Vector &v,
+                                            const Action &action, const PassOn &pass_on_change) const
   {
-    // What the sweep left at ghosts.
+    std::vector<double> old(dim * rows.size());
+    for (std::size_t r = 0; r < rows.size(); ++r)
+      for (unsigned int c = 0; c < dim; ++c)
+        old[dim * r + c] = v.local_element(dim * rows[r] + c);
+    action();
+    for (std::size_t r = 0; r < rows.size(); ++r)
+      {
+        double change[dim];
+        for (unsigned int c = 0; c < dim; ++c)
+          change[c] = v.local_element(dim * rows[r] + c) - old[dim * r + c];
+        pass_on_change(rows[r], change);
+      }
+  }
+
+
+
+  void ProjectedGaussSeidel::complete_residual(Vector &residual, const Vector &v, const Vector &rhs)
+  {
+    // What the sweeps left at ghosts.
     residual.zero_out_ghost_values();
     v.update_ghost_values();
     for (unsigned int row = 0; row < matrix.n_rows(); ++row)
-      if (!is_inner[row] || half_space_of_row[row] >= 0 || (changed != nullptr && (*changed)[row]) ||
-          (also_changed != nullptr && (*also_changed)[row]))
+      if (!is_ordered[row])
         {
-          double *const     r     = residual.begin() + dim * static_cast<std::size_t>(row);
-          const std::size_t begin = matrix.row_begin(row);
-          multiply_block_row(r, matrix.block(begin), matrix.column_data() + begin,
-                             matrix.row_end(row) - begin, v.begin(), matrix.block(begin));
+          double *const r = residual.begin() + dim * static_cast<std::size_t>(row);
+          matrix.multiply_row(r, row, v);
           for (unsigned int c = 0; c < dim; ++c)
             r[c] = rhs.local_element(dim * row + c) - r[c];
         }
@@ -341,39 +422,65 @@ namespace Signorini
   void ProjectedGaussSeidel::smooth_from_zero(Vector &v, const Vector &rhs,
                                               const SmoothingParameters &parameters, Vector &residual)
   {
-    v        = 0.;
-    residual = 0.;
+    v = 0.;
+    residual.copy_locally_owned_data_from(rhs);
+    std::copy_n(rhs.begin(), dim * static_cast<std::size_t>(matrix.n_rows()), reduced_rhs.begin());
     for (unsigned int i = 0; i < parameters.n_pre; ++i)
-      sweep_with_blocks(v, rhs, forward, {i == 0, i + 1 == parameters.n_pre ? residual.begin() : nullptr});
-    smooth_interface(v, rhs, parameters, forward);
-    if (parameters.n_pre > 0)
-      complete_residual(residual, v, rhs, &sees_blocks,
-                        parameters.n_interface_sweeps > 0 ? &sees_interface : nullptr);
-    else
       {
-        matrix.vmult(residual, v);
-        residual.sadd(-1., 1., rhs);
+        const bool is_last = i + 1 == parameters.n_pre;
+        run_by_halves<forward>(v, rhs, false, is_last ? &residual : nullptr);
+        follow_changes(
+            block_rows, v, [&] { sweep_blocks(v, rhs, forward); },
+            [&](const unsigned int row, const double *const change) {
+              if (is_last)
+                pass_on(residual.begin(), row, change);
+              else
+                subtract_transposed_blocks(reduced_rhs.data(), matrix.block_data(), matrix.column_data(),
+                                           matrix.lower(row), change);
+            });
       }
+    for (unsigned int i = 0; i < parameters.n_interface_sweeps; ++i)
+      {
+        visit(v, interface_rows, forward, 0, [&](const unsigned int row, const unsigned int) {
+          relax_with_residual(v.begin(), rhs.begin(), row, residual.begin());
+        });
+        if (interface_correction)
+          follow_changes(
+              interface_correction->owned_rows(), v, [&] { correct_interface(v, rhs); },
+              [&](const unsigned int row, const double *const change) {
+                pass_on(residual.begin(), row, change);
+              });
+      }
+    complete_residual(residual, v, rhs);
   }
 
 
 
   void ProjectedGaussSeidel::smooth_to_residual(Vector &v, const Vector &rhs,
-                                                const SmoothingParameters &parameters, Vector &residual)
+                                                const SmoothingParameters &parameters,
+                                                Vector *const              residual)
   {
-    SmoothingParameters all_but_last = parameters;
-    all_but_last.n_post              = std::max(parameters.n_post, 1u) - 1;
-    smooth(v, rhs, all_but_last, backward);
-    if (parameters.n_post > 0)
+    smooth_interface(v, rhs, parameters, backward);
+    for (unsigned int i = 0; i < parameters.n_post; ++i)
       {
-        residual = 0.;
-        sweep_with_blocks(v, rhs, backward, {false, residual.begin()});
-        complete_residual(residual, v, rhs, nullptr, nullptr);
+        follow_changes(
+            block_rows, v, [&] { sweep_blocks(v, rhs, backward); },
+            [&](const unsigned int row, const double *const change) {
+              // The first sweep reads all anyway.
+              if (i > 0)
+                subtract_transposed_blocks(reduced_rhs.data(), matrix.block_data(), matrix.column_data(),
+                                           matrix.upper(row), change);
+            });
+        run_by_halves<backward>(v, rhs, i == 0, i + 1 == parameters.n_post ? residual : nullptr);
       }
+    if (residual == nullptr)
+      return;
+    if (parameters.n_post > 0)
+      complete_residual(*residual, v, rhs);
     else
       {
-        matrix.vmult(residual, v);
-        residual.sadd(-1., 1., rhs);
+        matrix.vmult(*residual, v);
+        residual->sadd(-1., 1., rhs);
       }
   }
 
@@ -444,9 +551,8 @@ namespace Signorini
   {
     // Blocks and columns, row pointers and half-space index, inverse diagonal, right hand side,
     // solution read and written once; the diagonal blocks are skipped.
-    const double rows = matrix.n_rows();
-    return (matrix.row_end(matrix.n_rows() - 1) - rows) * (9. * sizeof(double)) +
-           static_cast<double>(matrix.row_end(matrix.n_rows() - 1)) * sizeof(unsigned int) +
-           rows * (9. * sizeof(double) + sizeof(std::size_t) + 2 * sizeof(int) + 9. * sizeof(double));
+    const double rows = matrix.n_rows(), blocks_read = static_cast<double>(matrix.n_owned_blocks()) - rows;
+    return blocks_read * (9. * sizeof(double) + sizeof(unsigned int)) +
+           rows * (9. * sizeof(double) + 2 * sizeof(std::size_t) + 2 * sizeof(int) + 9. * sizeof(double));
   }
 } // namespace Signorini

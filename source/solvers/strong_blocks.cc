@@ -74,14 +74,15 @@ namespace Signorini
         phase_of_row[row] = phase;
     for (unsigned int i = 0; i < n; ++i)
       {
-        const double diagonal = trace_of(matrix.block(matrix.row_begin(i)));
+        const double diagonal = trace_of(matrix.block(matrix.diagonal(i)));
         double       largest  = 0.;
-        for (std::size_t k = matrix.row_begin(i) + 1; k < matrix.row_end(i); ++k)
-          {
-            const double t   = trace_of(matrix.block(k));
-            largest          = std::max(largest, t);
-            most_negative[i] = std::min(most_negative[i], t);
-          }
+        for (const BlockRange &range : {matrix.lower(i), matrix.upper(i)})
+          for (std::size_t k = range.begin; k < range.end; ++k)
+            {
+              const double t   = trace_of(matrix.block(k));
+              largest          = std::max(largest, t);
+              most_negative[i] = std::min(most_negative[i], t);
+            }
         is_stretched[i] = largest >= stretched * diagonal;
       }
 
@@ -98,14 +99,15 @@ namespace Signorini
           for (std::size_t next = 0; next < rows.size() && rows.size() < largest_block; ++next)
             {
               const unsigned int i = rows[next];
-              for (std::size_t k = matrix.row_begin(i) + 1; k < matrix.row_end(i); ++k)
-                if (const unsigned int j = matrix.column(k);
-                    j < n && is_stretched[j] && !visited[j] &&
-                    trace_of(matrix.block(k)) <= strong * std::min(most_negative[i], most_negative[j]))
-                  {
-                    visited[j] = true;
-                    rows.push_back(j);
-                  }
+              for (const BlockRange &range : {matrix.lower(i), matrix.upper(i)})
+                for (std::size_t k = range.begin; k < range.end; ++k)
+                  if (const unsigned int j = matrix.column(k);
+                      j < n && is_stretched[j] && !visited[j] &&
+                      trace_of(matrix.block(k)) <= strong * std::min(most_negative[i], most_negative[j]))
+                    {
+                      visited[j] = true;
+                      rows.push_back(j);
+                    }
             }
           if (rows.size() < 2)
             continue;
@@ -130,6 +132,17 @@ namespace Signorini
 
 
 
+  std::vector<unsigned int> StrongBlocks::rows() const
+  {
+    std::vector<unsigned int> result;
+    for (unsigned int row = 0; row < matrix.n_rows(); ++row)
+      if (block_of_row[row] >= 0)
+        result.push_back(row);
+    return result;
+  }
+
+
+
   double StrongBlocks::sweep_rate(const std::vector<unsigned int> &rows) const
   {
     constexpr unsigned int                           n_sweeps = 4;
@@ -139,12 +152,13 @@ namespace Signorini
     std::vector<Vector3>                             error(rows.size());
     for (unsigned int i = 0; i < rows.size(); ++i)
       {
-        for (std::size_t k = matrix.row_begin(rows[i]); k < matrix.row_end(rows[i]); ++k)
-          if (const auto it = std::lower_bound(rows.begin(), rows.end(), matrix.column(k));
-              it != rows.end() && *it == matrix.column(k))
-            entries.emplace_back(matrix.block(k), it - rows.begin());
+        for (const BlockRange &range : matrix.ranges(rows[i]))
+          for (std::size_t k = range.begin; k < range.end; ++k)
+            if (const auto it = std::lower_bound(rows.begin(), rows.end(), matrix.column(k));
+                it != rows.end() && *it == matrix.column(k))
+              entries.emplace_back(matrix.block(k), it - rows.begin());
         start.push_back(entries.size());
-        inverse[i] = invert(read_block(matrix.block(matrix.row_begin(rows[i]))));
+        inverse[i] = invert(read_block(matrix.block(matrix.diagonal(rows[i]))));
         // The slow motions are constant along a block; something of all others.
         for (unsigned int c = 0; c < dim; ++c)
           error[i][c] = 1. + .1 * std::sin(1. + 7. * (dim * i + c));
@@ -233,21 +247,22 @@ namespace Signorini
       {
         const unsigned int row        = block.rows[i];
         const Vector3      row_normal = normal_of(row);
-        for (std::size_t k = matrix.row_begin(row); k < matrix.row_end(row); ++k)
-          {
-            const unsigned int column = matrix.column(k);
-            if (column >= matrix.n_rows() || block_of_row[column] != index)
-              continue;
-            const std::size_t j = place_in_block[column];
-            const auto        entry =
-                restrict_to_planes(matrix.block(k), row_normal, normal_of(column), row == column);
-            for (unsigned int c = 0; c < dim; ++c)
-              for (unsigned int d = 0; d < dim; ++d)
-                if (is_dense)
-                  full(dim * i + c, dim * j + d) = entry[c][d];
-                else
-                  entries.emplace_back(dim * i + c, dim * j + d, entry[c][d]);
-          }
+        for (const BlockRange &range : matrix.ranges(row))
+          for (std::size_t k = range.begin; k < range.end; ++k)
+            {
+              const unsigned int column = matrix.column(k);
+              if (column >= matrix.n_rows() || block_of_row[column] != index)
+                continue;
+              const std::size_t j = place_in_block[column];
+              const auto        entry =
+                  restrict_to_planes(matrix.block(k), row_normal, normal_of(column), row == column);
+              for (unsigned int c = 0; c < dim; ++c)
+                for (unsigned int d = 0; d < dim; ++d)
+                  if (is_dense)
+                    full(dim * i + c, dim * j + d) = entry[c][d];
+                  else
+                    entries.emplace_back(dim * i + c, dim * j + d, entry[c][d]);
+            }
       }
     if (is_dense)
       {
@@ -293,13 +308,10 @@ namespace Signorini
         double             s[3];
         for (unsigned int c = 0; c < dim; ++c)
           s[c] = rhs.local_element(dim * row + c);
-        for (std::size_t k = matrix.row_begin(row); k < matrix.row_end(row); ++k)
-          {
-            const double *const a = matrix.block(k);
-            const double *const x = v.begin() + dim * static_cast<std::size_t>(matrix.column(k));
-            for (unsigned int c = 0; c < dim; ++c)
-              s[c] -= a[3 * c] * x[0] + a[3 * c + 1] * x[1] + a[3 * c + 2] * x[2];
-          }
+        double product[3];
+        matrix.multiply_row(product, row, v);
+        for (unsigned int c = 0; c < dim; ++c)
+          s[c] -= product[c];
         if (const int p = half_space_of_row[row]; p >= 0 && active[p])
           {
             const Vector3 &n      = half_spaces.normals[p];

@@ -30,7 +30,7 @@ namespace Signorini
 
     const NodeBlockMatrix &matrix = hierarchy.finest().matrix;
     const double          *begin  = matrix.block(0);
-    const std::size_t      n      = 9 * matrix.row_end(matrix.n_rows() - 1);
+    const std::size_t      n      = 9 * matrix.n_owned_blocks();
     times.clear();
     double sum = 0.;
     for (unsigned int i = 0; i < 5; ++i)

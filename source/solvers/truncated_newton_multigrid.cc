@@ -142,7 +142,7 @@ namespace Signorini
         correct(z, new_residual, problem, searches);
         if (searches)
           check(true);
-        smoother.smooth_to_residual(z, residual, parameters.smoothing, new_residual);
+        smoother.smooth_to_residual(z, residual, parameters.smoothing, &new_residual);
         keeps_active = all_ranks(keeps_active && smoother.active() == active);
 
         product = residual;

@@ -36,7 +36,7 @@ namespace Signorini
     coarse.to_finer.prolongate(step, work[level - 1].solution);
     solution.zero_out_ghost_values();
     solution += step;
-    smoother.smooth(solution, rhs, smoothing, ProjectedGaussSeidel::backward);
+    smoother.smooth_to_residual(solution, rhs, smoothing, nullptr);
   }
 
 

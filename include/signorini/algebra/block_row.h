@@ -17,32 +17,49 @@
 
 namespace Signorini
 {
-  /// Kernels on consecutive 3x3 blocks (nine numbers each, row by row). `wanted` is where the blocks of a
-  /// later call begin: their memory is asked for on the way. Without that the hardware's own fetching loses a
+  /// Positions of consecutive blocks.
+  struct BlockRange
+  {
+    std::size_t begin = 0, end = 0;
+
+    std::size_t size() const
+    {
+      return end - begin;
+    }
+  };
+
+  /// Four numbers at once.
+  typedef double Vector4 __attribute__((vector_size(4 * sizeof(double))));
+
+  /// Kernels on consecutive 3x3 blocks (nine numbers each, row by row). `wanted` are the positions that a
+  /// later call reads: their memory is asked for on the way. Without that the hardware's own fetching loses a
   /// quarter of the bandwidth, and more where rows are read in part.
   ///
-  /// sum[c] = Σ_k (A_k x_{columns[k]})_c over n blocks, reading forward.
-  void multiply_block_row(double *sum, const double *blocks, const unsigned int *columns, std::size_t n,
-                          const double *x, const double *wanted);
+  /// sums[3 r + c] = Σ_k (A_k x_{columns[k]})_c over the blocks k of range r, reading forward.
+  void multiply_block_ranges(double *sums, const double *blocks, const unsigned int *columns,
+                             const BlockRange *ranges, const BlockRange *wanted, unsigned int n_ranges,
+                             const double *x);
 
   /// The same, reading from the last block to the first: for sweeps that go backward.
-  void multiply_block_row_backward(double *sum, const double *blocks, const unsigned int *columns,
-                                   std::size_t n, const double *x, const double *wanted);
+  void multiply_block_ranges_backward(double *sums, const double *blocks, const unsigned int *columns,
+                                      const BlockRange *ranges, const BlockRange *wanted,
+                                      unsigned int n_ranges, const double *x);
 
-  /// values_{columns[k]} -= A_kᵀ change for n blocks: what a change of the row's node does to its neighbours,
-  /// if the matrix is symmetric.
-  void subtract_transposed_block_row(double *values, const double *blocks, const unsigned int *columns,
-                                     std::size_t n, const double *change);
+  /// values_{columns[k]} -= A_kᵀ change for the blocks of a range: what a change of the row's node does to its
+  /// neighbours, if the matrix is symmetric.
+  void subtract_transposed_blocks(double *values, const double *blocks, const unsigned int *columns,
+                                  const BlockRange range, const double *change);
 
   /// How many calls ahead `wanted` should be.
   constexpr unsigned int rows_ahead = 6;
+  /// The same where half rows are read and written to.
+  constexpr unsigned int half_rows_ahead = 2;
 
   /// y[c] += weight * x[c], c < 9.
   inline __attribute__((always_inline)) void add_scaled_block(double *const y, const double weight,
                                                               const double *const x)
   {
-    typedef double Vector4 __attribute__((vector_size(4 * sizeof(double))));
-    Vector4        x_first, x_second, y_first, y_second;
+    Vector4 x_first, x_second, y_first, y_second;
     std::memcpy(&x_first, x, sizeof(Vector4));
     std::memcpy(&x_second, x + 4, sizeof(Vector4));
     std::memcpy(&y_first, y, sizeof(Vector4));

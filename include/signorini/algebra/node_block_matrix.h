@@ -4,8 +4,10 @@
 #ifndef signorini_algebra_node_block_matrix_h
 #define signorini_algebra_node_block_matrix_h
 
+#include <signorini/algebra/block_row.h>
 #include <signorini/algebra/node_partition.h>
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -23,9 +25,11 @@ namespace Signorini
 
   /// Sparse matrix of 3x3 blocks, one row and column per node, distributed by rows.
   ///
-  /// Each row stores its diagonal block first, then the others by ascending local column. A rank may
-  /// also hold rows of other ranks ("foreign" rows): they collect contributions until compress()
-  /// adds them to the owner's row. Products use the owned rows only.
+  /// A row consists of its diagonal block, those below (smaller local column) and those above it, by ascending
+  /// local column. In memory all diagonal blocks come first, then the lower parts of all rows, then the upper
+  /// parts: a sweep that needs one part reads half the memory. A rank may also hold rows of other ranks
+  /// ("foreign" rows): they collect contributions until compress() adds them to the owner's row. Products use
+  /// the owned rows only.
   class NodeBlockMatrix
   {
   public:
@@ -50,19 +54,50 @@ namespace Signorini
       return nodes->n_owned();
     }
 
+    /// Blocks of all stored rows.
     std::size_t n_blocks() const
     {
       return columns.size();
     }
 
-    std::size_t row_begin(const unsigned int row) const
+    std::size_t n_owned_blocks() const
     {
-      return row_start[row];
+      return upper_start[n_rows()];
     }
 
-    std::size_t row_end(const unsigned int row) const
+    /// Position of the diagonal block of an owned row.
+    std::size_t diagonal(const unsigned int row) const
     {
-      return row_start[row + 1];
+      return row;
+    }
+
+    /// Positions of the blocks of an owned row below (above) the diagonal.
+    BlockRange lower(const unsigned int row) const
+    {
+      return {lower_start[row], lower_start[row + 1]};
+    }
+
+    BlockRange upper(const unsigned int row) const
+    {
+      return {upper_start[row], upper_start[row + 1]};
+    }
+
+    /// Positions of all blocks of a stored row: diagonal, lower, upper; the columns of a foreign row are all in
+    /// the last one.
+    std::array<BlockRange, 3> ranges(const unsigned int row) const
+    {
+      if (row < n_rows())
+        return {{{row, row + std::size_t(1)}, lower(row), upper(row)}};
+      return {{{0, 0}, {0, 0}, upper(row)}};
+    }
+
+    /// Number of blocks of a stored row.
+    std::size_t row_length(const unsigned int row) const
+    {
+      std::size_t n = 0;
+      for (const BlockRange &range : ranges(row))
+        n += range.size();
+      return n;
     }
 
     unsigned int column(const std::size_t k) const
@@ -75,6 +110,12 @@ namespace Signorini
       return columns.data();
     }
 
+    /// The blocks of all positions.
+    const double *block_data() const
+    {
+      return values.data();
+    }
+
     /// Nine numbers, row by row.
     double *block(const std::size_t k)
     {
@@ -84,6 +125,23 @@ namespace Signorini
     const double *block(const std::size_t k) const
     {
       return values.data() + 9 * k;
+    }
+
+    /// The owned rows that have a column with the given property, ascending.
+    template <typename Property>
+    std::vector<unsigned int> rows_with_column(const Property &property) const
+    {
+      std::vector<unsigned int> rows;
+      for (unsigned int row = 0; row < n_rows(); ++row)
+        {
+          bool found = false;
+          for (const BlockRange &range : ranges(row))
+            for (std::size_t k = range.begin; k < range.end && !found; ++k)
+              found = property(columns[k]);
+          if (found)
+            rows.push_back(row);
+        }
+      return rows;
     }
 
     /// The row index (owned or foreign) in which this rank collects contributions to a local node,
@@ -102,11 +160,14 @@ namespace Signorini
     /// Rows given by row_of() that exist on this rank.
     unsigned int n_stored_rows() const
     {
-      return static_cast<unsigned int>(row_start.size()) - 1;
+      return static_cast<unsigned int>(upper_start.size()) - 1;
     }
 
     /// Collective. Adds the foreign rows to the rows of their owners and clears them.
     void compress();
+
+    /// product[c] = (A src)_{row, c} for an owned row. The ghost values of src must be up to date.
+    void multiply_row(double *product, const unsigned int row, const Vector &src) const;
 
     /// dst = A src. Updates the ghost values of src.
     void vmult(Vector &dst, const Vector &src) const;
@@ -115,7 +176,8 @@ namespace Signorini
 
   private:
     std::shared_ptr<const NodePartition> nodes;
-    std::vector<std::size_t>             row_start;
+    /// Owned rows; upper_start goes on with the foreign rows.
+    std::vector<std::size_t>             lower_start, upper_start;
     std::vector<unsigned int>            columns;
     std::vector<double>                  values;
 

@@ -43,6 +43,12 @@ namespace Signorini
       return is_contact;
     }
 
+    /// The owned ones.
+    const std::vector<unsigned int> &owned_rows() const
+    {
+      return rows;
+    }
+
     /// Rows of the matrix have changed.
     void update(const std::vector<unsigned int> &rows);
 

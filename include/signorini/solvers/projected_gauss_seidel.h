@@ -74,15 +74,17 @@ namespace Signorini
     void smooth(Vector &v, const Vector &rhs, const SmoothingParameters &parameters,
                 const Direction direction);
 
-    /// smooth() forward from v = 0, and residual = rhs - A v. The first sweep reads only the blocks of nodes
-    /// visited before; the last one passes the changes of a node on to the residuals of those visited before
-    /// while it has the row at hand (the matrix is symmetric). The residual costs no further pass over it.
+    /// smooth() forward from v = 0, and residual = rhs - A v, reading half of each row in a sweep: the products
+    /// with nodes visited before are computed, those with the others are kept up to date by passing the change
+    /// of a node on to them while its row is at hand (the matrix is symmetric). After the last sweep what is
+    /// passed on is the residual, and interface sweeps read their rows once, to keep it one.
     void smooth_from_zero(Vector &v, const Vector &rhs, const SmoothingParameters &parameters,
                           Vector &residual);
 
-    /// smooth() backward, and residual = rhs - A v, in the same way.
+    /// smooth() backward, and residual = rhs - A v (unless it is null), in the same way; the first sweep reads
+    /// whole rows.
     void smooth_to_residual(Vector &v, const Vector &rhs, const SmoothingParameters &parameters,
-                            Vector &residual);
+                            Vector *const residual);
 
     /// For each half-space whether the last visit projected onto its plane.
     const std::vector<unsigned char> &active() const
@@ -109,63 +111,72 @@ namespace Signorini
     double sweep_bytes() const;
 
   private:
-    /// What a sweep may leave out and has to leave behind.
-    struct SweepOptions
-    {
-      /// v is zero at nodes that were not visited.
-      bool from_zero = false;
-      /// Where to collect rhs - A v at nodes that no other rank sees, up to projections; may be null.
-      double *residual = nullptr;
-    };
+    /// v_row <- its minimizer, A_row,row v_row = s without the half-space.
+    void minimize_row(double *v_row, const double *s, const unsigned int row);
 
     template <Direction direction>
-    void relax(double *v, const double *rhs, const unsigned int row, const unsigned int later_row,
-               const SweepOptions &options);
+    void relax(double *v, const double *rhs, const unsigned int row, const unsigned int later_row);
+
+    /// The same with half a row (see smooth_from_zero()). Reads all of it in the first sweep, which sets up
+    /// reduced_rhs, and at rows that are not ordered.
+    /// @param residual null, or where to leave rhs - A v at ordered rows
+    template <Direction direction>
+    void relax_by_halves(double *v, const double *rhs, const unsigned int row, const unsigned int later_row,
+                         const bool is_first, double *residual);
+
+    /// The same from a residual that is valid at ordered rows, and stays so.
+    void relax_with_residual(double *v, const double *rhs, const unsigned int row, double *residual);
+
+    /// residual -= A change of a row.
+    void pass_on(double *residual, const unsigned int row, const double *change) const;
+
+    /// Collective. Runs an action that changes v at given rows, then pass_on_change(row, change) for each.
+    template <typename Action, typename PassOn>
+    void follow_changes(const std::vector<unsigned int> &rows, const Vector &v, const Action &action,
+                        const PassOn &pass_on_change) const;
 
     void project_row(double *v_row, const int half_space);
 
-    void run(Vector &v, const Vector &rhs, const SweepSchedule &schedule, const Direction direction,
-             const SweepOptions &options);
+    /// Collective. Calls visit_row(row, row that follows `ahead` later) in the order of a schedule.
+    template <typename Visit>
+    void visit(Vector &v, const SweepSchedule &schedule, const Direction direction, const unsigned int ahead,
+               const Visit &visit_row);
 
-    /// Splits the rows at the diagonal.
-    void split_rows();
+    void run(Vector &v, const Vector &rhs, const SweepSchedule &schedule, const Direction direction);
 
-    /// The blocks of a row that a sweep multiplies, from and to.
-    std::pair<std::size_t, std::size_t> range(const unsigned int row, const SweepOptions &options) const;
+    template <Direction direction>
+    void run_by_halves(Vector &v, const Vector &rhs, const bool is_first, Vector *const residual);
+
+    void find_ordered_rows();
 
     /// Interface sweeps, each with the interface correction after it (before it, backward).
     void smooth_interface(Vector &v, const Vector &rhs, const SmoothingParameters &parameters,
                           const Direction direction);
 
-    /// A sweep over all rows and one over the blocks, nearer to the coarse correction.
-    void sweep_with_blocks(Vector &v, const Vector &rhs, const Direction direction,
-                           const SweepOptions &options);
+    void correct_interface(Vector &v, const Vector &rhs);
 
-    /// Residuals that the last sweep cannot collect: at nodes that other ranks see, at contact nodes (where
-    /// it may project), and at the given nodes (may be null), where something else has changed v since.
-    void complete_residual(Vector &residual, const Vector &v, const Vector &rhs,
-                           const std::vector<bool> *const changed,
-                           const std::vector<bool> *const also_changed);
+    void sweep_blocks(Vector &v, const Vector &rhs, const Direction direction);
+
+    /// The residual at rows that are not ordered.
+    void complete_residual(Vector &residual, const Vector &v, const Vector &rhs);
 
     /// Collective. By how much a forward and a backward sweep over some rows reduce the energy norm of an
     /// error there, everything else at rest, after some sweeps.
     double sweep_rate(const SweepSchedule &schedule);
 
-    /// The rows that see one of the given ones (themselves included).
-    std::vector<bool> rows_that_see(const std::vector<unsigned int> &rows) const;
-
     const NodeBlockMatrix &matrix;
     SweepSchedule          all_rows;
     StrongBlocks           blocks;
+    /// Rows in blocks.
+    std::vector<unsigned int> block_rows;
     SweepSchedule          interface_rows;
     /// Null where sweeps by node are fast enough.
     std::unique_ptr<InterfaceCorrection> interface_correction;
-    /// Position of the first block above the diagonal.
-    std::vector<std::size_t> first_above;
-    /// Rows of nodes that no other rank sees; those whose columns after first_above are visited after them.
-    std::vector<bool> is_inner, is_ordered;
-    /// Rows that see rows of interface sweeps, of blocks.
-    std::vector<bool>          sees_interface, sees_blocks;
+    /// Rows of which a forward sweep visits the lower part before and the upper part after them, seen by no
+    /// other rank.
+    std::vector<bool> is_ordered;
+    /// Of local nodes: the right hand side less the products with neighbours that a sweep visits later.
+    std::vector<double>        reduced_rhs;
     std::vector<double>        inverse_diagonal;
     HalfSpaces                 constraints;
     std::vector<int>           half_space_of_row;

@@ -28,11 +28,8 @@ namespace Signorini
     StrongBlocks(const NodeBlockMatrix &matrix, const SweepSchedule &all_rows);
     ~StrongBlocks();
 
-    /// Whether an owned row belongs to a block.
-    bool contains(const unsigned int row) const
-    {
-      return block_of_row[row] >= 0;
-    }
+    /// The owned rows that belong to a block.
+    std::vector<unsigned int> rows() const;
 
     /// Collective. Drops the blocks that have none but the given rows: something else solves those at once.
     void drop_within(const std::vector<bool> &rows);

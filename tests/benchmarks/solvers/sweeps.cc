@@ -60,10 +60,10 @@ main(int argc, char **argv)
           smoother.smooth_from_zero(v, rhs, {1, 1, 0}, residual);
         }));
   print("V(1,1) up: sweep, residual", median_time([&] {
-          smoother.smooth_to_residual(v, rhs, {1, 1, 0}, residual);
+          smoother.smooth_to_residual(v, rhs, {1, 1, 0}, &residual);
         }));
   print("V(3,3) down", median_time([&] { smoother.smooth_from_zero(v, rhs, {3, 3, 0}, residual); }));
-  print("V(3,3) up", median_time([&] { smoother.smooth_to_residual(v, rhs, {3, 3, 0}, residual); }));
+  print("V(3,3) up", median_time([&] { smoother.smooth_to_residual(v, rhs, {3, 3, 0}, &residual); }));
   print("vector: a += b", median_time([&] { v += rhs; }));
   MultigridLevel &coarse = hierarchy.level(hierarchy.n_levels() - 2);
   Vector          small;

@@ -83,7 +83,14 @@ TEST(NodeBlockMatrix, AddsTheContributionsOfAllRanks)
   const auto c = RandomMatrix::make(23, 1);
   EXPECT_LT(RandomMatrix::difference(c.matrix, c.dense), 1e-13);
   for (unsigned int row = 0; row < c.matrix.n_rows(); ++row)
-    EXPECT_EQ(c.matrix.column(c.matrix.row_begin(row)), row) << "the diagonal block comes first";
+    {
+      EXPECT_EQ(c.matrix.column(c.matrix.diagonal(row)), row);
+      const BlockRange lower = c.matrix.lower(row), upper = c.matrix.upper(row);
+      for (std::size_t k = lower.begin; k < lower.end; ++k)
+        EXPECT_LT(c.matrix.column(k), k + 1 < lower.end ? c.matrix.column(k + 1) : row);
+      for (std::size_t k = upper.begin; k < upper.end; ++k)
+        EXPECT_GT(c.matrix.column(k), k > upper.begin ? c.matrix.column(k - 1) : row);
+    }
 }
 
 TEST(NodeBlockMatrix, MultipliesLikeTheDenseMatrix)
@@ -152,14 +159,8 @@ TEST(NodalTransfer, MarkedRowsAreAllThatDependOnTruncatedRows)
   compute_galerkin(coarse, c.matrix, p.transfer);
   const Eigen::MatrixXd untruncated = p.dense;
   const auto            update      = [&](const std::set<NodeIndex> &changed) {
-    std::vector<unsigned int> rows;
-    for (unsigned int i = 0; i < c.matrix.n_rows(); ++i)
-      for (std::size_t k = c.matrix.row_begin(i); k < c.matrix.row_end(i); ++k)
-        if (changed.count(nodes.to_global(c.matrix.column(k))) > 0)
-          {
-            rows.push_back(i);
-            break;
-          }
+    const std::vector<unsigned int> rows = c.matrix.rows_with_column(
+        [&](const unsigned int column) { return changed.count(nodes.to_global(column)) > 0; });
     compute_galerkin(coarse, c.matrix, p.transfer, mark_coarse_nodes(p.transfer, rows));
     const Eigen::MatrixXd expected = p.dense.transpose() * c.dense * p.dense;
     EXPECT_LT(RandomMatrix::difference(coarse, expected), 1e-12);

@@ -117,7 +117,8 @@ namespace RandomMatrix
     for (unsigned int row = 0; row < matrix.n_rows(); ++row)
       {
         Eigen::MatrixXd rest = dense.middleRows(3 * nodes.to_global(row), 3);
-        for (std::size_t k = matrix.row_begin(row); k < matrix.row_end(row); ++k)
+        for (const BlockRange &range : matrix.ranges(row))
+        for (std::size_t k = range.begin; k < range.end; ++k)
           for (unsigned int c = 0; c < 9; ++c)
             rest(c / 3, 3 * nodes.to_global(matrix.column(k)) + c % 3) -= matrix.block(k)[c];
         worst = std::max(worst, rest.cwiseAbs().maxCoeff());

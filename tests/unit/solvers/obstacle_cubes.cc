@@ -204,7 +204,7 @@ TEST(ProjectedGaussSeidel, SmoothingHandsOutItsResidual)
           plain = 0.;
           other.smooth(plain, rhs, p, ProjectedGaussSeidel::forward);
           expect(p);
-          smoother.smooth_to_residual(v, rhs, p, residual);
+          smoother.smooth_to_residual(v, rhs, p, &residual);
           other.smooth(plain, rhs, p, ProjectedGaussSeidel::backward);
           expect(p);
         }
@@ -220,7 +220,7 @@ TEST(MultigridHierarchy, TruncationIsUndone)
   MultigridHierarchy      hierarchy   = CubeProblem::hierarchy(8);
   const auto              half_spaces = CubeProblem::paraboloid(grid);
   const auto              copy        = [](const NodeBlockMatrix &matrix) {
-    return std::vector<double>(matrix.block(0), matrix.block(matrix.row_end(matrix.n_rows() - 1)));
+    return std::vector<double>(matrix.block(0), matrix.block(matrix.n_owned_blocks()));
   };
   const std::vector<double>  before = copy(hierarchy.level(0).matrix);
   std::vector<unsigned char> active(half_spaces.size(), 1);

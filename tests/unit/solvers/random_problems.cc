@@ -30,7 +30,8 @@ namespace
     const auto m = static_cast<Eigen::Index>(problem.half_spaces.size());
     Dense d{Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd::Zero(m, n), Eigen::VectorXd(n), Eigen::VectorXd(m)};
     for (unsigned int i = 0; i < matrix.n_rows(); ++i)
-      for (std::size_t k = matrix.row_begin(i); k < matrix.row_end(i); ++k)
+      for (const BlockRange &range : matrix.ranges(i))
+        for (std::size_t k = range.begin; k < range.end; ++k)
         for (unsigned int c = 0; c < 9; ++c)
           d.matrix(dim * i + c / 3, dim * matrix.column(k) + c % 3) = matrix.block(k)[c];
     for (unsigned int i = 0; i < n; ++i)
