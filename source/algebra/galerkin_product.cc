@@ -226,12 +226,13 @@ namespace Signorini
               }
       }
 
-      /// Adds weight * this row, or pᵀ times this row, to a row of the coarse matrix.
+      /// Adds weight * this row, or pᵀ times this row, to a row of the coarse matrix: its upper half if it is
+      /// an owned one.
       void add_to(NodeBlockMatrix &coarse, const unsigned int coarse_row, const double weight,
                   const Block *p) const
       {
         const bool is_sparse = coarse.row_length(coarse_row) > 4 * row.columns.size();
-        for (const BlockRange &range : coarse.ranges(coarse_row))
+        for (const BlockRange &range : coarse.upper_half(coarse_row))
           if (p == nullptr)
             GalerkinKernels::add_row(coarse.block(range.begin), coarse.column_data() + range.begin,
                                      range.size(), weight, row.blocks.data(), row.place.data(), is_sparse);
@@ -311,6 +312,7 @@ namespace Signorini
                            b == nullptr ? nullptr : b + (k - transfer.row_begin(i)));
       }
     coarse_matrix.compress();
+    coarse_matrix.mirror_upper_part(marked);
   }
 
 

@@ -193,6 +193,25 @@ namespace Signorini
 
 
 
+  void NodeBlockMatrix::mirror_upper_part(const std::vector<unsigned char> &is_wanted)
+  {
+    // Rows come in ascending order, as the columns of a lower part do.
+    std::vector<std::size_t> next(lower_start.begin(), lower_start.end() - 1);
+    for (unsigned int i = 0; i < n_rows(); ++i)
+      for (std::size_t k = upper_start[i]; k < upper_start[i + 1]; ++k)
+        if (const unsigned int j = columns[k]; j < n_rows())
+          {
+            const std::size_t place = next[j]++;
+            AssertDimension(columns[place], i);
+            if (is_wanted.empty() || is_wanted[j])
+              for (unsigned int c = 0; c < dim; ++c)
+                for (unsigned int d = 0; d < dim; ++d)
+                  values[9 * place + dim * d + c] = values[9 * k + dim * c + d];
+          }
+  }
+
+
+
   void NodeBlockMatrix::multiply_row(double *const product, const unsigned int row, const Vector &src) const
   {
     const auto here = ranges(row), later = ranges(std::min(row + rows_ahead, n_rows() - 1));

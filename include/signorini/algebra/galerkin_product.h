@@ -9,7 +9,7 @@
 
 namespace Signorini
 {
-  /// The Galerkin product P^T A P, block by block.
+  /// The Galerkin product P^T A P of a symmetric matrix, block by block; half of it is computed.
   ///
   /// Collective. Builds the structure of the coarse matrix (independent of the values in A and P)
   /// and localizes P on its partition.

@@ -91,6 +91,13 @@ namespace Signorini
       return {{{0, 0}, {0, 0}, upper(row)}};
     }
 
+    /// Positions of the blocks of an owned row on and above the diagonal, of all blocks of a foreign row.
+    std::array<BlockRange, 2> upper_half(const unsigned int row) const
+    {
+      const auto all = ranges(row);
+      return {{all[0], all[2]}};
+    }
+
     /// Number of blocks of a stored row.
     std::size_t row_length(const unsigned int row) const
     {
@@ -165,6 +172,10 @@ namespace Signorini
 
     /// Collective. Adds the foreign rows to the rows of their owners and clears them.
     void compress();
+
+    /// Overwrites the lower part of owned rows with the transposed upper part of other rows: for those who compute
+    /// only half of a symmetric matrix. is_wanted[row] says which rows are overwritten; empty means all.
+    void mirror_upper_part(const std::vector<unsigned char> &is_wanted);
 
     /// product[c] = (A src)_{row, c} for an owned row. The ghost values of src must be up to date.
     void multiply_row(double *product, const unsigned int row, const Vector &src) const;
