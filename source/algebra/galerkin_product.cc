@@ -140,8 +140,8 @@ namespace Signorini
       return block;
     }
 
-    /// blocks += Σ_k A_k P_k: the blocks of a range of a row of A times scalar rows of P. Returns the number of
-    /// columns, n_columns of which were there before.
+    /// blocks += Σ_k A_k P_k: the blocks of a range of a row of A times scalar rows of P. Returns the number
+    /// of columns, n_columns of which were there before.
     SIGNORINI_VECTORIZED
     unsigned int multiply_scalar_rows(double *const blocks, int *const place, unsigned int *const columns,
                                       unsigned int n_columns, const double *const a,

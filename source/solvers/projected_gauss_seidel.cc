@@ -161,30 +161,6 @@ namespace Signorini
 
 
 
-  inline void ProjectedGaussSeidel::project_row(double *const v, const int p)
-  {
-    const Vector3 &n      = constraints.normals[p];
-    const double   excess = n[0] * v[0] + n[1] * v[1] + n[2] * v[2] - constraints.bounds[p];
-    is_active[p]          = excess >= 0.;
-    if (excess > 0.)
-      for (unsigned int c = 0; c < dim; ++c)
-        v[c] -= excess * projection_direction[p][c];
-  }
-
-
-
-  inline void ProjectedGaussSeidel::minimize_row(double *const y, const double *const s, const unsigned int row)
-  {
-    const double *const d = inverse_diagonal.data() + 9 * static_cast<std::size_t>(row);
-    y[0]                  = d[0] * s[0] + d[1] * s[1] + d[2] * s[2];
-    y[1]                  = d[3] * s[0] + d[4] * s[1] + d[5] * s[2];
-    y[2]                  = d[6] * s[0] + d[7] * s[1] + d[8] * s[2];
-    if (half_space_of_row[row] >= 0)
-      project_row(y, half_space_of_row[row]);
-  }
-
-
-
   template <ProjectedGaussSeidel::Direction direction>
   inline void ProjectedGaussSeidel::relax(double *const v, const double *const rhs, const unsigned int row,
                                           const unsigned int later_row)
@@ -202,117 +178,12 @@ namespace Signorini
 
 
 
-  template <ProjectedGaussSeidel::Direction direction>
-  inline void ProjectedGaussSeidel::relax_by_halves(double *const v, const double *const rhs,
-                                                    const unsigned int row, const unsigned int later_row,
-                                                    const bool is_first, double *const residual)
-  {
-    const auto visited = [&](const unsigned int i) {
-      return direction == forward ? matrix.lower(i) : matrix.upper(i);
-    };
-    const auto unvisited = [&](const unsigned int i) {
-      return direction == forward ? matrix.upper(i) : matrix.lower(i);
-    };
-    const bool       reads_all = is_first || !is_ordered[row];
-    const BlockRange here[2]   = {visited(row), unvisited(row)};
-    const BlockRange later[2]  = {visited(later_row), unvisited(later_row)};
-    double           sums[6];
-    (direction == forward ? multiply_block_ranges : multiply_block_ranges_backward)(
-        sums, matrix.block_data(), matrix.column_data(), here, later, reads_all ? 2 : 1, v);
-    const std::size_t i       = dim * static_cast<std::size_t>(row);
-    double *const     reduced = reduced_rhs.data() + i;
-    if (reads_all)
-      for (unsigned int c = 0; c < dim; ++c)
-        reduced[c] = rhs[i + c] - sums[dim + c];
-    const double  s[3]   = {reduced[0] - sums[0], reduced[1] - sums[1], reduced[2] - sums[2]};
-    double *const y      = v + i;
-    const double  old[3] = {y[0], y[1], y[2]};
-    minimize_row(y, s, row);
-    if (residual != nullptr)
-      {
-        const bool          is_contact = half_space_of_row[row] >= 0;
-        const double *const a          = matrix.block(matrix.diagonal(row));
-        for (unsigned int c = 0; c < dim; ++c)
-          residual[i + c] =
-              is_contact ? s[c] - a[dim * c] * y[0] - a[dim * c + 1] * y[1] - a[dim * c + 2] * y[2] : 0.;
-      }
-    const double change[3] = {y[0] - old[0], y[1] - old[1], y[2] - old[2]};
-    subtract_transposed_blocks(residual != nullptr ? residual : reduced_rhs.data(), matrix.block_data(),
-                               matrix.column_data(), visited(row), change);
-  }
-
-
-
-  inline void ProjectedGaussSeidel::relax_with_residual(double *const v, const double *const rhs,
-                                                        const unsigned int row, double *const residual)
-  {
-    double *const y      = v + dim * static_cast<std::size_t>(row);
-    const double  old[3] = {y[0], y[1], y[2]};
-    if (is_ordered[row])
-      {
-        const double *const a = matrix.block(matrix.diagonal(row));
-        const double *const r = residual + dim * static_cast<std::size_t>(row);
-        double              s[3];
-        for (unsigned int c = 0; c < dim; ++c)
-          s[c] = r[c] + a[dim * c] * y[0] + a[dim * c + 1] * y[1] + a[dim * c + 2] * y[2];
-        minimize_row(y, s, row);
-      }
-    else
-      relax<forward>(v, rhs, row, row);
-    const double change[3] = {y[0] - old[0], y[1] - old[1], y[2] - old[2]};
-    pass_on(residual, row, change);
-  }
-
-
-
-  inline void ProjectedGaussSeidel::pass_on(double *const residual, const unsigned int row,
-                                            const double *const change) const
-  {
-    for (const BlockRange &range : matrix.ranges(row))
-      subtract_transposed_blocks(residual, matrix.block_data(), matrix.column_data(), range, change);
-  }
-
-
-
-  template <typename Visit>
-  void ProjectedGaussSeidel::visit(Vector &v, const SweepSchedule &schedule, const Direction direction,
-                                   const unsigned int ahead, const Visit &visit_row)
-  {
-    const std::size_t n_phases = schedule.phases().size();
-    for (std::size_t i = 0; i < n_phases; ++i)
-      {
-        v.update_ghost_values();
-        const auto       &rows = schedule.phases()[direction == forward ? i : n_phases - 1 - i];
-        const std::size_t n    = rows.size();
-        if (direction == forward)
-          for (std::size_t k = 0; k < n; ++k)
-            visit_row(rows[k], rows[std::min(k + ahead, n - 1)]);
-        else
-          for (std::size_t k = n; k-- > 0;)
-            visit_row(rows[k], rows[std::max<std::size_t>(k, ahead) - ahead]);
-      }
-  }
-
-
-
   void ProjectedGaussSeidel::run(Vector &v, const Vector &rhs, const SweepSchedule &schedule,
                                  const Direction direction)
   {
     visit(v, schedule, direction, rows_ahead, [&](const unsigned int row, const unsigned int later_row) {
-      direction == forward ? relax<forward>(v.begin(), rhs.begin(), row, later_row) :
-                             relax<backward>(v.begin(), rhs.begin(), row, later_row);
-    });
-  }
-
-
-
-  template <ProjectedGaussSeidel::Direction direction>
-  void ProjectedGaussSeidel::run_by_halves(Vector &v, const Vector &rhs, const bool is_first,
-                                           Vector *const residual)
-  {
-    double *const r = residual != nullptr ? residual->begin() : nullptr;
-    visit(v, all_rows, direction, half_rows_ahead, [&](const unsigned int row, const unsigned int later_row) {
-      relax_by_halves<direction>(v.begin(), rhs.begin(), row, later_row, is_first, r);
+      direction == forward ? relax<forward>(v.begin(), rhs.begin(), row, later_row)
+                           : relax<backward>(v.begin(), rhs.begin(), row, later_row);
     });
   }
 
@@ -378,110 +249,6 @@ namespace Signorini
           sweep_blocks(v, rhs, backward);
           sweep(v, rhs, backward);
         }
-  }
-
-
-
-  template <typename Action, typename PassOn>
-  void ProjectedGaussSeidel::follow_changes(const std::vector<unsigned int> &rows, const Vector &v,
-                                            const Action &action, const PassOn &pass_on_change) const
-  {
-    std::vector<double> old(dim * rows.size());
-    for (std::size_t r = 0; r < rows.size(); ++r)
-      for (unsigned int c = 0; c < dim; ++c)
-        old[dim * r + c] = v.local_element(dim * rows[r] + c);
-    action();
-    for (std::size_t r = 0; r < rows.size(); ++r)
-      {
-        double change[dim];
-        for (unsigned int c = 0; c < dim; ++c)
-          change[c] = v.local_element(dim * rows[r] + c) - old[dim * r + c];
-        pass_on_change(rows[r], change);
-      }
-  }
-
-
-
-  void ProjectedGaussSeidel::complete_residual(Vector &residual, const Vector &v, const Vector &rhs)
-  {
-    // What the sweeps left at ghosts.
-    residual.zero_out_ghost_values();
-    v.update_ghost_values();
-    for (unsigned int row = 0; row < matrix.n_rows(); ++row)
-      if (!is_ordered[row])
-        {
-          double *const r = residual.begin() + dim * static_cast<std::size_t>(row);
-          matrix.multiply_row(r, row, v);
-          for (unsigned int c = 0; c < dim; ++c)
-            r[c] = rhs.local_element(dim * row + c) - r[c];
-        }
-  }
-
-
-
-  void ProjectedGaussSeidel::smooth_from_zero(Vector &v, const Vector &rhs,
-                                              const SmoothingParameters &parameters, Vector &residual)
-  {
-    v = 0.;
-    residual.copy_locally_owned_data_from(rhs);
-    std::copy_n(rhs.begin(), dim * static_cast<std::size_t>(matrix.n_rows()), reduced_rhs.begin());
-    for (unsigned int i = 0; i < parameters.n_pre; ++i)
-      {
-        const bool is_last = i + 1 == parameters.n_pre;
-        run_by_halves<forward>(v, rhs, false, is_last ? &residual : nullptr);
-        follow_changes(
-            block_rows, v, [&] { sweep_blocks(v, rhs, forward); },
-            [&](const unsigned int row, const double *const change) {
-              if (is_last)
-                pass_on(residual.begin(), row, change);
-              else
-                subtract_transposed_blocks(reduced_rhs.data(), matrix.block_data(), matrix.column_data(),
-                                           matrix.lower(row), change);
-            });
-      }
-    for (unsigned int i = 0; i < parameters.n_interface_sweeps; ++i)
-      {
-        visit(v, interface_rows, forward, 0, [&](const unsigned int row, const unsigned int) {
-          relax_with_residual(v.begin(), rhs.begin(), row, residual.begin());
-        });
-        if (interface_correction)
-          follow_changes(
-              interface_correction->owned_rows(), v, [&] { correct_interface(v, rhs); },
-              [&](const unsigned int row, const double *const change) {
-                pass_on(residual.begin(), row, change);
-              });
-      }
-    complete_residual(residual, v, rhs);
-  }
-
-
-
-  void ProjectedGaussSeidel::smooth_to_residual(Vector &v, const Vector &rhs,
-                                                const SmoothingParameters &parameters,
-                                                Vector *const              residual)
-  {
-    smooth_interface(v, rhs, parameters, backward);
-    for (unsigned int i = 0; i < parameters.n_post; ++i)
-      {
-        follow_changes(
-            block_rows, v, [&] { sweep_blocks(v, rhs, backward); },
-            [&](const unsigned int row, const double *const change) {
-              // The first sweep reads all anyway.
-              if (i > 0)
-                subtract_transposed_blocks(reduced_rhs.data(), matrix.block_data(), matrix.column_data(),
-                                           matrix.upper(row), change);
-            });
-        run_by_halves<backward>(v, rhs, i == 0, i + 1 == parameters.n_post ? residual : nullptr);
-      }
-    if (residual == nullptr)
-      return;
-    if (parameters.n_post > 0)
-      complete_residual(*residual, v, rhs);
-    else
-      {
-        matrix.vmult(*residual, v);
-        residual->sadd(-1., 1., rhs);
-      }
   }
 
 

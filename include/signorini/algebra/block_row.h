@@ -45,15 +45,13 @@ namespace Signorini
                                       const BlockRange *ranges, const BlockRange *wanted,
                                       unsigned int n_ranges, const double *x);
 
-  /// values_{columns[k]} -= A_kᵀ change for the blocks of a range: what a change of the row's node does to its
-  /// neighbours, if the matrix is symmetric.
+  /// values_{columns[k]} -= A_kᵀ change for the blocks of a range: what a change of the row's node does to
+  /// its neighbours, if the matrix is symmetric.
   void subtract_transposed_blocks(double *values, const double *blocks, const unsigned int *columns,
                                   const BlockRange range, const double *change);
 
   /// How many calls ahead `wanted` should be.
-  constexpr unsigned int rows_ahead = 6;
-  /// The same where half rows are read and written to.
-  constexpr unsigned int half_rows_ahead = 2;
+  constexpr unsigned int rows_ahead = 2;
 
   /// y[c] += weight * x[c], c < 9.
   inline __attribute__((always_inline)) void add_scaled_block(double *const y, const double weight,

@@ -25,9 +25,10 @@ namespace Signorini
 
   /// Sparse matrix of 3x3 blocks, one row and column per node, distributed by rows.
   ///
-  /// A row consists of its diagonal block, those below (smaller local column) and those above it, by ascending
-  /// local column. In memory all diagonal blocks come first, then the lower parts of all rows, then the upper
-  /// parts: a sweep that needs one part reads half the memory. A rank may also hold rows of other ranks
+  /// A row consists of its diagonal block, those below (smaller local column) and those above it, by
+  /// ascending local column. In memory all diagonal blocks come first, then the lower parts of all rows, then
+  /// the upper parts: a sweep that needs one part reads half the memory. A rank may also hold rows of other
+  /// ranks
   /// ("foreign" rows): they collect contributions until compress() adds them to the owner's row. Products use
   /// the owned rows only.
   class NodeBlockMatrix
@@ -82,8 +83,8 @@ namespace Signorini
       return {upper_start[row], upper_start[row + 1]};
     }
 
-    /// Positions of all blocks of a stored row: diagonal, lower, upper; the columns of a foreign row are all in
-    /// the last one.
+    /// Positions of all blocks of a stored row: diagonal, lower, upper; the columns of a foreign row are all
+    /// in the last one.
     std::array<BlockRange, 3> ranges(const unsigned int row) const
     {
       if (row < n_rows())
@@ -173,8 +174,9 @@ namespace Signorini
     /// Collective. Adds the foreign rows to the rows of their owners and clears them.
     void compress();
 
-    /// Overwrites the lower part of owned rows with the transposed upper part of other rows: for those who compute
-    /// only half of a symmetric matrix. is_wanted[row] says which rows are overwritten; empty means all.
+    /// Overwrites the lower part of owned rows with the transposed upper part of other rows: for those who
+    /// compute only half of a symmetric matrix. is_wanted[row] says which rows are overwritten; empty means
+    /// all.
     void mirror_upper_part(const std::vector<unsigned char> &is_wanted);
 
     /// product[c] = (A src)_{row, c} for an owned row. The ghost values of src must be up to date.
@@ -188,9 +190,9 @@ namespace Signorini
   private:
     std::shared_ptr<const NodePartition> nodes;
     /// Owned rows; upper_start goes on with the foreign rows.
-    std::vector<std::size_t>             lower_start, upper_start;
-    std::vector<unsigned int>            columns;
-    std::vector<double>                  values;
+    std::vector<std::size_t>  lower_start, upper_start;
+    std::vector<unsigned int> columns;
+    std::vector<double>       values;
 
     std::vector<unsigned int> foreign_row_of_ghost;
     /// For each rank that gets contributions: the range of stored rows.

@@ -74,15 +74,15 @@ namespace Signorini
     void smooth(Vector &v, const Vector &rhs, const SmoothingParameters &parameters,
                 const Direction direction);
 
-    /// smooth() forward from v = 0, and residual = rhs - A v, reading half of each row in a sweep: the products
-    /// with nodes visited before are computed, those with the others are kept up to date by passing the change
-    /// of a node on to them while its row is at hand (the matrix is symmetric). After the last sweep what is
-    /// passed on is the residual, and interface sweeps read their rows once, to keep it one.
+    /// smooth() forward from v = 0, and residual = rhs - A v, reading half of each row in a sweep: the
+    /// products with nodes visited before are computed, those with the others are kept up to date by passing
+    /// the change of a node on to them while its row is at hand (the matrix is symmetric). After the last
+    /// sweep what is passed on is the residual, and interface sweeps read their rows once, to keep it one.
     void smooth_from_zero(Vector &v, const Vector &rhs, const SmoothingParameters &parameters,
                           Vector &residual);
 
-    /// smooth() backward, and residual = rhs - A v (unless it is null), in the same way; the first sweep reads
-    /// whole rows.
+    /// smooth() backward, and residual = rhs - A v (unless it is null), in the same way; the first sweep
+    /// reads whole rows.
     void smooth_to_residual(Vector &v, const Vector &rhs, const SmoothingParameters &parameters,
                             Vector *const residual);
 
@@ -125,7 +125,7 @@ namespace Signorini
                          const bool is_first, double *residual);
 
     /// The same from a residual that is valid at ordered rows, and stays so.
-    void relax_with_residual(double *v, const double *rhs, const unsigned int row, double *residual);
+    void relax_with_residual(Vector &v, const Vector &rhs, const unsigned int row, Vector &residual);
 
     /// residual -= A change of a row.
     void pass_on(double *residual, const unsigned int row, const double *change) const;
@@ -169,7 +169,7 @@ namespace Signorini
     StrongBlocks           blocks;
     /// Rows in blocks.
     std::vector<unsigned int> block_rows;
-    SweepSchedule          interface_rows;
+    SweepSchedule             interface_rows;
     /// Null where sweeps by node are fast enough.
     std::unique_ptr<InterfaceCorrection> interface_correction;
     /// Rows of which a forward sweep visits the lower part before and the upper part after them, seen by no
@@ -183,6 +183,52 @@ namespace Signorini
     std::vector<Vector3>       projection_direction;
     std::vector<unsigned char> is_active;
   };
+
+
+
+  inline void ProjectedGaussSeidel::project_row(double *const v, const int p)
+  {
+    const Vector3 &n      = constraints.normals[p];
+    const double   excess = n[0] * v[0] + n[1] * v[1] + n[2] * v[2] - constraints.bounds[p];
+    is_active[p]          = excess >= 0.;
+    if (excess > 0.)
+      for (unsigned int c = 0; c < dim; ++c)
+        v[c] -= excess * projection_direction[p][c];
+  }
+
+
+
+  inline void ProjectedGaussSeidel::minimize_row(double *const y, const double *const s,
+                                                 const unsigned int row)
+  {
+    const double *const d = inverse_diagonal.data() + 9 * static_cast<std::size_t>(row);
+    y[0]                  = d[0] * s[0] + d[1] * s[1] + d[2] * s[2];
+    y[1]                  = d[3] * s[0] + d[4] * s[1] + d[5] * s[2];
+    y[2]                  = d[6] * s[0] + d[7] * s[1] + d[8] * s[2];
+    if (half_space_of_row[row] >= 0)
+      project_row(y, half_space_of_row[row]);
+  }
+
+
+
+  template <typename Visit>
+  void ProjectedGaussSeidel::visit(Vector &v, const SweepSchedule &schedule, const Direction direction,
+                                   const unsigned int ahead, const Visit &visit_row)
+  {
+    const std::size_t n_phases = schedule.phases().size();
+    for (std::size_t i = 0; i < n_phases; ++i)
+      {
+        v.update_ghost_values();
+        const auto       &rows = schedule.phases()[direction == forward ? i : n_phases - 1 - i];
+        const std::size_t n    = rows.size();
+        if (direction == forward)
+          for (std::size_t k = 0; k < n; ++k)
+            visit_row(rows[k], rows[std::min(k + ahead, n - 1)]);
+        else
+          for (std::size_t k = n; k-- > 0;)
+            visit_row(rows[k], rows[std::max<std::size_t>(k, ahead) - ahead]);
+      }
+  }
 } // namespace Signorini
 
 #endif

@@ -118,9 +118,9 @@ namespace RandomMatrix
       {
         Eigen::MatrixXd rest = dense.middleRows(3 * nodes.to_global(row), 3);
         for (const BlockRange &range : matrix.ranges(row))
-        for (std::size_t k = range.begin; k < range.end; ++k)
-          for (unsigned int c = 0; c < 9; ++c)
-            rest(c / 3, 3 * nodes.to_global(matrix.column(k)) + c % 3) -= matrix.block(k)[c];
+          for (std::size_t k = range.begin; k < range.end; ++k)
+            for (unsigned int c = 0; c < 9; ++c)
+              rest(c / 3, 3 * nodes.to_global(matrix.column(k)) + c % 3) -= matrix.block(k)[c];
         worst = std::max(worst, rest.cwiseAbs().maxCoeff());
       }
     return dealii::Utilities::MPI::max(worst, MPI_COMM_WORLD);

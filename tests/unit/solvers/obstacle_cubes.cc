@@ -195,7 +195,8 @@ TEST(ProjectedGaussSeidel, SmoothingHandsOutItsResidual)
         EXPECT_LT(product.linfty_norm(), 1e-13);
         product = v;
         product -= plain;
-        EXPECT_LT(product.linfty_norm(), 1e-13 * plain.linfty_norm());
+        // Sums in another order, over up to ten sweeps.
+        EXPECT_LT(product.linfty_norm(), 1e-12 * plain.linfty_norm());
       };
       for (const SmoothingParameters &p :
            {SmoothingParameters{0, 0, 2}, {1, 1, 0}, {1, 1, 1}, {2, 2, 0}, {3, 3, 2}})

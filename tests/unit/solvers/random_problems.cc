@@ -32,8 +32,8 @@ namespace
     for (unsigned int i = 0; i < matrix.n_rows(); ++i)
       for (const BlockRange &range : matrix.ranges(i))
         for (std::size_t k = range.begin; k < range.end; ++k)
-        for (unsigned int c = 0; c < 9; ++c)
-          d.matrix(dim * i + c / 3, dim * matrix.column(k) + c % 3) = matrix.block(k)[c];
+          for (unsigned int c = 0; c < 9; ++c)
+            d.matrix(dim * i + c / 3, dim * matrix.column(k) + c % 3) = matrix.block(k)[c];
     for (unsigned int i = 0; i < n; ++i)
       d.rhs[i] = problem.rhs.local_element(i);
     for (Eigen::Index p = 0; p < m; ++p)
