@@ -214,10 +214,9 @@ namespace Signorini
 
   void NodeBlockMatrix::multiply_row(double *const product, const unsigned int row, const Vector &src) const
   {
-    const auto here = ranges(row), later = ranges(std::min(row + rows_ahead, n_rows() - 1));
+    const auto here = ranges(row);
     double     sums[9];
-    multiply_block_ranges(sums, values.data(), columns.data(), here.data(), later.data(), here.size(),
-                          src.begin());
+    multiply_block_ranges(sums, values.data(), columns.data(), here.data(), here.size(), src.begin());
     for (unsigned int c = 0; c < dim; ++c)
       product[c] = sums[c] + sums[3 + c] + sums[6 + c];
   }

@@ -162,15 +162,13 @@ namespace Signorini
 
 
   template <ProjectedGaussSeidel::Direction direction>
-  inline void ProjectedGaussSeidel::relax(double *const v, const double *const rhs, const unsigned int row,
-                                          const unsigned int later_row)
+  inline void ProjectedGaussSeidel::relax(double *const v, const double *const rhs, const unsigned int row)
   {
-    const BlockRange here[2]  = {matrix.lower(row), matrix.upper(row)};
-    const BlockRange later[2] = {matrix.lower(later_row), matrix.upper(later_row)};
+    const BlockRange here[2] = {matrix.lower(row), matrix.upper(row)};
     double           sums[6];
     // Memory is read in one direction throughout, also within a row.
     (direction == forward ? multiply_block_ranges : multiply_block_ranges_backward)(
-        sums, matrix.block_data(), matrix.column_data(), here, later, 2, v);
+        sums, matrix.block_data(), matrix.column_data(), here, 2, v);
     const double s[3] = {rhs[dim * row] - sums[0] - sums[3], rhs[dim * row + 1] - sums[1] - sums[4],
                          rhs[dim * row + 2] - sums[2] - sums[5]};
     minimize_row(v + dim * static_cast<std::size_t>(row), s, row);
@@ -181,9 +179,9 @@ namespace Signorini
   void ProjectedGaussSeidel::run(Vector &v, const Vector &rhs, const SweepSchedule &schedule,
                                  const Direction direction)
   {
-    visit(v, schedule, direction, rows_ahead, [&](const unsigned int row, const unsigned int later_row) {
-      direction == forward ? relax<forward>(v.begin(), rhs.begin(), row, later_row)
-                           : relax<backward>(v.begin(), rhs.begin(), row, later_row);
+    visit(v, schedule, direction, [&](const unsigned int row) {
+      direction == forward ? relax<forward>(v.begin(), rhs.begin(), row)
+                           : relax<backward>(v.begin(), rhs.begin(), row);
     });
   }
 

@@ -10,8 +10,8 @@ namespace Signorini
 {
   template <ProjectedGaussSeidel::Direction direction>
   inline void ProjectedGaussSeidel::relax_by_halves(double *const v, const double *const rhs,
-                                                    const unsigned int row, const unsigned int later_row,
-                                                    const bool is_first, double *const residual)
+                                                    const unsigned int row, const bool is_first,
+                                                    double *const residual)
   {
     const auto visited = [&](const unsigned int i) {
       return direction == forward ? matrix.lower(i) : matrix.upper(i);
@@ -21,10 +21,9 @@ namespace Signorini
     };
     const bool       reads_all = is_first || !is_ordered[row];
     const BlockRange here[2]   = {visited(row), unvisited(row)};
-    const BlockRange later[2]  = {visited(later_row), unvisited(later_row)};
     double           sums[6];
     (direction == forward ? multiply_block_ranges : multiply_block_ranges_backward)(
-        sums, matrix.block_data(), matrix.column_data(), here, later, reads_all ? 2 : 1, v);
+        sums, matrix.block_data(), matrix.column_data(), here, reads_all ? 2 : 1, v);
     const std::size_t i       = dim * static_cast<std::size_t>(row);
     double *const     reduced = reduced_rhs.data() + i;
     if (reads_all)
@@ -88,8 +87,8 @@ namespace Signorini
                                            Vector *const residual)
   {
     double *const r = residual != nullptr ? residual->begin() : nullptr;
-    visit(v, all_rows, direction, rows_ahead, [&](const unsigned int row, const unsigned int later_row) {
-      relax_by_halves<direction>(v.begin(), rhs.begin(), row, later_row, is_first, r);
+    visit(v, all_rows, direction, [&](const unsigned int row) {
+      relax_by_halves<direction>(v.begin(), rhs.begin(), row, is_first, r);
     });
   }
 
@@ -154,9 +153,8 @@ namespace Signorini
       }
     for (unsigned int i = 0; i < parameters.n_interface_sweeps; ++i)
       {
-        visit(v, interface_rows, forward, 0, [&](const unsigned int row, const unsigned int) {
-          relax_with_residual(v, rhs, row, residual);
-        });
+        visit(v, interface_rows, forward,
+              [&](const unsigned int row) { relax_with_residual(v, rhs, row, residual); });
         if (interface_correction)
           follow_changes(
               interface_correction->owned_rows(), v, [&] { correct_interface(v, rhs); },

@@ -31,27 +31,21 @@ namespace Signorini
   /// Four numbers at once.
   typedef double Vector4 __attribute__((vector_size(4 * sizeof(double))));
 
-  /// Kernels on consecutive 3x3 blocks (nine numbers each, row by row). `wanted` are the positions that a
-  /// later call reads: their memory is asked for on the way. Without that the hardware's own fetching loses a
-  /// quarter of the bandwidth, and more where rows are read in part.
+  /// Kernels on consecutive 3x3 blocks (nine numbers each, row by row). They ask for memory further on
+  /// in the direction of reading.
   ///
   /// sums[3 r + c] = Σ_k (A_k x_{columns[k]})_c over the blocks k of range r, reading forward.
   void multiply_block_ranges(double *sums, const double *blocks, const unsigned int *columns,
-                             const BlockRange *ranges, const BlockRange *wanted, unsigned int n_ranges,
-                             const double *x);
+                             const BlockRange *ranges, unsigned int n_ranges, const double *x);
 
   /// The same, reading from the last block to the first: for sweeps that go backward.
   void multiply_block_ranges_backward(double *sums, const double *blocks, const unsigned int *columns,
-                                      const BlockRange *ranges, const BlockRange *wanted,
-                                      unsigned int n_ranges, const double *x);
+                                      const BlockRange *ranges, unsigned int n_ranges, const double *x);
 
   /// values_{columns[k]} -= A_kᵀ change for the blocks of a range: what a change of the row's node does to
   /// its neighbours, if the matrix is symmetric.
   void subtract_transposed_blocks(double *values, const double *blocks, const unsigned int *columns,
                                   const BlockRange range, const double *change);
-
-  /// How many calls ahead `wanted` should be.
-  constexpr unsigned int rows_ahead = 2;
 
   /// y[c] += weight * x[c], c < 9.
   inline __attribute__((always_inline)) void add_scaled_block(double *const y, const double weight,

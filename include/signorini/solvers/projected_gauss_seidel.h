@@ -115,14 +115,14 @@ namespace Signorini
     void minimize_row(double *v_row, const double *s, const unsigned int row);
 
     template <Direction direction>
-    void relax(double *v, const double *rhs, const unsigned int row, const unsigned int later_row);
+    void relax(double *v, const double *rhs, const unsigned int row);
 
     /// The same with half a row (see smooth_from_zero()). Reads all of it in the first sweep, which sets up
     /// reduced_rhs, and at rows that are not ordered.
     /// @param residual null, or where to leave rhs - A v at ordered rows
     template <Direction direction>
-    void relax_by_halves(double *v, const double *rhs, const unsigned int row, const unsigned int later_row,
-                         const bool is_first, double *residual);
+    void relax_by_halves(double *v, const double *rhs, const unsigned int row, const bool is_first,
+                         double *residual);
 
     /// The same from a residual that is valid at ordered rows, and stays so.
     void relax_with_residual(Vector &v, const Vector &rhs, const unsigned int row, Vector &residual);
@@ -137,10 +137,9 @@ namespace Signorini
 
     void project_row(double *v_row, const int half_space);
 
-    /// Collective. Calls visit_row(row, row that follows `ahead` later) in the order of a schedule.
+    /// Collective. Calls visit_row(row) in the order of a schedule.
     template <typename Visit>
-    void visit(Vector &v, const SweepSchedule &schedule, const Direction direction, const unsigned int ahead,
-               const Visit &visit_row);
+    void visit(Vector &v, const SweepSchedule &schedule, const Direction direction, const Visit &visit_row);
 
     void run(Vector &v, const Vector &rhs, const SweepSchedule &schedule, const Direction direction);
 
@@ -213,7 +212,7 @@ namespace Signorini
 
   template <typename Visit>
   void ProjectedGaussSeidel::visit(Vector &v, const SweepSchedule &schedule, const Direction direction,
-                                   const unsigned int ahead, const Visit &visit_row)
+                                   const Visit &visit_row)
   {
     const std::size_t n_phases = schedule.phases().size();
     for (std::size_t i = 0; i < n_phases; ++i)
@@ -223,10 +222,10 @@ namespace Signorini
         const std::size_t n    = rows.size();
         if (direction == forward)
           for (std::size_t k = 0; k < n; ++k)
-            visit_row(rows[k], rows[std::min(k + ahead, n - 1)]);
+            visit_row(rows[k]);
         else
           for (std::size_t k = n; k-- > 0;)
-            visit_row(rows[k], rows[std::max<std::size_t>(k, ahead) - ahead]);
+            visit_row(rows[k]);
       }
   }
 } // namespace Signorini
