@@ -27,10 +27,10 @@ namespace Signorini
   ///
   /// A row consists of its diagonal block, those below (smaller local column) and those above it, by
   /// ascending local column. In memory all diagonal blocks come first, then the lower parts of all rows, then
-  /// the upper parts: a sweep that needs one part reads half the memory. A rank may also hold rows of other
-  /// ranks
-  /// ("foreign" rows): they collect contributions until compress() adds them to the owner's row. Products use
-  /// the owned rows only.
+  /// the upper parts: a sweep that needs one part reads half the memory.
+  ///
+  /// A rank may also hold rows of other ranks ("foreign" rows): they collect contributions until compress()
+  /// adds them to the owner's row. Products use the owned rows only.
   class NodeBlockMatrix
   {
   public:

@@ -114,6 +114,7 @@ namespace Signorini
     /// v_row <- its minimizer, A_row,row v_row = s without the half-space.
     void minimize_row(double *v_row, const double *s, const unsigned int row);
 
+    /// minimize_row() from a whole row.
     template <Direction direction>
     void relax(double *v, const double *rhs, const unsigned int row);
 
