@@ -233,19 +233,6 @@ namespace Signorini
 
 
 
-  namespace
-  {
-    /// The linear multigrid that a contact solver compares with.
-    SolverMethod linear_method(const SolverMethod method)
-    {
-      return method == SolverMethod::truncated_newton_multigrid || method == SolverMethod::monotone_multigrid
-                 ? SolverMethod::truncated_newton_multigrid
-                 : SolverMethod::accelerated;
-    }
-  } // namespace
-
-
-
   void ContactProblem::solve_linear(CycleResult &cycle, const LevelSpaces &levels, const Vector &start)
   {
     Discretization              &d = discretization;
@@ -280,19 +267,23 @@ namespace Signorini
         {{}, parameters.solver.level_zero, d.free_motions, &bodies, {}, parameters.solver.level_zero_steps});
     cycle.times["linear_hierarchy"] += time.wall_time();
 
-    time.restart();
     const NodeBlockMatrix    &matrix = hierarchy.finest().matrix;
     const BasisTransformation plain(*d.space, *d.partition, d.dirichlet, none, no_masks);
     Vector                    v, solution, product;
-    matrix.partition().reinit(v);
-    plain.from_displacement(v, start);
-    problem.semidefinite               = !d.free_motions.empty();
-    SolverParameters linear_parameters = parameters.solver;
-    linear_parameters.method           = linear_method(parameters.solver.method);
-    const auto solver                  = make_solver(hierarchy, linear_parameters);
-    cycle.linear                       = solver->solve(v, problem);
-    cycle.has_linear                   = true;
-    cycle.times["linear_solve"] += time.wall_time();
+    problem.semidefinite = !d.free_motions.empty();
+    const auto solve     = [&](const SolverMethod method, const char *const name) {
+      time.restart();
+      matrix.partition().reinit(v);
+      plain.from_displacement(v, start);
+      SolverParameters linear_parameters = parameters.solver;
+      linear_parameters.method           = method;
+      const ConvergenceReport report     = make_solver(hierarchy, linear_parameters)->solve(v, problem);
+      cycle.times[name] += time.wall_time();
+      return report;
+    };
+    cycle.linear     = solve(SolverMethod::multigrid, "linear_solve");
+    cycle.linear_cg  = solve(SolverMethod::multigrid_cg, "linear_cg_solve");
+    cycle.has_linear = true;
 
     matrix.partition().reinit(solution);
     matrix.partition().reinit(product);
@@ -403,8 +394,8 @@ namespace Signorini
         std::ostringstream line;
         line << "  " << result.nonlinear.iterations << " iterations";
         if (result.has_linear)
-          line << " (linear multigrid " << result.linear.iterations << ", difference " << result.difference
-               << ")";
+          line << " (linear multigrid " << result.linear.iterations << ", with conjugate gradients "
+               << result.linear_cg.iterations << ", difference " << result.difference << ")";
         line << ", " << result.active_nodes << " of " << result.contact_nodes << " contact nodes active";
         compare_with_exact(result);
         if (parameters.refinement.adaptive_cycles > 0)

@@ -187,8 +187,9 @@ namespace Signorini
     solver.add_parameters(prm);
     prm.add_parameter(
         "Compare linear multigrid", compare_linear,
-        "Solve the decoupled linear problem, loaded with the computed contact stresses, with the "
-        "same multigrid from the same start, and report its iterations beside those of contact.");
+        "Solve the decoupled linear problem, loaded with the computed contact stresses, by the same V-cycles "
+        "from the same start, alone and with conjugate gradients, and report their iterations and times beside "
+        "those of contact.");
     prm.leave_subsection();
     prm.enter_subsection("Output");
     prm.add_parameter("Folder", output_folder,

@@ -4,6 +4,7 @@ signorini_add_layer(solvers
   gauss_seidel_iteration.cc
   interface_correction.cc
   level_zero_solver.cc
+  linear_multigrid.cc
   monotone_multigrid.cc
   multigrid_hierarchy.cc
   obstacle_problem.cc

@@ -3,6 +3,7 @@
 
 #include <signorini/solvers/active_set_amg.h>
 #include <signorini/solvers/gauss_seidel_iteration.h>
+#include <signorini/solvers/linear_multigrid.h>
 #include <signorini/solvers/monotone_multigrid.h>
 #include <signorini/solvers/obstacle_solver.h>
 #include <signorini/solvers/truncated_newton_multigrid.h>
@@ -28,7 +29,9 @@ namespace Signorini
           {"truncated newton multigrid", SolverMethod::truncated_newton_multigrid},
           {"monotone multigrid", SolverMethod::monotone_multigrid},
           {"active set amg", SolverMethod::active_set_amg},
-          {"projected gauss seidel", SolverMethod::projected_gauss_seidel}};
+          {"projected gauss seidel", SolverMethod::projected_gauss_seidel},
+          {"multigrid", SolverMethod::multigrid},
+          {"multigrid cg", SolverMethod::multigrid_cg}};
       return names;
     }
   } // namespace
@@ -46,7 +49,8 @@ namespace Signorini
                       "without conjugate gradients. monotone multigrid: the method of Krause and Sander, "
                       "with obstacles on all levels. active set amg: primal-dual active set, each linear "
                       "problem by conjugate gradients with algebraic multigrid (a baseline). projected gauss "
-                      "seidel: sweeps alone, for tiny problems.");
+                      "seidel: sweeps alone, for tiny problems. multigrid and multigrid cg: V-cycles, alone or as "
+                      "preconditioner of conjugate gradients, for bodies without contact and tied pairs.");
     prm.add_action("Method", [this](const std::string &value) { method = method_names().at(value); });
     prm.declare_entry(
         "Level 0", "automatic", Patterns::Selection("automatic|cholesky|amg|algebraic monotone"),
@@ -233,6 +237,9 @@ namespace Signorini
           return std::make_unique<ActiveSetAmg>(hierarchy, parameters);
         case SolverMethod::projected_gauss_seidel:
           return std::make_unique<GaussSeidelIteration>(hierarchy, parameters);
+        case SolverMethod::multigrid:
+        case SolverMethod::multigrid_cg:
+          return std::make_unique<LinearMultigrid>(hierarchy, parameters);
         default:
           return std::make_unique<TruncatedNewtonMultigrid>(hierarchy, parameters);
       }

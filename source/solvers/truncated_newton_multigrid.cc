@@ -75,25 +75,15 @@ namespace Signorini
                                             const HalfSpaces &half_spaces)
   {
     const ProjectedGaussSeidel &smoother = *hierarchy.finest().smoother;
-    if (has_direction)
-      {
-        const double beta = -(z * direction_product) / (direction * direction_product);
-        direction.sadd(beta, 1., z);
-        direction_product.sadd(beta, 1., az);
-      }
-    else
-      {
-        direction         = z;
-        direction_product = az;
-      }
-    const double curvature = direction * direction_product;
+    conjugate.update(z, az);
+    const Vector &direction = conjugate.direction();
+    const double  curvature = direction * conjugate.product();
     const double slope     = residual * direction - smoother.normal_product(residual, direction);
     const double length    = curvature > 0. ? slope / curvature : 0.;
     if (!(length > 0.) || length > admissible_step(v, direction, half_spaces))
       return false;
-    has_direction = true;
     z.equ(length, direction);
-    az.equ(length, direction_product);
+    az.equ(length, conjugate.product());
     return true;
   }
 
@@ -106,8 +96,8 @@ namespace Signorini
     ProjectedGaussSeidel  &smoother = *hierarchy.finest().smoother;
     smoother.set_half_spaces(problem.half_spaces);
     smoother.project(v);
-    n_updates     = 0;
-    has_direction = false;
+    n_updates = 0;
+    conjugate.restart();
 
     ConvergenceReport report;
     // One iteration: v + z from v. The residuals are those of v and v + z.
@@ -155,7 +145,7 @@ namespace Signorini
           residual -= product;
         else
           {
-            has_direction       = false;
+            conjugate.restart();
             const double length = searches ? 1. : safe_length(z, product, residual, keeps_active);
             if (length == 1.)
               residual.swap(new_residual);
@@ -170,7 +160,10 @@ namespace Signorini
         v += z;
         // Rounding along motions that cost nothing feeds on itself through old directions.
         if (problem.semidefinite && !report.history.empty() && norm > report.history.back())
-          rests = has_direction = false;
+          {
+            rests = false;
+            conjugate.restart();
+          }
         check(false);
         const double square = v * problem.rhs - v * residual;
         book_iteration(report, norm, std::sqrt(std::max(0., square)), monitor);

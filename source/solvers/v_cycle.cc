@@ -5,6 +5,8 @@
 
 namespace Signorini
 {
+  using namespace dealii;
+
   VCycle::VCycle(MultigridHierarchy &hierarchy, const SmoothingParameters &smoothing,
                  const unsigned int max_level)
     : hierarchy(hierarchy)
@@ -12,13 +14,19 @@ namespace Signorini
     , work(max_level + 1)
   {
     for (unsigned int l = 0; l <= max_level; ++l)
-      for (Vector *vector : {&work[l].solution, &work[l].rhs, &work[l].residual})
-        hierarchy.level(l).matrix.partition().reinit(*vector);
+      {
+        const NodePartition &partition = hierarchy.level(l).matrix.partition();
+        partition.reinit(work[l].residual);
+        if (l == max_level)
+          continue;
+        partition.reinit(work[l].solution);
+        partition.reinit(work[l].rhs);
+      }
   }
 
 
 
-  void VCycle::run(const unsigned int level, Vector &solution, const Vector &rhs)
+  void VCycle::run(const unsigned int level, Vector &solution, const Vector &rhs, Vector *const new_residual)
   {
     if (level == 0)
       {
@@ -31,18 +39,26 @@ namespace Signorini
     smoother.smooth_from_zero(solution, rhs, smoothing, residual);
     work[level - 1].rhs = 0.;
     restrict_defect(coarse, work[level - 1].rhs, residual);
-    run(level - 1, work[level - 1].solution, work[level - 1].rhs);
+    run(level - 1, work[level - 1].solution, work[level - 1].rhs, nullptr);
     Vector &step = residual;
     coarse.to_finer.prolongate(step, work[level - 1].solution);
     solution.zero_out_ghost_values();
     solution += step;
-    smoother.smooth_to_residual(solution, rhs, smoothing, nullptr);
+    smoother.smooth_to_residual(solution, rhs, smoothing, new_residual);
   }
 
 
 
   void VCycle::apply(Vector &correction, const Vector &defect)
   {
-    run(static_cast<unsigned int>(work.size()) - 1, correction, defect);
+    run(static_cast<unsigned int>(work.size()) - 1, correction, defect, nullptr);
+  }
+
+
+
+  void VCycle::apply(Vector &correction, const Vector &defect, Vector &residual)
+  {
+    Assert(work.size() > 1, ExcMessage("Level 0 has no residual at hand."));
+    run(static_cast<unsigned int>(work.size()) - 1, correction, defect, &residual);
   }
 } // namespace Signorini

@@ -25,9 +25,11 @@ namespace Signorini
     unsigned int      cycle = 0;
     std::size_t       cells = 0, dofs = 0, contact_nodes = 0, active_nodes = 0;
     unsigned int      levels = 0;
-    ConvergenceReport nonlinear, linear;
+    ConvergenceReport nonlinear;
+    /// The linear problem by multigrid and by conjugate gradients with it, from the same start.
+    ConvergenceReport linear, linear_cg;
     bool              has_linear = false;
-    /// Relative difference of the linear and the nonlinear solution (energy norm).
+    /// Relative difference of the linear (conjugate gradients) and the nonlinear solution (energy norm).
     double difference = 0.;
     /// What boundary shapes did to the mesh of this cycle.
     MovementReport movement;

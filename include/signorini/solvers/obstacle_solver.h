@@ -23,7 +23,11 @@ namespace Signorini
     truncated_newton_multigrid,
     monotone_multigrid,
     active_set_amg,
-    projected_gauss_seidel
+    projected_gauss_seidel,
+    /// V-cycles, for linear problems alone.
+    multigrid,
+    /// Conjugate gradients with the V-cycle as preconditioner, for linear problems alone.
+    multigrid_cg
   };
 
   struct SolverParameters
@@ -99,6 +103,12 @@ namespace Signorini
     MultigridHierarchy    &hierarchy;
     const SolverParameters parameters;
   };
+
+  /// Whether a method solves linear problems only.
+  inline bool is_linear(const SolverMethod method)
+  {
+    return method == SolverMethod::multigrid || method == SolverMethod::multigrid_cg;
+  }
 
   /// Whether a method works on the finest level alone.
   inline bool needs_levels(const SolverMethod method)

@@ -4,6 +4,7 @@
 #ifndef signorini_solvers_truncated_newton_multigrid_h
 #define signorini_solvers_truncated_newton_multigrid_h
 
+#include <signorini/solvers/conjugate_direction.h>
 #include <signorini/solvers/obstacle_solver.h>
 
 namespace Signorini
@@ -48,12 +49,10 @@ namespace Signorini
 
     bool all_ranks(const bool condition) const;
 
-    VCycle       cycle;
-    Vector       coarse_defect, coarse_correction, step;
-    unsigned int n_updates = 0;
-    /// Last direction and its product with A; empty at a restart.
-    Vector direction, direction_product;
-    bool   has_direction = false;
+    VCycle             cycle;
+    Vector             coarse_defect, coarse_correction, step;
+    unsigned int       n_updates = 0;
+    ConjugateDirection conjugate;
   };
 } // namespace Signorini
 

@@ -19,13 +19,20 @@ namespace Signorini
     /// Collective. correction = (approximate inverse) * defect, on max_level.
     void apply(Vector &correction, const Vector &defect);
 
+    /// The same, and residual = defect - A correction.
+    void apply(Vector &correction, const Vector &defect, Vector &residual);
+
   private:
     struct Work
     {
-      Vector solution, rhs, residual;
+      /// Empty on max_level.
+      Vector solution, rhs;
+      /// After pre-smoothing, then the coarse correction.
+      Vector residual;
     };
 
-    void run(const unsigned int level, Vector &solution, const Vector &rhs);
+    /// @param new_residual null, or where to leave rhs - A solution
+    void run(const unsigned int level, Vector &solution, const Vector &rhs, Vector *const new_residual);
 
     MultigridHierarchy       &hierarchy;
     const SmoothingParameters smoothing;

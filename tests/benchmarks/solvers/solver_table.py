@@ -39,20 +39,23 @@ def main():
     parser.add_argument('--large', action='store_true')
     parser.add_argument('--tolerance', default='1e-12')
     options = parser.parse_args()
-    print(f'{"problem":<11}{"dofs":>9}  {"method":<28}{"iterations per level (linear multigrid)":<66}{"solve":>8}{"sweeps":>8}{"/linear":>9}')
+    print(f'{"problem":<11}{"dofs":>9}  {"method":<28}{"iterations per level (linear multigrid, with cg)":<80}{"solve":>8}{"sweeps":>8}{"/linear":>9}{"/cg":>7}')
     for name, prm, settings, large in PROBLEMS:
         for method in METHODS:
             s = solve(options.program, prm, (large if options.large else settings) + (f'Solver/Method={method}', f'Solver/Tolerance={options.tolerance}'))
             last = s['cycles'][-1]
             counts = []
             for c in s['cycles']:
-                linear = f'({c["linear"]["iterations"]})' if 'linear' in c and method != 'active set amg' else ''
+                linear = f'({c["linear"]["iterations"]},{c["linear_cg"]["iterations"]})' if 'linear' in c and method != 'active set amg' else ''
                 amg = f'[{c["nonlinear"].get("amg_cycles", 0)}]' if method == 'active set amg' else ''
                 counts.append(f'{c["nonlinear"]["iterations"]}{linear}{amg}')
             times = last['times_s']
             time = times['solve'] + (0 if method == 'active set amg' else times['levels'] + times['hierarchy'])
-            linear = f'{time / (times["levels"] + times["linear_hierarchy"] + times["linear_solve"]):9.2f}' if 'linear' in last and method != 'active set amg' else f'{"-":>9}'
-            print(f'{name:<11}{last["dofs"]:>9}  {method:<28}{" ".join(counts):<66}{time:8.2f}{time / last["sweep_time_s"]:8.0f}{linear}', flush=True)
+            ratios = [f'{"-":>9}', f'{"-":>7}']
+            if 'linear' in last and method != 'active set amg':
+                setup = times['levels'] + times['linear_hierarchy']
+                ratios = [f'{time / (setup + times["linear_solve"]):9.2f}', f'{time / (setup + times["linear_cg_solve"]):7.2f}']
+            print(f'{name:<11}{last["dofs"]:>9}  {method:<28}{" ".join(counts):<80}{time:8.2f}{time / last["sweep_time_s"]:8.0f}{ratios[0]}{ratios[1]}', flush=True)
 
 
 if __name__ == '__main__':
