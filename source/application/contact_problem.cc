@@ -117,8 +117,27 @@ namespace Signorini
 
 
 
-  std::unique_ptr<MultigridHierarchy> ContactProblem::make_hierarchy(LinearSystem     &&system,
-                                                                     const LevelSpaces &levels) const
+  HalfSpaces ContactProblem::make_half_spaces(const NodePartition       &partition,
+                                              const std::vector<double> &gaps) const
+  {
+    HalfSpaces            result;
+    const Discretization &d = discretization;
+    for (std::size_t p = 0; p < d.coupling.n_rows(); ++p)
+      if (!d.tied[p] && partition.owns(d.coupling.rows[p]))
+        {
+          result.nodes.push_back(partition.to_local(d.coupling.rows[p]));
+          result.normals.push_back(d.normals[p]);
+          result.bounds.push_back(gaps[p]);
+        }
+    return result;
+  }
+
+
+
+  std::unique_ptr<MultigridHierarchy> ContactProblem::make_hierarchy(LinearSystem         &&system,
+                                                                     const LevelSpaces     &levels,
+                                                                     const ObstacleProblem &problem,
+                                                                     const Vector *const    start) const
   {
     const SolverMethod method = parameters.solver.method;
     if (!needs_levels(method))
@@ -132,6 +151,12 @@ namespace Signorini
            parameters.bodies[pair.nonmortar_body].young > parameters.bodies[pair.mortar_body].young);
     if (method == SolverMethod::monotone_multigrid)
       options.contact_normals = discretization.normals;
+    // What is measured for a stiff nonmortar side must not depend on the start.
+    if (start != nullptr && !options.has_stiff_nonmortar)
+      {
+        options.problem = &problem;
+        options.start   = start;
+      }
     return std::make_unique<MultigridHierarchy>(
         build_hierarchy(std::move(system), levels, discretization.coupling, options));
   }
@@ -156,26 +181,12 @@ namespace Signorini
     cycle.times["levels"] += time.wall_time();
 
     time.restart();
-    auto hierarchy = make_hierarchy(std::move(system), levels);
-    cycle.times["hierarchy"] += time.wall_time();
-
-    time.restart();
-    const NodeBlockMatrix &matrix = hierarchy->finest().matrix;
-    if (parameters.solver.method == SolverMethod::active_set_amg)
-      problem.near_kernel =
-          rigid_motions(*d.space, matrix.partition(), hierarchy->finest().fixed, d.coupling);
-    const std::vector<double> gaps = d.transformation->reduce_gaps(d.gaps, d.normals);
-    for (std::size_t p = 0; p < d.coupling.n_rows(); ++p)
-      if (!d.tied[p] && matrix.partition().owns(d.coupling.rows[p]))
-        {
-          problem.half_spaces.nodes.push_back(matrix.partition().to_local(d.coupling.rows[p]));
-          problem.half_spaces.normals.push_back(d.normals[p]);
-          problem.half_spaces.bounds.push_back(gaps[p]);
-        }
-    Vector v;
-    matrix.partition().reinit(v);
+    const std::vector<double> gaps      = d.transformation->reduce_gaps(d.gaps, d.normals);
+    const NodePartition       partition = system.matrix.partition();
+    problem.half_spaces                 = make_half_spaces(partition, gaps);
+    Vector v, start;
+    partition.reinit(v);
     const bool has_start = d.displacement.size() == 3 * d.space->n_nodes();
-    Vector     start;
     if (has_start)
       {
         d.transformation->from_displacement(v, d.displacement);
@@ -184,8 +195,16 @@ namespace Signorini
     else
       {
         d.partition->reinit(start);
-        start = d.transformation->to_displacement(v, matrix.partition());
+        start = d.transformation->to_displacement(v, partition);
       }
+    auto hierarchy = make_hierarchy(std::move(system), levels, problem, has_start ? &v : nullptr);
+    const NodeBlockMatrix &matrix = hierarchy->finest().matrix;
+    cycle.times["hierarchy"] += time.wall_time();
+
+    time.restart();
+    if (parameters.solver.method == SolverMethod::active_set_amg)
+      problem.near_kernel =
+          rigid_motions(*d.space, matrix.partition(), hierarchy->finest().fixed, d.coupling);
     const auto monitor = [&](const unsigned int iteration, const double correction,
                              const unsigned int active) {
       if (parameters.verbosity > 1)

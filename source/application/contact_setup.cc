@@ -76,8 +76,9 @@ namespace Signorini
           throw InputError(
               section + "Contact: a body cannot be tied to an obstacle; prescribe its displacement instead.");
         if (p.contact != "tied" && is_linear(parameters.solver.method))
-          throw InputError(section + "Contact: the solvers multigrid and multigrid cg (Solver/Method) are for linear "
-                                     "problems. Choose accelerated, or tie the pair.");
+          throw InputError(section +
+                           "Contact: the solvers multigrid and multigrid cg (Solver/Method) are for linear "
+                           "problems. Choose accelerated, or tie the pair.");
         if (p.penetration != "resolve" && p.penetration != "refuse")
           throw InputError(section + "Initial penetration: use resolve or refuse.");
         pair_definitions.push_back(definition);

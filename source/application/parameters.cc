@@ -188,7 +188,8 @@ namespace Signorini
     prm.add_parameter(
         "Compare linear multigrid", compare_linear,
         "Solve the decoupled linear problem, loaded with the computed contact stresses, by the same V-cycles "
-        "from the same start, alone and with conjugate gradients, and report their iterations and times beside "
+        "from the same start, alone and with conjugate gradients, and report their iterations and times "
+        "beside "
         "those of contact.");
     prm.leave_subsection();
     prm.enter_subsection("Output");

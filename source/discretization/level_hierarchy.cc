@@ -418,6 +418,8 @@ namespace Signorini
         const std::vector<NodeIndex> nodes     = interface_nodes(fine);
         if (!nodes.empty())
           hierarchy.set_interface(nodes, options.has_stiff_nonmortar);
+        if (l + 1 == spaces.n_levels() && options.problem != nullptr)
+          hierarchy.expect_active_set(*options.problem, *options.start);
         if (l == 0)
           break;
 

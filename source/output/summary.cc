@@ -89,9 +89,9 @@ namespace Signorini
       json.number("sweep_bytes_per_s", cycle.sweeps.bytes_per_second);
       json.number("read_bytes_per_s", cycle.sweeps.read_bytes_per_second);
       json.begin('{', "times_s");
-      for (const char *name : {"mesh", "mapping", "mortar", "assembly", "levels", "hierarchy", "solve",
-                               "linear_assembly", "linear_hierarchy", "linear_solve", "linear_cg_solve", "estimate",
-                               "output"})
+      for (const char *name :
+           {"mesh", "mapping", "mortar", "assembly", "levels", "hierarchy", "solve", "linear_assembly",
+            "linear_hierarchy", "linear_solve", "linear_cg_solve", "estimate", "output"})
         {
           const auto it = cycle.times.find(name);
           json.number(name, it == cycle.times.end() ? 0. : it->second);
@@ -245,7 +245,8 @@ namespace Signorini
 
   void write_table(std::ostream &out, const Results &results)
   {
-    out << "level  elements      dofs  nonlinear  linear  with CG  contact  active      rate  linear rate  solve [s]  "
+    out << "level  elements      dofs  nonlinear  linear  with CG  contact  active      rate  linear rate  "
+           "solve [s]  "
            "total [s]\n";
     for (const CycleResult &c : results.cycles)
       {
@@ -256,8 +257,8 @@ namespace Signorini
         out << std::setw(5) << c.cycle << std::setw(10) << c.cells << std::setw(10) << c.dofs << std::setw(11)
             << c.nonlinear.iterations << std::setw(8)
             << (c.has_linear ? std::to_string(c.linear.iterations) : "-") << std::setw(9)
-            << (c.has_linear ? std::to_string(c.linear_cg.iterations) : "-") << std::setw(9) << c.contact_nodes
-            << std::setw(8) << c.active_nodes << std::setprecision(3) << std::setw(10)
+            << (c.has_linear ? std::to_string(c.linear_cg.iterations) : "-") << std::setw(9)
+            << c.contact_nodes << std::setw(8) << c.active_nodes << std::setprecision(3) << std::setw(10)
             << rate_text(c.nonlinear.rate) << std::setw(13) << (c.has_linear ? rate_text(c.linear.rate) : "-")
             << std::setw(11) << (time == c.times.end() ? 0. : time->second) << std::setw(11) << total << '\n';
       }

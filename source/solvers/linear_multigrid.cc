@@ -65,7 +65,7 @@ namespace Signorini
         const double square = v * problem.rhs - v * residual;
         book_iteration(report, norm, std::sqrt(std::max(0., square)), monitor);
       }
-    close(report, v, problem);
+    close(report, v, problem, residual);
     return report;
   }
 } // namespace Signorini

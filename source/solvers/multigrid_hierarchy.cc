@@ -104,6 +104,12 @@ namespace Signorini
     levels.push_back(std::make_unique<MultigridLevel>());
     MultigridLevel &level = *levels.back();
     level.to_finer        = std::move(transfer);
+    if (levels.size() == 2 && expected_nodes.size() > 0)
+      {
+        truncate_transfer(expected_planes, expected_nodes);
+        for (Vector *vector : {&expected_planes, &expected_nodes})
+          vector->reinit(0);
+      }
     reinit_galerkin(level.matrix, fine, level.to_finer, owned_coarse);
     level.fixed = import_ghost_masks(level.matrix.partition(), fixed);
     compute_galerkin(level.matrix, fine, level.to_finer);
@@ -125,8 +131,8 @@ namespace Signorini
     const std::vector<unsigned int> rows =
         matrix.rows_with_column([&](const unsigned int column) { return is_contact[column]; });
     coarsest().smoother->set_interface(rows);
-    if (may_be_slow)
-      coarsest().smoother->correct_slow_interface(contact_nodes);
+    if (may_be_slow && coarsest().smoother->correct_slow_interface(contact_nodes))
+      slow_interface = true;
   }
 
 
@@ -157,6 +163,46 @@ namespace Signorini
 
 
 
+  void MultigridHierarchy::expect_active_set(const ObstacleProblem &problem, const Vector &start)
+  {
+    Assert(levels.size() == 1, ExcMessage("The coarser levels are there already."));
+    ProjectedGaussSeidel &smoother = *levels[0]->smoother;
+    Vector                v        = start;
+    smoother.set_half_spaces(problem.half_spaces);
+    smoother.find_active(v, problem.rhs);
+    set_truncated(problem.half_spaces, smoother.active(), expected_planes, expected_nodes);
+  }
+
+
+
+  bool MultigridHierarchy::set_truncated(const HalfSpaces                 &half_spaces,
+                                         const std::vector<unsigned char> &active, Vector &planes,
+                                         Vector &changed)
+  {
+    const NodePartition &partition = levels[0]->matrix.partition();
+    truncated.resize(half_spaces.size(), 0);
+    partition.reinit(planes);
+    partition.reinit(changed);
+    bool any_change = false;
+    for (std::size_t p = 0; p < half_spaces.size(); ++p)
+      {
+        const bool change                                 = truncated[p] != active[p];
+        any_change                                        = any_change || change;
+        changed.local_element(dim * half_spaces.nodes[p]) = change;
+        if (active[p])
+          for (unsigned int c = 0; c < dim; ++c)
+            planes.local_element(dim * half_spaces.nodes[p] + c) = half_spaces.normals[p][c];
+        truncated[p] = active[p];
+      }
+    if (Utilities::MPI::max(static_cast<int>(any_change), partition.communicator()) == 0)
+      return false;
+    planes.update_ghost_values();
+    changed.update_ghost_values();
+    return true;
+  }
+
+
+
   void MultigridHierarchy::truncate_transfer(const Vector &planes, const Vector &changed)
   {
     for (unsigned int i = 0; i < levels[0]->matrix.partition().n_local(); ++i)
@@ -173,30 +219,10 @@ namespace Signorini
 
   bool MultigridHierarchy::truncate(const HalfSpaces &half_spaces, const std::vector<unsigned char> &active)
   {
-    truncated.resize(half_spaces.size(), 0);
     const NodeBlockMatrix &fine = levels[0]->matrix;
-
-    // Which rows of P change, on this rank and among its ghosts: ghosts of active nodes must be
-    // truncated as well, so the planes travel with the ghost exchange. A zero vector means inactive.
-    Vector planes, changed;
-    fine.partition().reinit(planes);
-    fine.partition().reinit(changed);
-    bool any_change = false;
-    for (std::size_t p = 0; p < half_spaces.size(); ++p)
-      {
-        const bool change                                 = truncated[p] != active[p];
-        any_change                                        = any_change || change;
-        changed.local_element(dim * half_spaces.nodes[p]) = change;
-        if (active[p])
-          for (unsigned int c = 0; c < dim; ++c)
-            planes.local_element(dim * half_spaces.nodes[p] + c) = half_spaces.normals[p][c];
-        truncated[p] = active[p];
-      }
-    if (Utilities::MPI::max(static_cast<int>(any_change), fine.partition().communicator()) == 0)
+    Vector                 planes, changed;
+    if (!set_truncated(half_spaces, active, planes, changed))
       return false;
-    planes.update_ghost_values();
-    changed.update_ghost_values();
-
     truncate_transfer(planes, changed);
 
     std::vector<unsigned int> rows = fine.rows_with_column(

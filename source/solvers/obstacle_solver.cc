@@ -43,14 +43,15 @@ namespace Signorini
     std::string names;
     for (const auto &entry : method_names())
       names += (names.empty() ? "" : "|") + entry.first;
-    prm.declare_entry("Method", "accelerated", Patterns::Selection(names),
-                      "accelerated: truncated Newton multigrid whose V-cycle preconditions conjugate "
-                      "gradients while the active set rests (the fastest). truncated newton multigrid: "
-                      "without conjugate gradients. monotone multigrid: the method of Krause and Sander, "
-                      "with obstacles on all levels. active set amg: primal-dual active set, each linear "
-                      "problem by conjugate gradients with algebraic multigrid (a baseline). projected gauss "
-                      "seidel: sweeps alone, for tiny problems. multigrid and multigrid cg: V-cycles, alone or as "
-                      "preconditioner of conjugate gradients, for bodies without contact and tied pairs.");
+    prm.declare_entry(
+        "Method", "accelerated", Patterns::Selection(names),
+        "accelerated: truncated Newton multigrid whose V-cycle preconditions conjugate "
+        "gradients while the active set rests (the fastest). truncated newton multigrid: "
+        "without conjugate gradients. monotone multigrid: the method of Krause and Sander, "
+        "with obstacles on all levels. active set amg: primal-dual active set, each linear "
+        "problem by conjugate gradients with algebraic multigrid (a baseline). projected gauss "
+        "seidel: sweeps alone, for tiny problems. multigrid and multigrid cg: V-cycles, alone or as "
+        "preconditioner of conjugate gradients, for bodies without contact and tied pairs.");
     prm.add_action("Method", [this](const std::string &value) { method = method_names().at(value); });
     prm.declare_entry(
         "Level 0", "automatic", Patterns::Selection("automatic|cholesky|amg|algebraic monotone"),
@@ -71,7 +72,8 @@ namespace Signorini
                       "Gauss-Seidel sweeps after the coarse correction.");
     prm.add_parameter("Interface sweeps", smoothing.n_interface_sweeps,
                       "Extra sweeps over the contact nodes of both sides and one layer of neighbours, on "
-                      "every level, after the pre- and before the post-smoothing.");
+                      "every level, after the pre- and before the post-smoothing; accelerated takes one as "
+                      "long as its iterations leave at most a quarter of the correction.");
     prm.add_parameter("Tolerance", tolerance,
                       "Stop when the energy norm of the correction of an iteration is below this multiple "
                       "of the energy norm of the iterate (no unit).",
@@ -182,10 +184,19 @@ namespace Signorini
 
   void ObstacleSolver::close(ConvergenceReport &report, const Vector &v, const ObstacleProblem &problem) const
   {
-    Vector product;
-    product.reinit(v);
-    hierarchy.finest().matrix.vmult(product, v);
-    report.energy = .5 * (product * v) - problem.rhs * v;
+    Vector residual;
+    residual.reinit(v);
+    hierarchy.finest().matrix.vmult(residual, v);
+    residual.sadd(-1., 1., problem.rhs);
+    close(report, v, problem, residual);
+  }
+
+
+
+  void ObstacleSolver::close(ConvergenceReport &report, const Vector &v, const ObstacleProblem &problem,
+                             const Vector &residual) const
+  {
+    report.energy = -.5 * (problem.rhs * v + residual * v);
     report.rate   = convergence_rate(report.history);
     if (!report.converged)
       report.note = "stopped after " + std::to_string(report.iterations) + " iterations without convergence";

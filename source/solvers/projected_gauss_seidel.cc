@@ -110,17 +110,18 @@ namespace Signorini
 
 
 
-  void ProjectedGaussSeidel::correct_slow_interface(const std::vector<NodeIndex> &contact_nodes)
+  bool ProjectedGaussSeidel::correct_slow_interface(const std::vector<NodeIndex> &contact_nodes)
   {
     std::vector<unsigned int> contact_rows;
     for (const NodeIndex node : contact_nodes)
       if (matrix.partition().owns(node))
         contact_rows.push_back(matrix.partition().to_local(node));
     if (sweep_rate(all_rows.subset(contact_rows)) < slow)
-      return;
+      return false;
     interface_correction = std::make_unique<InterfaceCorrection>(matrix, contact_nodes);
     blocks.drop_within(interface_correction->contact_rows());
     block_rows = blocks.rows();
+    return true;
   }
 
 
@@ -255,6 +256,14 @@ namespace Signorini
   {
     for (std::size_t p = 0; p < constraints.size(); ++p)
       project_row(v.begin() + dim * static_cast<std::size_t>(constraints.nodes[p]), static_cast<int>(p));
+  }
+
+
+
+  void ProjectedGaussSeidel::find_active(Vector &v, const Vector &rhs)
+  {
+    project(v);
+    interface_sweep(v, rhs, forward);
   }
 
 

@@ -9,6 +9,14 @@ namespace Signorini
 {
   using namespace dealii;
 
+  namespace
+  {
+    /// An iteration that leaves more than this of the correction calls for all interface sweeps.
+    constexpr double slow_rate = .25;
+  } // namespace
+
+
+
   TruncatedNewtonMultigrid::TruncatedNewtonMultigrid(MultigridHierarchy     &hierarchy,
                                                      const SolverParameters &parameters)
     : ObstacleSolver(hierarchy, parameters)
@@ -78,8 +86,8 @@ namespace Signorini
     conjugate.update(z, az);
     const Vector &direction = conjugate.direction();
     const double  curvature = direction * conjugate.product();
-    const double slope     = residual * direction - smoother.normal_product(residual, direction);
-    const double length    = curvature > 0. ? slope / curvature : 0.;
+    const double  slope     = residual * direction - smoother.normal_product(residual, direction);
+    const double  length    = curvature > 0. ? slope / curvature : 0.;
     if (!(length > 0.) || length > admissible_step(v, direction, half_spaces))
       return false;
     z.equ(length, direction);
@@ -92,10 +100,16 @@ namespace Signorini
   ConvergenceReport TruncatedNewtonMultigrid::solve(Vector &v, const ObstacleProblem &problem,
                                                     const Monitor &monitor)
   {
-    const NodeBlockMatrix &matrix   = hierarchy.finest().matrix;
-    ProjectedGaussSeidel  &smoother = *hierarchy.finest().smoother;
+    const NodeBlockMatrix &matrix      = hierarchy.finest().matrix;
+    ProjectedGaussSeidel  &smoother    = *hierarchy.finest().smoother;
+    const bool             accelerates = parameters.method == SolverMethod::accelerated;
     smoother.set_half_spaces(problem.half_spaces);
-    smoother.project(v);
+    smoother.find_active(v, problem.rhs);
+    SmoothingParameters smoothing = parameters.smoothing;
+    // One interface sweep does in most problems, but not in all.
+    if (accelerates && !problem.semidefinite && !hierarchy.has_slow_interface())
+      smoothing.n_interface_sweeps = std::min(smoothing.n_interface_sweeps, 1u);
+    cycle.set_interface_sweeps(smoothing.n_interface_sweeps);
     n_updates = 0;
     conjugate.restart();
 
@@ -119,26 +133,25 @@ namespace Signorini
     };
     while (goes_on(report))
       {
-        const std::vector<unsigned char> active   = smoother.active();
-        const bool                       searches = !rests;
+        const std::vector<unsigned char> active = smoother.active();
         smoother.set_bounds_from(problem.half_spaces, v);
-        smoother.smooth_from_zero(z, residual, parameters.smoothing, new_residual);
+        smoother.smooth_from_zero(z, residual, smoothing, new_residual);
         const double before = energy;
         check(true);
+        bool       keeps_active = smoother.active() == active;
+        const bool searches = !rests && !(accelerates && !problem.semidefinite && all_ranks(keeps_active));
         // Without a search the iteration as a whole lowers the energy, not each step after this one.
         if (!searches)
           energy = before;
-        bool keeps_active = smoother.active() == active;
         correct(z, new_residual, problem, searches);
         if (searches)
           check(true);
-        smoother.smooth_to_residual(z, residual, parameters.smoothing, &new_residual);
+        smoother.smooth_to_residual(z, residual, smoothing, &new_residual);
         keeps_active = all_ranks(keeps_active && smoother.active() == active);
 
         product = residual;
         product -= new_residual;
-        rests = keeps_active && parameters.method == SolverMethod::accelerated &&
-                accelerate(v, residual, z, product, problem.half_spaces);
+        rests = keeps_active && accelerates && accelerate(v, residual, z, product, problem.half_spaces);
         // Before it is shortened: a correction that was cut off does not mean convergence.
         double norm = std::sqrt(std::max(0., z * product));
         if (rests)
@@ -158,6 +171,14 @@ namespace Signorini
         v.zero_out_ghost_values();
         z.zero_out_ghost_values();
         v += z;
+        if (!report.history.empty() && norm > slow_rate * report.history.back() &&
+            smoothing.n_interface_sweeps < parameters.smoothing.n_interface_sweeps)
+          {
+            smoothing.n_interface_sweeps = parameters.smoothing.n_interface_sweeps;
+            cycle.set_interface_sweeps(smoothing.n_interface_sweeps);
+            // Directions of another preconditioner.
+            conjugate.restart();
+          }
         // Rounding along motions that cost nothing feeds on itself through old directions.
         if (problem.semidefinite && !report.history.empty() && norm > report.history.back())
           {
@@ -168,7 +189,7 @@ namespace Signorini
         const double square = v * problem.rhs - v * residual;
         book_iteration(report, norm, std::sqrt(std::max(0., square)), monitor);
       }
-    close(report, v, problem);
+    close(report, v, problem, residual);
     report.hierarchy_updates = n_updates;
     return report;
   }

@@ -85,6 +85,10 @@ namespace Signorini
     unsigned int               level_zero_steps = 1;
     /// Whether a nonmortar side is stiffer than its mortar side.
     bool has_stiff_nonmortar = false;
+    /// If not null: half-spaces and right hand side on the finest level and a start, from which the active
+    /// set is guessed (MultigridHierarchy::expect_active_set()).
+    const ObstacleProblem *problem = nullptr;
+    const Vector          *start   = nullptr;
   };
 
   /// Collective. Galerkin hierarchy with P̂_k = T_k⁻¹ P_k T_{k-1} on all levels. An empty coupling gives the

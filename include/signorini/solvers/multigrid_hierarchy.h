@@ -56,6 +56,16 @@ namespace Signorini
     /// nonmortar side, that is measured (ProjectedGaussSeidel::correct_slow_interface).
     void set_interface(const std::vector<NodeIndex> &contact_nodes, const bool may_be_slow = false);
 
+    /// Collective. Before the first coarser level is added: guesses the active set by a sweep over the
+    /// contact nodes from a start (left as it is), so that the coarser levels are built truncated there.
+    void expect_active_set(const ObstacleProblem &problem, const Vector &start);
+
+    /// Whether interface sweeps alone would be slow on some level (see set_interface()).
+    bool has_slow_interface() const
+    {
+      return slow_interface;
+    }
+
     /// Collective. After the last level: sets up the solver of level 0. A hierarchy of a single level gets an
     /// algebraic copy of it as level 0, so that the truncated problem has an exact coarse solver.
     void finish(LevelZero level_zero = {});
@@ -97,8 +107,13 @@ namespace Signorini
     }
 
   private:
-    /// Removes the planes' normals from the changed block rows of the finest transfer. Both vectors with
-    /// up-to-date ghosts: unit normals at active nodes, zero elsewhere; a flag at changed nodes.
+    /// Collective. Makes `active` the truncated nodes; whether anything changes. Unit normals at them and a
+    /// flag where something changes, zero elsewhere, both with ghosts: ghosts of active nodes must be
+    /// truncated as well.
+    bool set_truncated(const HalfSpaces &half_spaces, const std::vector<unsigned char> &active,
+                       Vector &planes, Vector &changed);
+
+    /// Removes the planes' normals from the changed block rows of the finest transfer.
     void truncate_transfer(const Vector &planes, const Vector &changed);
 
     /// Finest first.
@@ -106,7 +121,10 @@ namespace Signorini
     LevelZero                                    level_zero;
     LevelZeroSolver                              level_zero_solver;
     std::vector<unsigned char>                   truncated;
-    std::vector<double>                          scales;
+    /// What expect_active_set() found, until the next level is added (see set_truncated()).
+    Vector              expected_planes, expected_nodes;
+    bool                slow_interface = false;
+    std::vector<double> scales;
   };
 } // namespace Signorini
 

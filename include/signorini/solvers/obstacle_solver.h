@@ -96,6 +96,10 @@ namespace Signorini
     /// Collective. Energy, rate and note at the end.
     void close(ConvergenceReport &report, const Vector &v, const ObstacleProblem &problem) const;
 
+    /// The same with residual = b - A v at hand.
+    void close(ConvergenceReport &report, const Vector &v, const ObstacleProblem &problem,
+               const Vector &residual) const;
+
     /// Collective. If wanted, books what the last substep has done to energy and admissibility.
     void check_substep(ConvergenceReport &report, double &energy, const Vector &v,
                        const ObstacleProblem &problem) const;

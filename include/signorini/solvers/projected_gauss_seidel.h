@@ -59,14 +59,18 @@ namespace Signorini
     void set_interface(const std::vector<unsigned int> &rows);
 
     /// Collective. Measures how fast sweeps over the contact nodes of both sides are (global numbers, sorted,
-    /// the same on all ranks), and adds an InterfaceCorrection to the interface sweeps if they are slow.
-    void correct_slow_interface(const std::vector<NodeIndex> &contact_nodes);
+    /// the same on all ranks), and adds an InterfaceCorrection to the interface sweeps if they are slow;
+    /// whether they are.
+    bool correct_slow_interface(const std::vector<NodeIndex> &contact_nodes);
 
     /// One sweep over all rows: v <- minimizer row by row. Energy never rises.
     void sweep(Vector &v, const Vector &rhs, const Direction direction);
 
     /// One sweep over the interface rows only.
     void interface_sweep(Vector &v, const Vector &rhs, const Direction direction);
+
+    /// Collective. Projects v and sweeps once over the interface rows: shows the active set of a good start.
+    void find_active(Vector &v, const Vector &rhs);
 
     /// The sweeps before (forward) or after (backward) a coarse correction, interface sweeps nearest to it.
     /// Where cells are stretched each sweep goes over lines and planes of nodes (StrongBlocks) as well. One

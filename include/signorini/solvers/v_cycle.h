@@ -16,6 +16,12 @@ namespace Signorini
     /// The hierarchy must outlive the object. max_level is the finest level the cycle acts on.
     VCycle(MultigridHierarchy &hierarchy, const SmoothingParameters &smoothing, const unsigned int max_level);
 
+    /// Changes the number of interface sweeps from the next cycle on.
+    void set_interface_sweeps(const unsigned int n)
+    {
+      smoothing.n_interface_sweeps = n;
+    }
+
     /// Collective. correction = (approximate inverse) * defect, on max_level.
     void apply(Vector &correction, const Vector &defect);
 
@@ -34,9 +40,9 @@ namespace Signorini
     /// @param new_residual null, or where to leave rhs - A solution
     void run(const unsigned int level, Vector &solution, const Vector &rhs, Vector *const new_residual);
 
-    MultigridHierarchy       &hierarchy;
-    const SmoothingParameters smoothing;
-    std::vector<Work>         work;
+    MultigridHierarchy &hierarchy;
+    SmoothingParameters smoothing;
+    std::vector<Work>   work;
   };
 } // namespace Signorini
 
