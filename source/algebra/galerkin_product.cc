@@ -173,6 +173,15 @@ namespace Signorini
         for (std::size_t k = 0; k < n; ++k)
           add_scaled_block(sums + n_entries * k, weight, blocks + place[columns[k]]);
     }
+
+    /// A row of the coarse matrix += diag(w) * row.
+    SIGNORINI_VECTORIZED
+    void add_row_times_diagonal(double *const sums, const unsigned int *const columns, const std::size_t n,
+                                const double *const w, const double *const blocks, const int *const place)
+    {
+      for (std::size_t k = 0; k < n; ++k)
+        add_diagonal_times_block(sums + n_entries * k, w, blocks + place[columns[k]]);
+    }
   } // namespace GalerkinKernels
 
 
@@ -192,28 +201,32 @@ namespace Signorini
       {
         for (const unsigned int column : row.columns)
           row.place[column] = 0;
-        const auto  ranges    = matrix.ranges(i);
-        std::size_t n_terms   = 0;
-        bool        is_scalar = true;
+        const auto  ranges  = matrix.ranges(i);
+        std::size_t n_terms = 0;
         for (const BlockRange &range : ranges)
           for (std::size_t k = range.begin; k < range.end; ++k)
-            {
-              const unsigned int j = matrix.column(k);
-              n_terms += transfer.row_end(j) - transfer.row_begin(j);
-              is_scalar = is_scalar && transfer.row_blocks(j) == nullptr && transfer.plane(j) == nullptr;
-            }
+            n_terms += transfer.row_end(matrix.column(k)) - transfer.row_begin(matrix.column(k));
         row.columns.resize(n_terms);
-        row.blocks.resize(n_entries * (n_terms + 1));
+        // Never made shorter: growing again would fill it with zeros.
+        if (row.blocks.size() < n_entries * (n_terms + 1))
+          row.blocks.resize(n_entries * (n_terms + 1));
         std::fill_n(row.blocks.begin(), n_entries, 0.);
         unsigned int n_columns = 0;
         for (const BlockRange &range : ranges)
-          if (is_scalar)
-            n_columns = GalerkinKernels::multiply_scalar_rows(
-                row.blocks.data(), row.place.data(), row.columns.data(), n_columns, matrix.block_data(),
-                matrix.column_data(), range, transfer.row_start_data(), transfer.column_data(),
-                transfer.weight_data());
-          else
-            multiply_rows(n_columns, matrix, transfer, range);
+          for (std::size_t k = range.begin; k < range.end;)
+            {
+              std::size_t end = k;
+              while (end < range.end && is_scalar(transfer, matrix.column(end)))
+                ++end;
+              if (end > k)
+                n_columns = GalerkinKernels::multiply_scalar_rows(
+                    row.blocks.data(), row.place.data(), row.columns.data(), n_columns, matrix.block_data(),
+                    matrix.column_data(), {k, end}, transfer.row_start_data(), transfer.column_data(),
+                    transfer.weight_data());
+              if (end < range.end)
+                multiply_row(n_columns, matrix, transfer, end++);
+              k = end;
+            }
         row.columns.resize(n_columns);
         if (const Vector3 *const n = transfer.plane(i))
           for (std::size_t b = 1; b <= row.columns.size(); ++b)
@@ -236,6 +249,13 @@ namespace Signorini
           if (p == nullptr)
             GalerkinKernels::add_row(coarse.block(range.begin), coarse.column_data() + range.begin,
                                      range.size(), weight, row.blocks.data(), row.place.data(), is_sparse);
+          else if (is_diagonal(*p))
+            {
+              const double w[dim] = {(*p)[0][0], (*p)[1][1], (*p)[2][2]};
+              GalerkinKernels::add_row_times_diagonal(coarse.block(range.begin),
+                                                      coarse.column_data() + range.begin, range.size(), w,
+                                                      row.blocks.data(), row.place.data());
+            }
           else
             for (std::size_t k = range.begin; k < range.end; ++k)
               {
@@ -251,32 +271,48 @@ namespace Signorini
     private:
       static constexpr unsigned int n_entries = GalerkinKernels::n_entries;
 
-      void multiply_rows(unsigned int &n_columns, const NodeBlockMatrix &matrix,
-                         const NodalTransfer &transfer, const BlockRange &range)
+      /// The usual blocks: some directions are fixed.
+      static bool is_diagonal(const Block &block)
       {
-        for (std::size_t k = range.begin; k < range.end; ++k)
+        return block[0][1] == 0. && block[0][2] == 0. && block[1][0] == 0. && block[1][2] == 0. &&
+               block[2][0] == 0. && block[2][1] == 0.;
+      }
+
+      static bool is_scalar(const NodalTransfer &transfer, const unsigned int row)
+      {
+        return transfer.row_blocks(row) == nullptr && transfer.plane(row) == nullptr;
+      }
+
+      /// Adds the product of the block at position k with a row of P that has blocks or a plane.
+      void multiply_row(unsigned int &n_columns, const NodeBlockMatrix &matrix, const NodalTransfer &transfer,
+                        const std::size_t k)
+      {
+        const unsigned int j = matrix.column(k);
+        double             a[n_entries];
+        std::copy_n(matrix.block(k), n_entries, a);
+        if (const Vector3 *const n = transfer.plane(j))
+          for (unsigned int c = 0; c < dim; ++c)
+            project_to_plane(*n, a + dim * c);
+        const Block *const b = transfer.row_blocks(j);
+        for (std::size_t l = transfer.row_begin(j); l < transfer.row_end(j); ++l)
           {
-            const unsigned int j = matrix.column(k);
-            double             a[n_entries];
-            std::copy_n(matrix.block(k), n_entries, a);
-            if (const Vector3 *const n = transfer.plane(j))
-              for (unsigned int c = 0; c < dim; ++c)
-                project_to_plane(*n, a + dim * c);
-            const Block *const b = transfer.row_blocks(j);
-            for (std::size_t l = transfer.row_begin(j); l < transfer.row_end(j); ++l)
+            double *const y = GalerkinKernels::find(row.blocks.data(), row.place.data(), row.columns.data(),
+                                                    n_columns, transfer.column(l));
+            if (b == nullptr)
+              add_scaled_block(y, transfer.weight(l), a);
+            else
               {
-                double *const y = GalerkinKernels::find(row.blocks.data(), row.place.data(),
-                                                        row.columns.data(), n_columns, transfer.column(l));
-                if (b == nullptr)
-                  add_scaled_block(y, transfer.weight(l), a);
-                else
+                const Block &p = b[l - transfer.row_begin(j)];
+                if (is_diagonal(p))
                   {
-                    const Block &p = b[l - transfer.row_begin(j)];
-                    for (unsigned int c = 0; c < dim; ++c)
-                      for (unsigned int d = 0; d < dim; ++d)
-                        y[dim * c + d] +=
-                            a[dim * c] * p[0][d] + a[dim * c + 1] * p[1][d] + a[dim * c + 2] * p[2][d];
+                    const double w[dim] = {p[0][0], p[1][1], p[2][2]};
+                    add_block_times_diagonal(y, a, w);
+                    continue;
                   }
+                for (unsigned int c = 0; c < dim; ++c)
+                  for (unsigned int d = 0; d < dim; ++d)
+                    y[dim * c + d] +=
+                        a[dim * c] * p[0][d] + a[dim * c + 1] * p[1][d] + a[dim * c + 2] * p[2][d];
               }
           }
       }

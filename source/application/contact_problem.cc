@@ -219,7 +219,11 @@ namespace Signorini
     };
     if (!d.free_motions.empty())
       hold_free_bodies(v, problem, *hierarchy, !has_start);
-    const auto solver = make_solver(*hierarchy, parameters.solver);
+    SolverParameters solver_parameters = parameters.solver;
+    // What was slow on one mesh is slow on the next.
+    solver_parameters.starts_with_interface_sweeps =
+        cycle.cycle > 0 && results.cycles[cycle.cycle - 1].nonlinear.needed_interface_sweeps;
+    const auto solver = make_solver(*hierarchy, solver_parameters);
     cycle.nonlinear   = solver->solve(v, problem, monitor);
     if (!d.free_motions.empty())
       remove_free_motions(v, problem, *hierarchy, solver->active());

@@ -11,7 +11,7 @@ namespace Signorini
 
   namespace
   {
-    /// An iteration that leaves more than this of the correction calls for all interface sweeps.
+    /// An iteration that leaves more than this of the correction calls for interface sweeps.
     constexpr double slow_rate = .25;
   } // namespace
 
@@ -105,11 +105,12 @@ namespace Signorini
     const bool             accelerates = parameters.method == SolverMethod::accelerated;
     smoother.set_half_spaces(problem.half_spaces);
     smoother.find_active(v, problem.rhs);
+    // The finest level does without interface sweeps in most problems, but not in all.
+    bool spares_sweeps = accelerates && !problem.semidefinite && !hierarchy.has_slow_interface() &&
+                         !parameters.starts_with_interface_sweeps;
     SmoothingParameters smoothing = parameters.smoothing;
-    // One interface sweep does in most problems, but not in all.
-    if (accelerates && !problem.semidefinite && !hierarchy.has_slow_interface())
-      smoothing.n_interface_sweeps = std::min(smoothing.n_interface_sweeps, 1u);
-    cycle.set_interface_sweeps(smoothing.n_interface_sweeps);
+    if (spares_sweeps)
+      smoothing.n_interface_sweeps = 0;
     n_updates = 0;
     conjugate.restart();
 
@@ -171,13 +172,10 @@ namespace Signorini
         v.zero_out_ghost_values();
         z.zero_out_ghost_values();
         v += z;
-        if (!report.history.empty() && norm > slow_rate * report.history.back() &&
-            smoothing.n_interface_sweeps < parameters.smoothing.n_interface_sweeps)
+        if (spares_sweeps && !report.history.empty() && norm > slow_rate * report.history.back())
           {
-            smoothing.n_interface_sweeps = parameters.smoothing.n_interface_sweeps;
-            cycle.set_interface_sweeps(smoothing.n_interface_sweeps);
-            // Directions of another preconditioner.
-            conjugate.restart();
+            spares_sweeps = false;
+            smoothing     = parameters.smoothing;
           }
         // Rounding along motions that cost nothing feeds on itself through old directions.
         if (problem.semidefinite && !report.history.empty() && norm > report.history.back())
@@ -191,6 +189,7 @@ namespace Signorini
       }
     close(report, v, problem, residual);
     report.hierarchy_updates = n_updates;
+    report.needed_interface_sweeps = accelerates && !spares_sweeps;
     return report;
   }
 } // namespace Signorini

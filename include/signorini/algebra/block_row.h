@@ -62,6 +62,42 @@ namespace Signorini
     std::memcpy(y + 4, &y_second, sizeof(Vector4));
     y[8] += weight * x[8];
   }
+
+
+
+  /// y += x diag(w), blocks.
+  inline __attribute__((always_inline)) void add_block_times_diagonal(double *const y, const double *const x,
+                                                                      const double *const w)
+  {
+    Vector4 x_first, x_second, y_first, y_second;
+    std::memcpy(&x_first, x, sizeof(Vector4));
+    std::memcpy(&x_second, x + 4, sizeof(Vector4));
+    std::memcpy(&y_first, y, sizeof(Vector4));
+    std::memcpy(&y_second, y + 4, sizeof(Vector4));
+    y_first += x_first * Vector4{w[0], w[1], w[2], w[0]};
+    y_second += x_second * Vector4{w[1], w[2], w[0], w[1]};
+    std::memcpy(y, &y_first, sizeof(Vector4));
+    std::memcpy(y + 4, &y_second, sizeof(Vector4));
+    y[8] += x[8] * w[2];
+  }
+
+
+
+  /// y += diag(w) x, blocks.
+  inline __attribute__((always_inline)) void add_diagonal_times_block(double *const y, const double *const w,
+                                                                      const double *const x)
+  {
+    Vector4 x_first, x_second, y_first, y_second;
+    std::memcpy(&x_first, x, sizeof(Vector4));
+    std::memcpy(&x_second, x + 4, sizeof(Vector4));
+    std::memcpy(&y_first, y, sizeof(Vector4));
+    std::memcpy(&y_second, y + 4, sizeof(Vector4));
+    y_first += x_first * Vector4{w[0], w[0], w[0], w[1]};
+    y_second += x_second * Vector4{w[1], w[1], w[2], w[2]};
+    std::memcpy(y, &y_first, sizeof(Vector4));
+    std::memcpy(y + 4, &y_second, sizeof(Vector4));
+    y[8] += w[2] * x[8];
+  }
 } // namespace Signorini
 
 #endif

@@ -41,6 +41,8 @@ namespace Signorini
     /// Stop when the energy norm of the correction is below this; 0 for the relative rule.
     double       absolute_tolerance = 0.;
     unsigned int max_iterations     = 100;
+    /// Not to wait until accelerated converges slowly before it takes interface sweeps on the finest level.
+    bool starts_with_interface_sweeps = false;
     /// Measure energy and admissibility after every substep.
     bool check_monotonicity = false;
 

@@ -16,12 +16,6 @@ namespace Signorini
     /// The hierarchy must outlive the object. max_level is the finest level the cycle acts on.
     VCycle(MultigridHierarchy &hierarchy, const SmoothingParameters &smoothing, const unsigned int max_level);
 
-    /// Changes the number of interface sweeps from the next cycle on.
-    void set_interface_sweeps(const unsigned int n)
-    {
-      smoothing.n_interface_sweeps = n;
-    }
-
     /// Collective. correction = (approximate inverse) * defect, on max_level.
     void apply(Vector &correction, const Vector &defect);
 
@@ -41,7 +35,7 @@ namespace Signorini
     void run(const unsigned int level, Vector &solution, const Vector &rhs, Vector *const new_residual);
 
     MultigridHierarchy &hierarchy;
-    SmoothingParameters smoothing;
+    const SmoothingParameters smoothing;
     std::vector<Work>   work;
   };
 } // namespace Signorini
