@@ -171,6 +171,7 @@ namespace Signorini
     smoother.set_half_spaces(problem.half_spaces);
     smoother.find_active(v, problem.rhs);
     set_truncated(problem.half_spaces, smoother.active(), expected_planes, expected_nodes);
+    was_expected = true;
   }
 
 

@@ -104,14 +104,17 @@ namespace Signorini
     ProjectedGaussSeidel  &smoother    = *hierarchy.finest().smoother;
     const bool             accelerates = parameters.method == SolverMethod::accelerated;
     smoother.set_half_spaces(problem.half_spaces);
-    smoother.find_active(v, problem.rhs);
-    // The finest level does without interface sweeps in most problems, but not in all.
-    bool spares_sweeps = accelerates && !problem.semidefinite && !hierarchy.has_slow_interface() &&
-                         !parameters.starts_with_interface_sweeps;
-    SmoothingParameters smoothing = parameters.smoothing;
-    if (spares_sweeps)
-      smoothing.n_interface_sweeps = 0;
-    n_updates = 0;
+    const bool is_good_start = hierarchy.expects_active_set();
+    if (is_good_start)
+      smoother.find_active(v, problem.rhs);
+    else
+      smoother.project(v);
+    // From a good start the finest level does without interface sweeps in most problems once the active set
+    // rests, but not in all.
+    const bool may_spare_sweeps =
+        accelerates && is_good_start && !problem.semidefinite && !hierarchy.has_slow_interface();
+    bool is_slow = parameters.starts_with_interface_sweeps;
+    n_updates    = 0;
     conjugate.restart();
 
     ConvergenceReport report;
@@ -134,13 +137,19 @@ namespace Signorini
     };
     while (goes_on(report))
       {
-        const std::vector<unsigned char> active = smoother.active();
+        const std::vector<unsigned char> active    = smoother.active();
+        SmoothingParameters              smoothing = parameters.smoothing;
+        if (may_spare_sweeps && rests && !is_slow)
+          smoothing.n_interface_sweeps = 0;
         smoother.set_bounds_from(problem.half_spaces, v);
         smoother.smooth_from_zero(z, residual, smoothing, new_residual);
         const double before = energy;
         check(true);
-        bool       keeps_active = smoother.active() == active;
-        const bool searches = !rests && !(accelerates && !problem.semidefinite && all_ranks(keeps_active));
+        bool keeps_active = smoother.active() == active;
+        // A good start shows itself by an active set that rests from the beginning.
+        if (report.history.empty())
+          rests = accelerates && !problem.semidefinite && all_ranks(keeps_active);
+        const bool searches = !rests;
         // Without a search the iteration as a whole lowers the energy, not each step after this one.
         if (!searches)
           energy = before;
@@ -172,11 +181,7 @@ namespace Signorini
         v.zero_out_ghost_values();
         z.zero_out_ghost_values();
         v += z;
-        if (spares_sweeps && !report.history.empty() && norm > slow_rate * report.history.back())
-          {
-            spares_sweeps = false;
-            smoothing     = parameters.smoothing;
-          }
+        is_slow = is_slow || (rests && !report.history.empty() && norm > slow_rate * report.history.back());
         // Rounding along motions that cost nothing feeds on itself through old directions.
         if (problem.semidefinite && !report.history.empty() && norm > report.history.back())
           {
@@ -188,8 +193,8 @@ namespace Signorini
         book_iteration(report, norm, std::sqrt(std::max(0., square)), monitor);
       }
     close(report, v, problem, residual);
-    report.hierarchy_updates = n_updates;
-    report.needed_interface_sweeps = accelerates && !spares_sweeps;
+    report.hierarchy_updates       = n_updates;
+    report.needed_interface_sweeps = is_slow;
     return report;
   }
 } // namespace Signorini

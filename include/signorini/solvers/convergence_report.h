@@ -32,7 +32,8 @@ namespace Signorini
     double rate = std::numeric_limits<double>::quiet_NaN();
     /// How often the truncated hierarchy was updated.
     unsigned int hierarchy_updates = 0;
-    /// Whether accelerated took interface sweeps on the finest level.
+    /// Whether an iteration at rest left so much of the correction that accelerated needs interface sweeps on
+    /// the finest level.
     bool needed_interface_sweeps = false;
     /// What SolverParameters::check_monotonicity found: substeps, the largest rise of the energy (relative to
     /// the square of the energy norm) and the largest violation of a half-space (relative to the largest

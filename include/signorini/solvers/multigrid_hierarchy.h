@@ -60,6 +60,11 @@ namespace Signorini
     /// contact nodes from a start (left as it is), so that the coarser levels are built truncated there.
     void expect_active_set(const ObstacleProblem &problem, const Vector &start);
 
+    bool expects_active_set() const
+    {
+      return was_expected;
+    }
+
     /// Whether interface sweeps alone would be slow on some level (see set_interface()).
     bool has_slow_interface() const
     {
@@ -123,7 +128,7 @@ namespace Signorini
     std::vector<unsigned char>                   truncated;
     /// What expect_active_set() found, until the next level is added (see set_truncated()).
     Vector              expected_planes, expected_nodes;
-    bool                slow_interface = false;
+    bool                was_expected = false, slow_interface = false;
     std::vector<double> scales;
   };
 } // namespace Signorini

@@ -34,9 +34,9 @@ namespace Signorini
     /// @param new_residual null, or where to leave rhs - A solution
     void run(const unsigned int level, Vector &solution, const Vector &rhs, Vector *const new_residual);
 
-    MultigridHierarchy &hierarchy;
+    MultigridHierarchy       &hierarchy;
     const SmoothingParameters smoothing;
-    std::vector<Work>   work;
+    std::vector<Work>         work;
   };
 } // namespace Signorini
 

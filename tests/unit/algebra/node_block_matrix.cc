@@ -16,7 +16,8 @@ namespace
     return std::sin(1. + 7. * i);
   }
 
-  /// Random interpolation from n_coarse to n nodes: up to three parents a node, some rows with 3x3 blocks.
+  /// Random interpolation from n_coarse to n nodes: up to three parents a node, some rows with 3x3 blocks,
+  /// full or diagonal.
   struct RandomTransfer
   {
     NodalTransfer   transfer;
@@ -39,7 +40,10 @@ namespace
               Block block;
               for (unsigned int c = 0; c < 3; ++c)
                 for (unsigned int d = 0; d < 3; ++d)
-                  block[c][d] = i % 4 == 0 ? value(random) : (c == d ? weight : 0.);
+                  block[c][d] = i % 8 == 0   ? value(random)
+                                : c != d     ? 0.
+                                : i % 8 == 4 ? value(random)
+                                             : weight;
               // Some of the rows with blocks are scalar ones in disguise.
               if (i % 4 < 2)
                 blocks[i].push_back(block);
@@ -165,11 +169,11 @@ TEST(NodalTransfer, MarkedRowsAreAllThatDependOnTruncatedRows)
     const Eigen::MatrixXd expected = p.dense.transpose() * c.dense * p.dense;
     EXPECT_LT(RandomMatrix::difference(coarse, expected), 1e-12);
   };
-  // A row with blocks, a scalar row given as blocks, a scalar row.
+  // A row with blocks, with diagonal ones, a scalar row given as blocks, a scalar row.
   const Vector3 normal({.6, 0., .8});
-  for (const NodeIndex row : {8, 13, 18})
+  for (const NodeIndex row : {8, 12, 13, 18})
     p.truncate(nodes, row, normal);
-  update({8, 13, 18});
+  update({8, 12, 13, 18});
   // And back.
   for (const NodeIndex row : {8, 13})
     {

@@ -159,8 +159,11 @@ namespace CubeProblem
   }
 
   /// Galerkin hierarchy with base 2; rows of the nodes on z = 0 are block rows so that they can be truncated,
-  /// turned from normal to normal.
-  inline MultigridHierarchy hierarchy(const unsigned int n, const Normals &normals = downwards)
+  /// turned from normal to normal. With a problem and a start it is built truncated at the active set that
+  /// they let expect.
+  inline MultigridHierarchy hierarchy(const unsigned int n, const Normals &normals = downwards,
+                                      const ObstacleProblem *const   problem = nullptr,
+                                      const Signorini::Vector *const start   = nullptr)
   {
     Grid               grid(n);
     NodeBlockMatrix    matrix = stiffness(grid);
@@ -174,6 +177,8 @@ namespace CubeProblem
         for (NodeIndex p = 0; p < (m + 1) * (m + 1); ++p)
           contact.push_back(p);
         result.set_interface(contact);
+        if (m == n && problem != nullptr)
+          result.expect_active_set(*problem, *start);
         const NodeRows                       rows = import_ghost_rows(partition, interpolation(fine, coarse));
         std::vector<NodalTransfer::BlockRow> block_rows;
         for (unsigned int i = 0; i < partition.n_local(); ++i)

@@ -214,16 +214,23 @@ TEST(ProjectedGaussSeidel, SmoothingHandsOutItsResidual)
 
 
 
+namespace
+{
+  std::vector<double> copy(const NodeBlockMatrix &matrix)
+  {
+    return std::vector<double>(matrix.block(0), matrix.block(matrix.n_owned_blocks()));
+  }
+} // namespace
+
+
+
 // Truncating and releasing nodes must leave no trace in the coarse matrices.
 TEST(MultigridHierarchy, TruncationIsUndone)
 {
-  const CubeProblem::Grid grid(8);
-  MultigridHierarchy      hierarchy   = CubeProblem::hierarchy(8);
-  const auto              half_spaces = CubeProblem::paraboloid(grid);
-  const auto              copy        = [](const NodeBlockMatrix &matrix) {
-    return std::vector<double>(matrix.block(0), matrix.block(matrix.n_owned_blocks()));
-  };
-  const std::vector<double>  before = copy(hierarchy.level(0).matrix);
+  const CubeProblem::Grid    grid(8);
+  MultigridHierarchy         hierarchy   = CubeProblem::hierarchy(8);
+  const auto                 half_spaces = CubeProblem::paraboloid(grid);
+  const std::vector<double>  before      = copy(hierarchy.level(0).matrix);
   std::vector<unsigned char> active(half_spaces.size(), 1);
   EXPECT_TRUE(hierarchy.truncate(half_spaces, active));
   EXPECT_FALSE(hierarchy.truncate(half_spaces, active));
@@ -240,4 +247,36 @@ TEST(MultigridHierarchy, TruncationIsUndone)
     }
   EXPECT_LT(difference, 1e-14 * size);
   EXPECT_GT(dealii::Utilities::MPI::max(change, MPI_COMM_WORLD), .1 * size);
+}
+
+
+
+// Built truncated or truncated afterwards: the same coarse matrices, and nothing left to do for the solver,
+// which has the solution as its start.
+TEST(MultigridHierarchy, IsBuiltTruncatedAtTheExpectedActiveSet)
+{
+  ObstacleProblem problem;
+  problem.half_spaces          = CubeProblem::paraboloid(CubeProblem::Grid(8));
+  MultigridHierarchy hierarchy = CubeProblem::hierarchy(8);
+  hierarchy.finest().matrix.partition().reinit(problem.rhs);
+  Vector v = problem.rhs;
+  make_solver(hierarchy, SolverParameters())->solve(v, problem);
+
+  MultigridHierarchy other = CubeProblem::hierarchy(8, CubeProblem::downwards, &problem, &v);
+  for (unsigned int l = 0; l + 1 < hierarchy.n_levels(); ++l)
+    {
+      const std::vector<double> expected = copy(hierarchy.level(l).matrix),
+                                built    = copy(other.level(l).matrix);
+      ASSERT_EQ(built.size(), expected.size());
+      double difference = 0., size = 0.;
+      for (std::size_t k = 0; k < expected.size(); ++k)
+        {
+          difference = std::max(difference, std::abs(built[k] - expected[k]));
+          size       = std::max(size, std::abs(expected[k]));
+        }
+      EXPECT_LT(difference, 1e-14 * size);
+    }
+  const auto report = make_solver(other, SolverParameters())->solve(v, problem);
+  EXPECT_EQ(report.hierarchy_updates, 0u);
+  EXPECT_EQ(report.active_nodes.front(), 9u);
 }
