@@ -1,10 +1,10 @@
 #!/usr/bin/python3
 """All solvers on the example problems: iterations on every level, and the cost of the finest solve.
 
-usage: solver_table.py PROGRAM [--large] [--tolerance T]
+usage: solver_table.py PROGRAM [--large] [--tolerance T] [--repeat N] [--methods NAME,...]
 
 Costs are those of the finest solve with its hierarchy (spaces and interpolation of the levels, Galerkin products, updates), in seconds and in sweeps (time of a Gauss-Seidel sweep in the same run, method.md,
-section 8). --large refines once more: 0.4 to 0.5 million unknowns (some minutes, 2 GB).
+section 8). With --repeat the smallest of each time over N runs: what others do on the machine only adds. --large refines once more: 0.4 to 0.5 million unknowns (some minutes, 2 GB).
 """
 import argparse
 import json
@@ -33,16 +33,31 @@ def solve(program, prm, settings):
             return json.load(f)
 
 
+def solve_repeatedly(program, prm, settings, n):
+    runs = [solve(program, prm, settings) for _ in range(n)]
+    result = runs[0]
+    last = result['cycles'][-1]
+    for name in last['times_s']:
+        last['times_s'][name] = min(run['cycles'][-1]['times_s'][name] for run in runs)
+    last['sweep_time_s'] = min(run['cycles'][-1]['sweep_time_s'] for run in runs)
+    for name in ('sweep_bytes_per_s', 'read_bytes_per_s'):
+        last[name] = max(run['cycles'][-1][name] for run in runs)
+    return result
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument('program')
     parser.add_argument('--large', action='store_true')
     parser.add_argument('--tolerance', default='1e-12')
+    parser.add_argument('--repeat', type=int, default=1)
+    parser.add_argument('--methods', default=','.join(METHODS))
     options = parser.parse_args()
-    print(f'{"problem":<11}{"dofs":>9}  {"method":<28}{"iterations per level (linear multigrid, with cg)":<80}{"solve":>8}{"sweeps":>8}{"/linear":>9}{"/cg":>7}')
+    print(f'{"problem":<11}{"dofs":>9}  {"method":<28}{"iterations per level (linear multigrid, with cg)":<80}{"solve":>8}{"sweeps":>8}{"/linear":>9}{"/cg":>7}{"GB/s":>7}{"read":>6}')
     for name, prm, settings, large in PROBLEMS:
-        for method in METHODS:
-            s = solve(options.program, prm, (large if options.large else settings) + (f'Solver/Method={method}', f'Solver/Tolerance={options.tolerance}'))
+        for method in options.methods.split(','):
+            s = solve_repeatedly(options.program, prm, (large if options.large else settings) + ('Output/Measure sweeps=true', f'Solver/Method={method}', f'Solver/Tolerance={options.tolerance}'),
+                                 options.repeat)
             last = s['cycles'][-1]
             counts = []
             for c in s['cycles']:
@@ -55,7 +70,7 @@ def main():
             if 'linear' in last and method != 'active set amg':
                 setup = times['levels'] + times['linear_hierarchy']
                 ratios = [f'{time / (setup + times["linear_solve"]):9.2f}', f'{time / (setup + times["linear_cg_solve"]):7.2f}']
-            print(f'{name:<11}{last["dofs"]:>9}  {method:<28}{" ".join(counts):<80}{time:8.2f}{time / last["sweep_time_s"]:8.0f}{ratios[0]}{ratios[1]}', flush=True)
+            print(f'{name:<11}{last["dofs"]:>9}  {method:<28}{" ".join(counts):<80}{time:8.2f}{time / last["sweep_time_s"]:8.0f}{ratios[0]}{ratios[1]}{last["sweep_bytes_per_s"] / 1e9:7.1f}{last["read_bytes_per_s"] / 1e9:6.1f}', flush=True)
 
 
 if __name__ == '__main__':
