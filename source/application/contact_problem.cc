@@ -151,8 +151,9 @@ namespace Signorini
            parameters.bodies[pair.nonmortar_body].young > parameters.bodies[pair.mortar_body].young);
     if (method == SolverMethod::monotone_multigrid)
       options.contact_normals = discretization.normals;
-    // What is measured for a stiff nonmortar side must not depend on the start.
-    if (start != nullptr && !options.has_stiff_nonmortar)
+    // What is measured for a stiff nonmortar side must not depend on the start; free bodies are not where it
+    // is.
+    if (start != nullptr && !options.has_stiff_nonmortar && options.free_motions.empty())
       {
         options.problem = &problem;
         options.start   = start;

@@ -124,9 +124,12 @@ namespace Signorini
       vector->reinit(v);
     matrix.vmult(residual, v);
     residual.sadd(-1., 1., problem.rhs);
-    bool       rests  = false;
-    double     energy = std::numeric_limits<double>::infinity();
-    const auto check  = [&](const bool with_correction) {
+    // Whether active nodes lie on their planes: a shortened step leaves them on the way. The way to the
+    // planes is no linear function of the residual, as conjugate gradients need it.
+    bool       is_on_planes = true;
+    bool       rests        = false;
+    double     energy       = std::numeric_limits<double>::infinity();
+    const auto check        = [&](const bool with_correction) {
       if (!parameters.check_monotonicity)
         return;
       Vector now = v;
@@ -148,7 +151,7 @@ namespace Signorini
         bool keeps_active = smoother.active() == active;
         // A good start shows itself by an active set that rests from the beginning.
         if (report.history.empty())
-          rests = accelerates && !problem.semidefinite && all_ranks(keeps_active);
+          rests = accelerates && is_good_start && !problem.semidefinite && all_ranks(keeps_active);
         const bool searches = !rests;
         // Without a search the iteration as a whole lowers the energy, not each step after this one.
         if (!searches)
@@ -161,7 +164,10 @@ namespace Signorini
 
         product = residual;
         product -= new_residual;
-        rests = keeps_active && accelerates && accelerate(v, residual, z, product, problem.half_spaces);
+        const double length         = searches ? 1. : safe_length(z, product, residual, keeps_active);
+        const bool   goes_to_planes = !is_on_planes && length == 1.;
+        rests                       = keeps_active && accelerates && !goes_to_planes &&
+                accelerate(v, residual, z, product, problem.half_spaces);
         // Before it is shortened: a correction that was cut off does not mean convergence.
         double norm = std::sqrt(std::max(0., z * product));
         if (rests)
@@ -169,7 +175,7 @@ namespace Signorini
         else
           {
             conjugate.restart();
-            const double length = searches ? 1. : safe_length(z, product, residual, keeps_active);
+            is_on_planes = length == 1.;
             if (length == 1.)
               residual.swap(new_residual);
             else

@@ -63,7 +63,8 @@ def certificate(s, equilibrium=1e-8):
 def iterations(s):
     for c in s['cycles']:
         counts = [c[key]['iterations'] for key in ('nonlinear', 'linear', 'linear_cg')]
-        check(counts[0] <= min(counts[1], counts[2] + 5), f'cycle {c["cycle"]}: %d iterations, linear %d, with CG %d' % tuple(counts))
+        # Level 0 alone may take one or two.
+        check(counts[0] <= min(counts[1] + 2, counts[2] + 5), f'cycle {c["cycle"]}: %d iterations, linear %d, with CG %d' % tuple(counts))
         check(c['linear_cg']['difference'] <= 1e-9, f'cycle {c["cycle"]}: linear solution differs by {c["linear_cg"]["difference"]}')
 
 
