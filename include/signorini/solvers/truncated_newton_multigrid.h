@@ -11,14 +11,17 @@ namespace Signorini
 {
   /// Truncated nonsmooth Newton multigrid (Gräser, Sack & Sander 2009): projected smoothing on the finest
   /// level, one linear V-cycle on the coarse spaces truncated at active nodes, projection, exact line
-  /// search, post-smoothing. Without half-spaces this is the linear multigrid.
+  /// search, post-smoothing. (Linear problems: LinearMultigrid.)
   ///
   /// Accelerated: as long as the active set rests, the same iteration is a linear symmetric
   /// preconditioner z = M(v) - v of the residual on the free components, and the step goes along the
   /// A-conjugate direction p = z - (z·Ap_old / p_old·Ap_old) p_old with the exact step length. This
   /// minimizes the energy over v + span(z, p_old), so it never ends above M(v). Where the active set moves
-  /// or p leaves the admissible set, M(v) is taken. Neither needs a product with A more than the plain
-  /// iteration.
+  /// or p leaves the admissible set, M(v) is taken, shortened if it was not searched and its energy is not
+  /// lower. After that the active nodes are on the way to their planes, and M is no linear map: the first
+  /// M(v) that need not be shortened is taken before conjugate gradients go on. None of this needs a product
+  /// with A more than the plain iteration. From a good start (MultigridHierarchy::expect_active_set()) the
+  /// interface sweeps of the finest level are left out while the active set rests and iterations are fast.
   ///
   /// One iteration is one application of the V-cycle.
   class TruncatedNewtonMultigrid : public ObstacleSolver
