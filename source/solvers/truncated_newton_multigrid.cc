@@ -164,9 +164,11 @@ namespace Signorini
 
         product = residual;
         product -= new_residual;
-        const double length         = searches ? 1. : safe_length(z, product, residual, keeps_active);
-        const bool   goes_to_planes = !is_on_planes && length == 1.;
-        rests                       = keeps_active && accelerates && !goes_to_planes &&
+        const auto step_length = [&] {
+          return searches ? 1. : safe_length(z, product, residual, keeps_active);
+        };
+        const bool goes_to_planes = !is_on_planes && step_length() == 1.;
+        rests                     = keeps_active && accelerates && !goes_to_planes &&
                 accelerate(v, residual, z, product, problem.half_spaces);
         // Before it is shortened: a correction that was cut off does not mean convergence.
         double norm = std::sqrt(std::max(0., z * product));
@@ -175,7 +177,8 @@ namespace Signorini
         else
           {
             conjugate.restart();
-            is_on_planes = length == 1.;
+            const double length = step_length();
+            is_on_planes        = length == 1.;
             if (length == 1.)
               residual.swap(new_residual);
             else
