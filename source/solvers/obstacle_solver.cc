@@ -70,11 +70,12 @@ namespace Signorini
                       "Gauss-Seidel sweeps before the coarse correction.");
     prm.add_parameter("Post-smoothing steps", smoothing.n_post,
                       "Gauss-Seidel sweeps after the coarse correction.");
-    prm.add_parameter("Interface sweeps", smoothing.n_interface_sweeps,
-                      "Extra sweeps over the contact nodes of both sides and one layer of neighbours, on "
-                      "every level, after the pre- and before the post-smoothing; "
-                      "accelerated takes them on the finest level only once an iteration leaves more than a "
-                      "quarter of the correction.");
+    prm.add_parameter(
+        "Interface sweeps", smoothing.n_interface_sweeps,
+        "Extra sweeps over the contact nodes of both sides and one layer of neighbours, on "
+        "every level, after the pre- and before the post-smoothing; "
+        "after a good start accelerated leaves them out on the finest level while the active set "
+        "rests, until an iteration leaves more than a quarter of the correction.");
     prm.add_parameter("Tolerance", tolerance,
                       "Stop when the energy norm of the correction of an iteration is below this multiple "
                       "of the energy norm of the iterate (no unit).",

@@ -47,20 +47,31 @@ namespace Signorini
   void subtract_transposed_blocks(double *values, const double *blocks, const unsigned int *columns,
                                   const BlockRange range, const double *change);
 
-  /// y[c] += weight * x[c], c < 9.
-  inline __attribute__((always_inline)) void add_scaled_block(double *const y, const double weight,
-                                                              const double *const x)
+  /// y[c] += w[c] * x[c], c < 9: four weights, four more and the last.
+  inline __attribute__((always_inline)) void add_weighted_block(double *const y, const double *const x,
+                                                                const Vector4 &first, const Vector4 &second,
+                                                                const double last)
   {
     Vector4 x_first, x_second, y_first, y_second;
     std::memcpy(&x_first, x, sizeof(Vector4));
     std::memcpy(&x_second, x + 4, sizeof(Vector4));
     std::memcpy(&y_first, y, sizeof(Vector4));
     std::memcpy(&y_second, y + 4, sizeof(Vector4));
-    y_first += weight * x_first;
-    y_second += weight * x_second;
+    y_first += first * x_first;
+    y_second += second * x_second;
     std::memcpy(y, &y_first, sizeof(Vector4));
     std::memcpy(y + 4, &y_second, sizeof(Vector4));
-    y[8] += weight * x[8];
+    y[8] += last * x[8];
+  }
+
+
+
+  /// y += weight * x, blocks.
+  inline __attribute__((always_inline)) void add_scaled_block(double *const y, const double weight,
+                                                              const double *const x)
+  {
+    const Vector4 weights = {weight, weight, weight, weight};
+    add_weighted_block(y, x, weights, weights, weight);
   }
 
 
@@ -69,16 +80,7 @@ namespace Signorini
   inline __attribute__((always_inline)) void add_block_times_diagonal(double *const y, const double *const x,
                                                                       const double *const w)
   {
-    Vector4 x_first, x_second, y_first, y_second;
-    std::memcpy(&x_first, x, sizeof(Vector4));
-    std::memcpy(&x_second, x + 4, sizeof(Vector4));
-    std::memcpy(&y_first, y, sizeof(Vector4));
-    std::memcpy(&y_second, y + 4, sizeof(Vector4));
-    y_first += x_first * Vector4{w[0], w[1], w[2], w[0]};
-    y_second += x_second * Vector4{w[1], w[2], w[0], w[1]};
-    std::memcpy(y, &y_first, sizeof(Vector4));
-    std::memcpy(y + 4, &y_second, sizeof(Vector4));
-    y[8] += x[8] * w[2];
+    add_weighted_block(y, x, Vector4{w[0], w[1], w[2], w[0]}, Vector4{w[1], w[2], w[0], w[1]}, w[2]);
   }
 
 
@@ -87,16 +89,7 @@ namespace Signorini
   inline __attribute__((always_inline)) void add_diagonal_times_block(double *const y, const double *const w,
                                                                       const double *const x)
   {
-    Vector4 x_first, x_second, y_first, y_second;
-    std::memcpy(&x_first, x, sizeof(Vector4));
-    std::memcpy(&x_second, x + 4, sizeof(Vector4));
-    std::memcpy(&y_first, y, sizeof(Vector4));
-    std::memcpy(&y_second, y + 4, sizeof(Vector4));
-    y_first += x_first * Vector4{w[0], w[0], w[0], w[1]};
-    y_second += x_second * Vector4{w[1], w[1], w[2], w[2]};
-    std::memcpy(y, &y_first, sizeof(Vector4));
-    std::memcpy(y + 4, &y_second, sizeof(Vector4));
-    y[8] += w[2] * x[8];
+    add_weighted_block(y, x, Vector4{w[0], w[0], w[0], w[1]}, Vector4{w[1], w[1], w[2], w[2]}, w[2]);
   }
 } // namespace Signorini
 

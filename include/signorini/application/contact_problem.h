@@ -132,7 +132,8 @@ namespace Signorini
     void         use_nodal_gaps(PairCoupling &coupling, const ContactPair &pair) const;
     unsigned int choose_nonmortar(const PairDefinition &definition, const ContactSurface (&surfaces)[2]);
     void         solve_cycle(CycleResult &cycle);
-    /// Those of the nodes that a rank owns; gaps as BasisTransformation::reduce_gaps() gives them.
+    /// Half-spaces of the contact nodes that a rank owns; gaps as BasisTransformation::reduce_gaps() gives
+    /// them.
     HalfSpaces make_half_spaces(const NodePartition &partition, const std::vector<double> &gaps) const;
     /// @param start null, or what the active set is guessed from
     std::unique_ptr<MultigridHierarchy> make_hierarchy(LinearSystem &&system, const LevelSpaces &levels,

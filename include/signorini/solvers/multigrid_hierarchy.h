@@ -60,6 +60,7 @@ namespace Signorini
     /// contact nodes from a start (left as it is), so that the coarser levels are built truncated there.
     void expect_active_set(const ObstacleProblem &problem, const Vector &start);
 
+    /// Whether expect_active_set() was called: there is a good start.
     bool expects_active_set() const
     {
       return was_expected;
