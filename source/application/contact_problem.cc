@@ -153,7 +153,8 @@ namespace Signorini
       options.contact_normals = discretization.normals;
     // What is measured for a stiff nonmortar side must not depend on the start; free bodies are not where it
     // is.
-    if (start != nullptr && !options.has_stiff_nonmortar && options.free_motions.empty())
+    if ((start != nullptr || method == SolverMethod::accelerated) && !options.has_stiff_nonmortar &&
+        options.free_motions.empty())
       {
         options.problem = &problem;
         options.start   = start;

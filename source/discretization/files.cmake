@@ -1,6 +1,7 @@
 signorini_add_layer(discretization
   basis_transformation.cc
   boundary_conditions.cc
+  coarse_contact.cc
   elasticity.cc
   element.cc
   error_indicator.cc

@@ -3,6 +3,7 @@
 
 #include <signorini/algebra/rotation.h>
 #include <signorini/algebra/vector_span.h>
+#include <signorini/discretization/coarse_contact.h>
 #include <signorini/discretization/hexahedron.h>
 #include <signorini/discretization/interpolation_exchange.h>
 #include <signorini/discretization/level_hierarchy.h>
@@ -224,31 +225,6 @@ namespace Signorini
 
 
 
-    /// Normals of coarse contact nodes: means of the fine ones, in the free directions. Zero where nothing is
-    /// left.
-    std::vector<Vector3> coarsen_normals(const std::vector<Vector3> &normals, const InterfaceCoupling &fine,
-                                         const std::vector<NodeIndex> &nodes, const NodeRows &node_rows,
-                                         const InterfaceCoupling      &coarse,
-                                         const std::vector<FixedMask> &coarse_masks)
-    {
-      std::vector<Vector3> result(coarse.n_rows());
-      for (std::size_t p = 0; p < fine.n_rows(); ++p)
-        {
-          const std::size_t row = std::lower_bound(nodes.begin(), nodes.end(), fine.rows[p]) - nodes.begin();
-          for (std::size_t k = node_rows.start[row]; k < node_rows.start[row + 1]; ++k)
-            result[coarse.find(node_rows.columns[k])] += (node_rows.weights[k] * fine.weight[p]) * normals[p];
-        }
-      for (std::size_t q = 0; q < result.size(); ++q)
-        {
-          const Vector3 free   = project_free(coarse_masks[q], result[q]);
-          const double  length = free.norm();
-          result[q]            = length > 1e-6 * result[q].norm() ? free / length : Vector3();
-        }
-      return result;
-    }
-
-
-
     /// Builds the rows of P̂ = (I - E S) P (I + E_c S_c) that differ from those of P. With normals the rows of
     /// contact nodes have relative displacements only, turned from the coarse normals to the fine one: what
     /// coarse obstacles need.
@@ -408,9 +384,13 @@ namespace Signorini
   MultigridHierarchy build_hierarchy(LinearSystem &&system, const LevelSpaces &spaces,
                                      const InterfaceCoupling &coupling, const HierarchyOptions &options)
   {
-    MultigridHierarchy               hierarchy(std::move(system.matrix), std::move(system.fixed));
-    InterfaceCoupling                fine    = coupling;
-    std::vector<Vector3>             normals = options.contact_normals;
+    MultigridHierarchy   hierarchy(std::move(system.matrix), std::move(system.fixed));
+    InterfaceCoupling    fine    = coupling;
+    std::vector<Vector3> normals = options.contact_normals;
+    RowHalfSpaces        half_spaces;
+    if (options.problem != nullptr && options.start == nullptr)
+      half_spaces = replicate_half_spaces(options.problem->half_spaces, hierarchy.finest().matrix.partition(),
+                                          coupling.rows);
     const std::vector<unsigned char> none_tied;
     for (unsigned int l = spaces.n_levels() - 1;; --l)
       {
@@ -418,7 +398,7 @@ namespace Signorini
         const std::vector<NodeIndex> nodes     = interface_nodes(fine);
         if (!nodes.empty())
           hierarchy.set_interface(nodes, options.has_stiff_nonmortar);
-        if (l + 1 == spaces.n_levels() && options.problem != nullptr)
+        if (l + 1 == spaces.n_levels() && options.start != nullptr)
           hierarchy.expect_active_set(*options.problem, *options.start);
         if (l == 0)
           break;
@@ -449,6 +429,11 @@ namespace Signorini
               level.contact.nodes.push_back(level.matrix.partition().to_local(coarse.rows[q]));
               level.contact.normals.push_back(coarse_normals[q]);
             }
+        if (!half_spaces.normals.empty())
+          {
+            half_spaces       = inject_half_spaces(half_spaces, fine, nodes, node_rows, coarse, coarse_masks);
+            level.half_spaces = own_half_spaces(half_spaces, coarse.rows, level.matrix.partition());
+          }
         fine    = std::move(coarse);
         normals = std::move(coarse_normals);
       }

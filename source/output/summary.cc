@@ -74,6 +74,13 @@ namespace Signorini
       json.begin('{', "nonlinear");
       write_solver(json, cycle.nonlinear);
       json.number("hierarchy_updates", cycle.nonlinear.hierarchy_updates);
+      if (!cycle.nonlinear.start_iterations.empty())
+        {
+          json.begin('[', "start_iterations");
+          for (const unsigned int n : cycle.nonlinear.start_iterations)
+            json.number("", n);
+          json.end(']');
+        }
       json.end('}');
       if (cycle.has_linear)
         {

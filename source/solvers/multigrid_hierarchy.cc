@@ -90,8 +90,9 @@ namespace Signorini
     levels.push_back(std::make_unique<MultigridLevel>());
     levels[0]->matrix = std::move(matrix);
     levels[0]->fixed  = std::move(fixed);
-    scales.push_back(diagonal_scale(levels[0]->matrix));
-    eliminate_fixed_components(levels[0]->matrix, levels[0]->fixed, all_rows(levels[0]->matrix), scales[0]);
+    levels[0]->scale  = diagonal_scale(levels[0]->matrix);
+    eliminate_fixed_components(levels[0]->matrix, levels[0]->fixed, all_rows(levels[0]->matrix),
+                               levels[0]->scale);
     levels[0]->smoother = std::make_unique<ProjectedGaussSeidel>(levels[0]->matrix);
   }
 
@@ -113,8 +114,8 @@ namespace Signorini
     reinit_galerkin(level.matrix, fine, level.to_finer, owned_coarse);
     level.fixed = import_ghost_masks(level.matrix.partition(), fixed);
     compute_galerkin(level.matrix, fine, level.to_finer);
-    scales.push_back(diagonal_scale(level.matrix));
-    eliminate_fixed_components(level.matrix, level.fixed, all_rows(level.matrix), scales.back());
+    level.scale = diagonal_scale(level.matrix);
+    eliminate_fixed_components(level.matrix, level.fixed, all_rows(level.matrix), level.scale);
     level.smoother = std::make_unique<ProjectedGaussSeidel>(level.matrix);
   }
 
@@ -158,7 +159,33 @@ namespace Signorini
         add_coarser_level(std::move(identity), owned, fixed);
         levels.back()->contact = level_zero.contact;
       }
-    level_zero_solver.setup(levels.back()->matrix, level_zero);
+    level_zero_changed = true;
+  }
+
+
+
+  const LevelZeroSolver &MultigridHierarchy::coarse_solver()
+  {
+    if (level_zero_changed)
+      level_zero_solver.setup(levels.back()->matrix, level_zero);
+    level_zero_changed = false;
+    return level_zero_solver;
+  }
+
+
+
+  std::unique_ptr<MultigridLevel> MultigridHierarchy::remove_finest()
+  {
+    std::unique_ptr<MultigridLevel> level = std::move(levels.front());
+    levels.erase(levels.begin());
+    return level;
+  }
+
+
+
+  void MultigridHierarchy::restore_finest(std::unique_ptr<MultigridLevel> level)
+  {
+    levels.insert(levels.begin(), std::move(level));
   }
 
 
@@ -180,7 +207,8 @@ namespace Signorini
                                          const std::vector<unsigned char> &active, Vector &planes,
                                          Vector &changed)
   {
-    const NodePartition &partition = levels[0]->matrix.partition();
+    const NodePartition        &partition = levels[0]->matrix.partition();
+    std::vector<unsigned char> &truncated = levels[0]->truncated;
     truncated.resize(half_spaces.size(), 0);
     partition.reinit(planes);
     partition.reinit(changed);
@@ -237,10 +265,10 @@ namespace Signorini
         for (unsigned int i = 0; i < level.matrix.n_rows(); ++i)
           if (marked[i])
             rows.push_back(i);
-        eliminate_fixed_components(level.matrix, level.fixed, rows, scales[l]);
+        eliminate_fixed_components(level.matrix, level.fixed, rows, level.scale);
         level.smoother->update_diagonal(rows);
       }
-    level_zero_solver.setup(levels.back()->matrix, level_zero);
+    level_zero_changed = true;
     return true;
   }
 } // namespace Signorini

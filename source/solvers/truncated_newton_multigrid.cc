@@ -13,6 +13,9 @@ namespace Signorini
   {
     /// An iteration that leaves more than this of the correction calls for interface sweeps.
     constexpr double slow_rate = .25;
+
+    /// Tolerance on the levels that only give a start.
+    constexpr double start_tolerance = 1e-2;
   } // namespace
 
 
@@ -34,6 +37,49 @@ namespace Signorini
   {
     return Utilities::MPI::min(static_cast<int>(condition),
                                hierarchy.finest().matrix.partition().communicator()) != 0;
+  }
+
+
+
+  bool TruncatedNewtonMultigrid::has_nested_start(const Vector &v, const ObstacleProblem &problem) const
+  {
+    if (parameters.method != SolverMethod::accelerated || problem.semidefinite || hierarchy.n_levels() < 3 ||
+        !v.all_zero())
+      return false;
+    const MultigridLevel &below = hierarchy.level(hierarchy.n_levels() - 2);
+    return Utilities::MPI::sum(below.half_spaces.size(), below.matrix.partition().communicator()) > 0;
+  }
+
+
+
+  std::vector<unsigned int> TruncatedNewtonMultigrid::start_below(Vector &v, const ObstacleProblem &problem)
+  {
+    MultigridLevel &below   = hierarchy.level(hierarchy.n_levels() - 2);
+    const auto      nothing = [](const HalfSpaces &half_spaces) {
+      return std::vector<unsigned char>(half_spaces.size(), 0);
+    };
+    // What an earlier solve has left.
+    hierarchy.truncate(problem.half_spaces, nothing(problem.half_spaces));
+    ObstacleProblem problem_below;
+    below.matrix.partition().reinit(problem_below.rhs);
+    restrict_defect(below, problem_below.rhs, problem.rhs);
+    problem_below.half_spaces           = below.half_spaces;
+    SolverParameters parameters_below   = parameters;
+    parameters_below.tolerance          = start_tolerance;
+    parameters_below.absolute_tolerance = 0.;
+    parameters_below.check_monotonicity = false;
+
+    Vector start;
+    below.matrix.partition().reinit(start);
+    std::unique_ptr<MultigridLevel> finest = hierarchy.remove_finest();
+    ConvergenceReport               report =
+        TruncatedNewtonMultigrid(hierarchy, parameters_below).solve(start, problem_below);
+    hierarchy.truncate(problem_below.half_spaces, nothing(problem_below.half_spaces));
+    below.smoother->set_half_spaces(HalfSpaces());
+    hierarchy.restore_finest(std::move(finest));
+    below.to_finer.prolongate(v, start);
+    report.start_iterations.push_back(report.iterations);
+    return report.start_iterations;
   }
 
 
@@ -104,7 +150,13 @@ namespace Signorini
     ProjectedGaussSeidel  &smoother    = *hierarchy.finest().smoother;
     const bool             accelerates = parameters.method == SolverMethod::accelerated;
     smoother.set_half_spaces(problem.half_spaces);
-    const bool is_good_start = hierarchy.expects_active_set();
+    ConvergenceReport report;
+    bool              is_good_start = hierarchy.expects_active_set();
+    if (!is_good_start && has_nested_start(v, problem))
+      {
+        report.start_iterations = start_below(v, problem);
+        is_good_start           = true;
+      }
     if (is_good_start)
       smoother.find_active(v, problem.rhs);
     else
@@ -117,7 +169,6 @@ namespace Signorini
     n_updates    = 0;
     conjugate.restart();
 
-    ConvergenceReport report;
     // One iteration: v + z from v. The residuals are those of v and v + z.
     Vector z, product, residual, new_residual;
     for (Vector *vector : {&z, &product, &residual, &new_residual})

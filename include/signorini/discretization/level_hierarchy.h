@@ -85,8 +85,9 @@ namespace Signorini
     unsigned int               level_zero_steps = 1;
     /// Whether a nonmortar side is stiffer than its mortar side.
     bool has_stiff_nonmortar = false;
-    /// If not null: half-spaces and right hand side on the finest level and a start, from which the active
-    /// set is guessed (MultigridHierarchy::expect_active_set()).
+    /// If not null: half-spaces and right hand side on the finest level. With a start, the active set is
+    /// guessed from it (MultigridHierarchy::expect_active_set()); without, the coarser levels get half-spaces
+    /// (MultigridLevel::half_spaces) to make one.
     const ObstacleProblem *problem = nullptr;
     const Vector          *start   = nullptr;
   };

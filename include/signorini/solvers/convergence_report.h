@@ -18,6 +18,8 @@ namespace Signorini
     bool stagnated = false;
     /// Applications of the V-cycle.
     unsigned int iterations = 0;
+    /// The same on the coarser levels, coarsest first, where the start came from there.
+    std::vector<unsigned int> start_iterations;
     /// Cycles of algebraic multigrid on the finest level, where that is the method.
     unsigned int linear_cycles = 0;
     /// Energy norm of the correction, one entry per iteration.

@@ -24,8 +24,15 @@ namespace Signorini
     std::unique_ptr<ProjectedGaussSeidel> smoother;
     /// Contact nodes of a coarse level with their normals, for coarse obstacles (no bounds); may be empty.
     HalfSpaces contact;
+    /// Half-spaces at the contact nodes that a coarse level shares with the finest one: the level as an
+    /// obstacle problem of its own, for a start. May be empty.
+    HalfSpaces half_spaces;
     /// From this level to the finer one; unused on the finest level.
     NodalTransfer to_finer;
+    /// Size of the diagonal before truncation.
+    double scale = 0.;
+    /// One per half-space: where the prolongation to this level is truncated.
+    std::vector<unsigned char> truncated;
   };
 
   /// Collective. coarse_defect += P^T residual, zero in fixed components; level is the coarse one.
@@ -72,13 +79,19 @@ namespace Signorini
       return slow_interface;
     }
 
-    /// Collective. After the last level: sets up the solver of level 0. A hierarchy of a single level gets an
-    /// algebraic copy of it as level 0, so that the truncated problem has an exact coarse solver.
+    /// Collective. After the last level: what the solver of level 0 needs. A hierarchy of a single level gets
+    /// an algebraic copy of it as level 0, so that the truncated problem has an exact coarse solver.
     void finish(LevelZero level_zero = {});
 
     /// Collective. Truncates at the active ones of the half-spaces of the finest level; recomputes only
     /// what changed since the last call. Returns whether anything changed on any rank.
     bool truncate(const HalfSpaces &half_spaces, const std::vector<unsigned char> &active);
+
+    /// Takes the finest level off: the levels below it are a hierarchy themselves. Its truncation must be
+    /// undone before restore_finest().
+    std::unique_ptr<MultigridLevel> remove_finest();
+
+    void restore_finest(std::unique_ptr<MultigridLevel> level);
 
     /// Level 0 is the coarsest.
     unsigned int n_levels() const
@@ -107,10 +120,8 @@ namespace Signorini
       return *levels.back();
     }
 
-    const LevelZeroSolver &coarse_solver() const
-    {
-      return level_zero_solver;
-    }
+    /// Collective. Set up anew if level 0 has changed.
+    const LevelZeroSolver &coarse_solver();
 
   private:
     /// Collective. Makes `active` the truncated nodes; whether anything changes. Unit normals at them and a
@@ -126,11 +137,10 @@ namespace Signorini
     std::vector<std::unique_ptr<MultigridLevel>> levels;
     LevelZero                                    level_zero;
     LevelZeroSolver                              level_zero_solver;
-    std::vector<unsigned char>                   truncated;
+    bool                                         level_zero_changed = false;
     /// What expect_active_set() found, until the next level is added (see set_truncated()).
-    Vector              expected_planes, expected_nodes;
-    bool                was_expected = false, slow_interface = false;
-    std::vector<double> scales;
+    Vector expected_planes, expected_nodes;
+    bool   was_expected = false, slow_interface = false;
   };
 } // namespace Signorini
 

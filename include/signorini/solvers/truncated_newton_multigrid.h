@@ -23,6 +23,9 @@ namespace Signorini
   /// with A more than the plain iteration. From a good start (MultigridHierarchy::expect_active_set()) the
   /// interface sweeps of the finest level are left out while the active set rests and iterations are fast.
   ///
+  /// Accelerated without a start gets one from the levels below, each an obstacle problem of its own with the
+  /// half-spaces of the nodes it shares with the finest (nested iteration without coarser meshes).
+  ///
   /// One iteration is one application of the V-cycle.
   class TruncatedNewtonMultigrid : public ObstacleSolver
   {
@@ -35,6 +38,13 @@ namespace Signorini
     ConvergenceReport solve(Vector &v, const ObstacleProblem &problem, const Monitor &monitor) override;
 
   private:
+    /// Collective. Whether the levels below are obstacle problems that can give a start.
+    bool has_nested_start(const Vector &v, const ObstacleProblem &problem) const;
+
+    /// Collective. v = an approximate solution on the next coarser level. Returns the iterations on the
+    /// coarser levels.
+    std::vector<unsigned int> start_below(Vector &v, const ObstacleProblem &problem);
+
     /// Adds the truncated V-cycle of the residual to the correction z, projected and, if wanted, with exact
     /// line search. The residual may be changed.
     void correct(Vector &z, Vector &residual, const ObstacleProblem &problem, const bool search);

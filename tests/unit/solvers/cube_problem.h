@@ -220,6 +220,14 @@ namespace CubeProblem
     result.finish(level_zero);
     return result;
   }
+
+  /// Gives the coarser levels of hierarchy(n) their half-spaces.
+  inline void set_coarse_half_spaces(MultigridHierarchy                            &hierarchy,
+                                     const std::function<HalfSpaces(const Grid &)> &half_spaces)
+  {
+    for (unsigned int l = 0, n = 2; l + 1 < hierarchy.n_levels(); ++l, n *= 2)
+      hierarchy.level(l).half_spaces = half_spaces(Grid(n));
+  }
 } // namespace CubeProblem
 
 #endif

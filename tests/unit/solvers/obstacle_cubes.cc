@@ -77,6 +77,33 @@ INSTANTIATE_TEST_SUITE_P(Monotone, PuncturedCube,
 
 
 
+// Half-spaces on the coarser levels: their solutions are a better start than zero. A second solve finds the
+// hierarchy as the first one left it, and takes the same way.
+TEST(TruncatedNewtonMultigrid, StartsOnTheCoarserLevels)
+{
+  MultigridHierarchy hierarchy = CubeProblem::hierarchy(32);
+  CubeProblem::set_coarse_half_spaces(hierarchy, CubeProblem::paraboloid);
+  ObstacleProblem problem;
+  problem.half_spaces = CubeProblem::paraboloid(CubeProblem::Grid(32));
+  hierarchy.finest().matrix.partition().reinit(problem.rhs);
+  for (unsigned int run = 0; run < 2; ++run)
+    {
+      Vector v;
+      v.reinit(problem.rhs);
+      const auto report = make_solver(hierarchy, SolverParameters())->solve(v, problem);
+      EXPECT_TRUE(report.converged);
+      EXPECT_LE(report.iterations, 10u);
+      EXPECT_LE(report.hierarchy_updates, 2u + run);
+      ASSERT_EQ(report.start_iterations.size(), 3u);
+      for (const unsigned int n : report.start_iterations)
+        EXPECT_LE(n, 3u);
+      EXPECT_EQ(report.active_nodes.back(), 89u);
+      EXPECT_NEAR(report.energy / 2.360079949137e-4, 1., 1e-11);
+    }
+}
+
+
+
 // The energy must fall and the iterate stay admissible in every projected sweep, also across ranks.
 TEST(ProjectedGaussSeidel, EnergyFallsInEverySweep)
 {

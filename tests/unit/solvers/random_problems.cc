@@ -109,8 +109,8 @@ TEST(RandomProblems, AllSolversGiveTheDenseSolution)
       {SolverMethod::projected_gauss_seidel, "projected gauss seidel"}};
   for (unsigned int i = 0; i < n; ++i)
     {
-      // One or two levels; flat or bent; loads that press, pull or do anything; bounds of both signs.
-      const unsigned int      size = i % 4 == 0 ? 2 : 4;
+      // One to three levels; flat or bent; loads that press, pull or do anything; bounds of both signs.
+      const unsigned int      size = i % 20 == 3 ? 8 : i % 4 == 0 ? 2 : 4;
       const CubeProblem::Grid grid(size);
       const double            bend = i % 2 ? uniform(0., 1.) : 0., phase = uniform(0., 6.);
       const auto              normals = [&](const double x, const double y) {
@@ -130,6 +130,20 @@ TEST(RandomProblems, AllSolversGiveTheDenseSolution)
           problem.half_spaces.normals[p] = normals(index[0] / double(size), index[1] / double(size));
           problem.half_spaces.bounds[p] += shift + uniform(-noise, noise);
         }
+      CubeProblem::set_coarse_half_spaces(hierarchy, [&](const CubeProblem::Grid &coarse) {
+        HalfSpaces         result = CubeProblem::paraboloid(coarse);
+        const unsigned int ratio  = size / coarse.n;
+        for (std::size_t p = 0; p < result.size(); ++p)
+          {
+            const auto      index = coarse.index(result.nodes[p]);
+            const NodeIndex node  = grid.node(ratio * index[0], ratio * index[1], 0);
+            const auto     &nodes = problem.half_spaces.nodes;
+            const auto      fine  = std::find(nodes.begin(), nodes.end(), node) - nodes.begin();
+            result.normals[p]     = problem.half_spaces.normals[fine];
+            result.bounds[p]      = problem.half_spaces.bounds[fine];
+          }
+        return result;
+      });
       hierarchy.finest().matrix.partition().reinit(problem.rhs);
       for (const NodeIndex p : grid.owned)
         if (grid.index(p)[2] < size)
