@@ -135,18 +135,18 @@ namespace Signorini
       {
         if (d.tied[row])
           continue;
-        largest     = std::max(largest, d.pressure[row]);
+        // What is left of the pressure where nothing touches is rounding, and no scale.
+        if (d.active[row])
+          largest = std::max(largest, d.pressure[row]);
         tension     = std::max(tension, -d.pressure[row]);
         penetration = std::max(penetration, -d.opening[row]);
         product     = std::max(product, std::abs(d.pressure[row] * d.opening[row]));
       }
-    // Where the surfaces separate there is no pressure; the residual stress level is then the scale.
-    const double pressure_scale = largest > 0. ? largest : 1.;
-    c.penetration               = u > 0. ? penetration / u : 0.;
-    c.tension                   = largest > 0. ? tension / pressure_scale : 0.;
-    c.complementarity           = u > 0. && largest > 0. ? product / (pressure_scale * u) : 0.;
-    c.energy                    = results.cycles.back().nonlinear.energy;
-    c.potential_energy          = potential_energy(bodies, *d.space, *d.partition, loads, d.displacement);
+    c.penetration      = u > 0. ? penetration / u : 0.;
+    c.tension          = largest > 0. ? tension / largest : 0.;
+    c.complementarity  = u > 0. && largest > 0. ? product / (largest * u) : 0.;
+    c.energy           = results.cycles.back().nonlinear.energy;
+    c.potential_energy = potential_energy(bodies, *d.space, *d.partition, loads, d.displacement);
     results.cycles.back().potential_energy = c.potential_energy;
     for (const PairResult &pair : results.pairs)
       {

@@ -297,6 +297,41 @@ def nested(p):
             check(b['nonlinear']['hierarchy_updates'] <= 3, f'{prm}, level {i}: {b["nonlinear"]["hierarchy_updates"]} changes of the active set')
 
 
+def from_zero(p):
+    """Without coarser meshes solved before: a start from the levels below, in as many iterations and with the same solution."""
+    serial = p.command[0] != 'mpirun'
+    problems = (('S1', 10, 'obstacle/paraboloid.prm', 4 if serial else 3, ()), ('S1, weighted gaps', 10, 'obstacle/paraboloid.prm', 3, ('Pair bottom/Gap=weighted',)),
+                ('M1', 14, 'cubes/cubes.prm', 3 if serial else 2, ()), ('whole interface', 12, 'patch_test/patch_test.prm', 3, ()),
+                # Conjugate gradients take 24 on the linear problem.
+                ('nu = 0.49', 29, 'cubes/cubes.prm', 2, ('Body upper/Poisson ratio=0.49', 'Body lower/Poisson ratio=0.49', 'Body lower/Young modulus=7e3')),
+                ('soft below', 15, 'cubes/cubes.prm', 2, ('Body upper/Young modulus=1', 'Body lower/Young modulus=1e-6', 'Pair interface/Nonmortar=auto')),
+                ('soft above', 15, 'cubes/cubes.prm', 2, ('Body upper/Young modulus=1', 'Body lower/Young modulus=1e6')),
+                ('separation', 15, 'cubes/cubes.prm', 2, ('Pair interface/Initial gap=1',)),
+                ('initial penetration', 15, 'cubes/cubes.prm', 2, ('Pair interface/Initial gap=-0.1',)),
+                ('rough gap', 15, 'cubes/cubes.prm', 2, ('Pair interface/Initial gap=0.01*sin(50*x)*sin(70*y)',)),
+                ('fixed border', 15, 'cubes/cubes.prm', 2, ('Body upper/Dirichlet=top: (0, 0, -0.05); left: (0, 0, 0)', 'Body lower/Dirichlet=bottom: (0, 0, 0); left: (0, 0, 0)')))
+    for text, bound, prm, levels, settings in problems:
+        last = p.solve(prm, f'Refinement/Global cycles={levels}', *settings)['cycles'][-1]
+        fine = ('Refinement/Global cycles=0', f'Refinement/Initial global levels={levels}') + settings
+        s = p.solve(prm, 'Solver/Check monotonicity=true', *fine)
+        # A stiffness a million times that of the other body loses six digits of the equilibrium, with or without a start; a body that moves rigidly has no forces
+        # to measure it by.
+        if text not in ('soft below', 'separation'):
+            certificate(s)
+        cycle = s['cycles'][-1]
+        solver = cycle['nonlinear']
+        check(solver['iterations'] <= bound, f'{text}: {solver["iterations"]} iterations')
+        start = solver.get('start_iterations', [])
+        check(len(start) == levels - 1 and max(start) <= 6, f'{text}: iterations of the start {start}')
+        check(solver['monotonicity']['largest_energy_rise'] <= 1e-13, f'{text}: energy')
+        near(cycle['energy'], last['energy'], 1e-10, f'{text}: energy')
+        check(cycle['active_nodes'] == last['active_nodes'], f'{text}: active nodes')
+        # The methods of the papers go without.
+        other = p.solve(prm, 'Solver/Method=truncated newton multigrid', *fine)['cycles'][-1]
+        check('start_iterations' not in other['nonlinear'], f'{text}: a start for truncated newton multigrid')
+        near(other['energy'], last['energy'], 1e-10, f'{text}: energy of truncated newton multigrid')
+
+
 def free_bodies(p):
     """Bodies that only contact holds."""
     # The weight is carried; sliding and turning on the floor are undetermined and said to be.
