@@ -3,105 +3,216 @@
 
 #include <signorini/algebra/block_row.h>
 
+#if defined(__x86_64__) && defined(__GNUC__)
+#  include <immintrin.h>
+#  define SIGNORINI_AVX2 __attribute__((target("avx2,fma")))
+#endif
+
 namespace Signorini
 {
   namespace
   {
-    /// How many blocks ahead memory is asked for: the hardware's own fetching starts anew in each row.
-    constexpr std::size_t blocks_ahead = 16;
+    /// How many blocks ahead memory is asked for: the hardware's own fetching starts anew on each page.
+    constexpr std::size_t blocks_ahead = 32;
+    constexpr std::size_t line         = 64;
 
-    typedef double Vector2 __attribute__((vector_size(2 * sizeof(double))));
-
-    /// Adds up A_k x_k number by number, without mixing within a block, and sorts the sums out at the end.
-    struct RowSum
+    /// Asks for the two blocks that are read `blocks_ahead` later.
+    template <bool backward>
+    inline __attribute__((always_inline)) void ask_for_two_blocks(const double *const block)
     {
-      Vector4 first = {0., 0., 0., 0.}, second = {0., 0., 0., 0.};
-      double  last = 0.;
+      const char *const p =
+          reinterpret_cast<const char *>(backward ? block - 9 * blocks_ahead - 9 : block + 9 * blocks_ahead);
+      __builtin_prefetch(p);
+      __builtin_prefetch(p + line);
+      __builtin_prefetch(p + 2 * line);
+    }
 
-      inline __attribute__((always_inline)) void add(const double *const a, const double *const x)
+    /// Plain loops, for processors without AVX2.
+    namespace Plain
+    {
+      template <bool backward>
+      void multiply(double *const sums, const double *const blocks, const unsigned int *const columns,
+                    const BlockRange *const ranges, const unsigned int n_ranges, const double *const x)
       {
-        Vector4 a_first, a_second;
-        std::memcpy(&a_first, a, sizeof(Vector4));
-        std::memcpy(&a_second, a + 4, sizeof(Vector4));
-        const Vector4 x_first = {x[0], x[1], x[2], x[0]}, x_second = {x[1], x[2], x[0], x[1]};
-        first += a_first * x_first;
-        second += a_second * x_second;
-        last += a[8] * x[2];
+        for (unsigned int r = 0; r < n_ranges; ++r)
+          {
+            double s[3] = {0., 0., 0.};
+            for (std::size_t i = 0; i < ranges[r].size(); ++i)
+              {
+                const std::size_t   k = backward ? ranges[r].end - 1 - i : ranges[r].begin + i;
+                const double *const a = blocks + 9 * k;
+                const double *const y = x + 3 * static_cast<std::size_t>(columns[k]);
+                if (i % 2 == 0)
+                  ask_for_two_blocks<backward>(a);
+                for (unsigned int c = 0; c < 3; ++c)
+                  s[c] += a[3 * c] * y[0] + a[3 * c + 1] * y[1] + a[3 * c + 2] * y[2];
+              }
+            std::memcpy(sums + 3 * r, s, sizeof(s));
+          }
       }
 
-      inline __attribute__((always_inline)) void write(double *const sum) const
+      void subtract_transposed(double *const values, const double *const blocks,
+                               const unsigned int *const columns, const BlockRange range,
+                               const double *const change)
       {
-        sum[0] = first[0] + first[1] + first[2];
-        sum[1] = first[3] + second[0] + second[1];
-        sum[2] = second[2] + second[3] + last;
+        const double c0 = change[0], c1 = change[1], c2 = change[2];
+        for (std::size_t k = range.begin; k < range.end; ++k)
+          {
+            const double *const a = blocks + 9 * k;
+            double *const       y = values + 3 * static_cast<std::size_t>(columns[k]);
+            for (unsigned int c = 0; c < 3; ++c)
+              y[c] -= c0 * a[c] + c1 * a[3 + c] + c2 * a[6 + c];
+          }
       }
-    };
+    } // namespace Plain
+
+
+
+#ifdef SIGNORINI_AVX2
+    /// Three numbers at once. The rows of a block are read with the number behind them, which meets a zero or
+    /// is not written.
+    namespace Avx2
+    {
+      SIGNORINI_AVX2 inline __m256d load(const double *const x)
+      {
+        return _mm256_maskload_pd(x, _mm256_setr_epi64x(-1, -1, -1, 0));
+      }
+
+      /// Products with the rows of blocks, number by number.
+      struct RowSum
+      {
+        __m256d rows[3];
+
+        SIGNORINI_AVX2 inline void reset()
+        {
+          rows[0] = rows[1] = rows[2] = _mm256_setzero_pd();
+        }
+
+        SIGNORINI_AVX2 inline void add(const double *const a, const double *const x)
+        {
+          const __m256d y = load(x);
+          rows[0]         = _mm256_fmadd_pd(_mm256_loadu_pd(a), y, rows[0]);
+          rows[1]         = _mm256_fmadd_pd(_mm256_loadu_pd(a + 3), y, rows[1]);
+          rows[2]         = _mm256_fmadd_pd(_mm256_loadu_pd(a + 6), y, rows[2]);
+        }
+
+        SIGNORINI_AVX2 inline void write(double *const sum, const RowSum &other) const
+        {
+          const __m256d pairs = _mm256_hadd_pd(_mm256_add_pd(rows[0], other.rows[0]),
+                                               _mm256_add_pd(rows[1], other.rows[1])),
+                        third = _mm256_add_pd(rows[2], other.rows[2]);
+          _mm_storeu_pd(sum, _mm_add_pd(_mm256_castpd256_pd128(pairs), _mm256_extractf128_pd(pairs, 1)));
+          const __m128d low = _mm256_castpd256_pd128(third);
+          _mm_store_sd(sum + 2, _mm_add_sd(_mm_hadd_pd(low, low), _mm256_extractf128_pd(third, 1)));
+        }
+      };
+
+      /// Two sums, so that one need not wait for the other.
+      template <bool backward>
+      SIGNORINI_AVX2 void multiply(double *const sums, const double *const blocks,
+                                   const unsigned int *const columns, const BlockRange *const ranges,
+                                   const unsigned int n_ranges, const double *const x)
+      {
+        for (unsigned int i = 0; i < n_ranges; ++i)
+          {
+            const unsigned int   r    = backward ? n_ranges - 1 - i : i;
+            const std::ptrdiff_t step = backward ? -1 : 1;
+            const std::size_t    n    = ranges[r].size();
+            const double        *a    = blocks + 9 * (backward ? ranges[r].end - 1 : ranges[r].begin);
+            const unsigned int  *c    = columns + (backward ? ranges[r].end - 1 : ranges[r].begin);
+            RowSum               one, other;
+            one.reset();
+            other.reset();
+            for (std::size_t k = 0; k + 1 < n; k += 2, a += 18 * step, c += 2 * step)
+              {
+                ask_for_two_blocks<backward>(a);
+                one.add(a, x + 3 * static_cast<std::size_t>(c[0]));
+                other.add(a + 9 * step, x + 3 * static_cast<std::size_t>(c[step]));
+              }
+            if (n % 2 == 1)
+              one.add(a, x + 3 * static_cast<std::size_t>(c[0]));
+            one.write(sums + 3 * r, other);
+          }
+      }
+
+      SIGNORINI_AVX2 void subtract_transposed(double *const values, const double *const blocks,
+                                              const unsigned int *const columns, const BlockRange range,
+                                              const double *const change)
+      {
+        const __m256d c0 = _mm256_set1_pd(change[0]), c1 = _mm256_set1_pd(change[1]),
+                      c2 = _mm256_set1_pd(change[2]);
+        for (std::size_t k = range.begin; k < range.end; ++k)
+          {
+            const double *const a   = blocks + 9 * k;
+            double *const       y   = values + 3 * static_cast<std::size_t>(columns[k]);
+            __m256d             sum = load(y);
+            sum                     = _mm256_fnmadd_pd(c0, _mm256_loadu_pd(a), sum);
+            sum                     = _mm256_fnmadd_pd(c1, _mm256_loadu_pd(a + 3), sum);
+            sum                     = _mm256_fnmadd_pd(c2, _mm256_loadu_pd(a + 6), sum);
+            _mm_storeu_pd(y, _mm256_castpd256_pd128(sum));
+            _mm_store_sd(y + 2, _mm256_extractf128_pd(sum, 1));
+          }
+      }
+    } // namespace Avx2
+
+    bool has_avx2()
+    {
+      __builtin_cpu_init();
+      return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+    }
+
+    bool uses_avx2 = has_avx2();
+#endif
   } // namespace
 
 
 
-  SIGNORINI_VECTORIZED
+  bool use_avx2([[maybe_unused]] const bool wanted)
+  {
+#ifdef SIGNORINI_AVX2
+    uses_avx2 = wanted && has_avx2();
+    return uses_avx2;
+#else
+    return false;
+#endif
+  }
+
+
+
   void multiply_block_ranges(double *const sums, const double *const blocks,
                              const unsigned int *const columns, const BlockRange *const ranges,
                              const unsigned int n_ranges, const double *const x)
   {
-    for (unsigned int r = 0; r < n_ranges; ++r)
-      {
-        RowSum              row;
-        const double *const a = blocks + 9 * ranges[r].begin;
-        const unsigned int *c = columns + ranges[r].begin;
-        const std::size_t   n = ranges[r].size();
-        for (std::size_t k = 0; k < n; ++k)
-          {
-            __builtin_prefetch(a + 9 * (k + blocks_ahead));
-            row.add(a + 9 * k, x + 3 * static_cast<std::size_t>(c[k]));
-          }
-        row.write(sums + 3 * r);
-      }
+#ifdef SIGNORINI_AVX2
+    if (uses_avx2)
+      return Avx2::multiply<false>(sums, blocks, columns, ranges, n_ranges, x);
+#endif
+    Plain::multiply<false>(sums, blocks, columns, ranges, n_ranges, x);
   }
 
 
 
-  SIGNORINI_VECTORIZED
   void multiply_block_ranges_backward(double *const sums, const double *const blocks,
                                       const unsigned int *const columns, const BlockRange *const ranges,
                                       const unsigned int n_ranges, const double *const x)
   {
-    for (unsigned int r = n_ranges; r-- > 0;)
-      {
-        RowSum              row;
-        const double *const a = blocks + 9 * ranges[r].begin;
-        const unsigned int *c = columns + ranges[r].begin;
-        for (std::size_t k = ranges[r].size(); k-- > 0;)
-          {
-            __builtin_prefetch(a + 9 * k - 9 * blocks_ahead);
-            row.add(a + 9 * k, x + 3 * static_cast<std::size_t>(c[k]));
-          }
-        row.write(sums + 3 * r);
-      }
+#ifdef SIGNORINI_AVX2
+    if (uses_avx2)
+      return Avx2::multiply<true>(sums, blocks, columns, ranges, n_ranges, x);
+#endif
+    Plain::multiply<true>(sums, blocks, columns, ranges, n_ranges, x);
   }
 
 
 
-  SIGNORINI_VECTORIZED
   void subtract_transposed_blocks(double *const values, const double *const blocks,
                                   const unsigned int *const columns, const BlockRange range,
                                   const double *const change)
   {
-    const double  c0 = change[0], c1 = change[1], c2 = change[2];
-    const Vector2 d0 = {c0, c0}, d1 = {c1, c1}, d2 = {c2, c2};
-    for (std::size_t k = range.begin; k < range.end; ++k)
-      {
-        const double *const a = blocks + 9 * k;
-        double *const       y = values + 3 * static_cast<std::size_t>(columns[k]);
-        Vector2             a0, a1, a2, first;
-        std::memcpy(&a0, a, sizeof(Vector2));
-        std::memcpy(&a1, a + 3, sizeof(Vector2));
-        std::memcpy(&a2, a + 6, sizeof(Vector2));
-        std::memcpy(&first, y, sizeof(Vector2));
-        first -= d0 * a0 + d1 * a1 + d2 * a2;
-        std::memcpy(y, &first, sizeof(Vector2));
-        y[2] -= c0 * a[2] + c1 * a[5] + c2 * a[8];
-      }
+#ifdef SIGNORINI_AVX2
+    if (uses_avx2)
+      return Avx2::subtract_transposed(values, blocks, columns, range, change);
+#endif
+    Plain::subtract_transposed(values, blocks, columns, range, change);
   }
 } // namespace Signorini

@@ -111,7 +111,8 @@ namespace Signorini
         columns.insert(columns.end(), part->begin(), part->end());
         *part = std::vector<unsigned int>();
       }
-    values.assign(9 * columns.size(), 0.);
+    // One more than there are: see block_row.h.
+    values.assign(9 * columns.size() + 1, 0.);
 
     foreign_row_of_ghost.assign(nodes->ghosts().size(), numbers::invalid_unsigned_int);
     for (std::size_t f = 0; f < pattern.foreign_rows.size(); ++f)

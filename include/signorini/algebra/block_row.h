@@ -32,7 +32,7 @@ namespace Signorini
   typedef double Vector4 __attribute__((vector_size(4 * sizeof(double))));
 
   /// Kernels on consecutive 3x3 blocks (nine numbers each, row by row). They ask for memory further on
-  /// in the direction of reading.
+  /// in the direction of reading, and read one number behind the last block: there must be one.
   ///
   /// sums[3 r + c] = Σ_k (A_k x_{columns[k]})_c over the blocks k of range r, reading forward.
   void multiply_block_ranges(double *sums, const double *blocks, const unsigned int *columns,
@@ -46,6 +46,10 @@ namespace Signorini
   /// its neighbours, if the matrix is symmetric.
   void subtract_transposed_blocks(double *values, const double *blocks, const unsigned int *columns,
                                   const BlockRange range, const double *change);
+
+  /// Lets the kernels above use AVX2 where the processor has it (they do from the start), or not; whether
+  /// they do now. For tests.
+  bool use_avx2(const bool wanted);
 
   /// y[c] += w[c] * x[c], c < 9: four weights, four more and the last.
   inline __attribute__((always_inline)) void add_weighted_block(double *const y, const double *const x,

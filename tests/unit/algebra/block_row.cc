@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/algebra/block_row.h>
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <vector>
+
+using namespace Signorini;
+
+// The kernels, vectorized and plain, against the definition: rows of all lengths, empty ones too, and nothing
+// written beside the nodes.
+TEST(BlockRow, KernelsFollowTheirDefinition)
+{
+  constexpr unsigned int                 n_nodes = 40;
+  std::mt19937                           random(1);
+  std::uniform_real_distribution<double> number(-1., 1.);
+  std::vector<double>                    blocks(9 * 30 + 1), x(3 * n_nodes);
+  std::vector<unsigned int>              columns;
+  for (double &value : blocks)
+    value = number(random);
+  for (double &value : x)
+    value = number(random);
+  for (unsigned int k = 0; k < 30; ++k)
+    columns.push_back((7 * k + 39) % n_nodes);
+  for (const bool vectorized : {true, false})
+    {
+      use_avx2(vectorized);
+      for (std::size_t n = 0; n <= 9; ++n)
+        for (const bool backward : {false, true})
+          {
+            const BlockRange ranges[2] = {{3, 3 + n}, {30 - n, 30}};
+            double           sums[6];
+            (backward ? multiply_block_ranges_backward
+                      : multiply_block_ranges)(sums, blocks.data(), columns.data(), ranges, 2, x.data());
+            for (unsigned int r = 0; r < 2; ++r)
+              for (unsigned int c = 0; c < 3; ++c)
+                {
+                  double expected = 0.;
+                  for (std::size_t k = ranges[r].begin; k < ranges[r].end; ++k)
+                    for (unsigned int d = 0; d < 3; ++d)
+                      expected += blocks[9 * k + 3 * c + d] * x[3 * columns[k] + d];
+                  EXPECT_NEAR(sums[3 * r + c], expected, 1e-14) << n << " blocks";
+                }
+            const double        change[3] = {.3, -.2, .5};
+            std::vector<double> values = x, expected = x;
+            subtract_transposed_blocks(values.data(), blocks.data(), columns.data(), ranges[1], change);
+            for (std::size_t k = ranges[1].begin; k < ranges[1].end; ++k)
+              for (unsigned int c = 0; c < 3; ++c)
+                for (unsigned int d = 0; d < 3; ++d)
+                  expected[3 * columns[k] + d] -= blocks[9 * k + 3 * c + d] * change[c];
+            for (std::size_t i = 0; i < values.size(); ++i)
+              EXPECT_NEAR(values[i], expected[i], 1e-14) << n << " blocks";
+          }
+    }
+  use_avx2(true);
+}
