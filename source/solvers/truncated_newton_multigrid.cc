@@ -11,8 +11,11 @@ namespace Signorini
 
   namespace
   {
-    /// An iteration that leaves more than this of the correction calls for interface sweeps.
-    constexpr double slow_rate = .25;
+    /// An iteration that leaves more than this of the correction calls for interface sweeps: .25 for V(3,3).
+    double slow_rate(const SmoothingParameters &smoothing)
+    {
+      return 1.5 / std::max(2u, smoothing.n_pre + smoothing.n_post);
+    }
 
     /// Tolerance on the levels that only give a start.
     constexpr double start_tolerance = 1e-2;
@@ -241,7 +244,8 @@ namespace Signorini
         v.zero_out_ghost_values();
         z.zero_out_ghost_values();
         v += z;
-        is_slow = is_slow || (rests && !report.history.empty() && norm > slow_rate * report.history.back());
+        is_slow = is_slow || (rests && !report.history.empty() &&
+                              norm > slow_rate(parameters.smoothing) * report.history.back());
         // Rounding along motions that cost nothing feeds on itself through old directions.
         if (problem.semidefinite && !report.history.empty() && norm > report.history.back())
           {
