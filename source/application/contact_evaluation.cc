@@ -142,9 +142,17 @@ namespace Signorini
         penetration = std::max(penetration, -d.opening[row]);
         product     = std::max(product, std::abs(d.pressure[row] * d.opening[row]));
       }
+    // Where nothing touches: the stress of such displacements over such a length.
+    double young = 0., size = 0.;
+    for (const BodyParameters &body : parameters.bodies)
+      young = std::max(young, body.young);
+    for (const PairCoupling &coupling : d.couplings)
+      for (const Point<3> &x : coupling.positions)
+        size = std::max(size, x.distance(coupling.positions[0]));
+    const double scale = largest > 0. ? largest : size > 0. ? young * u / size : 0.;
     c.penetration      = u > 0. ? penetration / u : 0.;
-    c.tension          = largest > 0. ? tension / largest : 0.;
-    c.complementarity  = u > 0. && largest > 0. ? product / (largest * u) : 0.;
+    c.tension          = scale > 0. ? tension / scale : 0.;
+    c.complementarity  = u > 0. && scale > 0. ? product / (scale * u) : 0.;
     c.energy           = results.cycles.back().nonlinear.energy;
     c.potential_energy = potential_energy(bodies, *d.space, *d.partition, loads, d.displacement);
     results.cycles.back().potential_energy = c.potential_energy;

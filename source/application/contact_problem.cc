@@ -151,8 +151,9 @@ namespace Signorini
            parameters.bodies[pair.nonmortar_body].young > parameters.bodies[pair.mortar_body].young);
     if (method == SolverMethod::monotone_multigrid)
       options.contact_normals = discretization.normals;
-    // What is measured for a stiff nonmortar side must not depend on the start; free bodies are not where it
-    // is.
+    // Corrections of a slow interface, for a stiff nonmortar side, are linear ones on the coarser levels,
+    // which are no obstacle problems then; and what is measured for them must not depend on the start. Free
+    // bodies are not where the start is.
     if ((start != nullptr || method == SolverMethod::accelerated) && !options.has_stiff_nonmortar &&
         options.free_motions.empty())
       {
@@ -290,6 +291,8 @@ namespace Signorini
     MultigridHierarchy hierarchy = build_hierarchy(
         std::move(system), levels, none,
         {{}, parameters.solver.level_zero, d.free_motions, &bodies, {}, parameters.solver.level_zero_steps});
+    // Both linear solves need it.
+    hierarchy.coarse_solver();
     cycle.times["linear_hierarchy"] += time.wall_time();
 
     const NodeBlockMatrix    &matrix = hierarchy.finest().matrix;

@@ -91,18 +91,14 @@ namespace Signorini
   HalfSpaces own_half_spaces(const RowHalfSpaces &half_spaces, const std::vector<NodeIndex> &rows,
                              const NodePartition &partition)
   {
-    std::vector<std::pair<unsigned int, std::size_t>> owned;
+    HalfSpaces result;
     for (std::size_t q = 0; q < rows.size(); ++q)
       if (partition.owns(rows[q]) && half_spaces.normals[q].norm_square() > 0.)
-        owned.emplace_back(partition.to_local(rows[q]), q);
-    std::sort(owned.begin(), owned.end());
-    HalfSpaces result;
-    for (const auto &[node, q] : owned)
-      {
-        result.nodes.push_back(node);
-        result.normals.push_back(half_spaces.normals[q]);
-        result.bounds.push_back(half_spaces.bounds[q]);
-      }
+        {
+          result.nodes.push_back(partition.to_local(rows[q]));
+          result.normals.push_back(half_spaces.normals[q]);
+          result.bounds.push_back(half_spaces.bounds[q]);
+        }
     return result;
   }
 } // namespace Signorini

@@ -174,18 +174,18 @@ namespace Signorini
 
 
 
-  std::unique_ptr<MultigridLevel> MultigridHierarchy::remove_finest()
+  MultigridHierarchy::WithoutFinest::WithoutFinest(MultigridHierarchy &hierarchy)
+    : hierarchy(hierarchy)
+    , finest(std::move(hierarchy.levels.front()))
   {
-    std::unique_ptr<MultigridLevel> level = std::move(levels.front());
-    levels.erase(levels.begin());
-    return level;
+    hierarchy.levels.erase(hierarchy.levels.begin());
   }
 
 
 
-  void MultigridHierarchy::restore_finest(std::unique_ptr<MultigridLevel> level)
+  MultigridHierarchy::WithoutFinest::~WithoutFinest()
   {
-    levels.insert(levels.begin(), std::move(level));
+    hierarchy.levels.insert(hierarchy.levels.begin(), std::move(finest));
   }
 
 

@@ -75,7 +75,7 @@ namespace Signorini
         "Extra sweeps over the contact nodes of both sides and one layer of neighbours, on "
         "every level, after the pre- and before the post-smoothing; "
         "after a good start accelerated leaves them out on the finest level while the active set "
-        "rests, until an iteration leaves more than a quarter of the correction.");
+        "rests, until an iteration is slow (leaves more than a quarter of the correction, for V(3,3)).");
     prm.add_parameter("Tolerance", tolerance,
                       "Stop when the energy norm of the correction of an iteration is below this multiple "
                       "of the energy norm of the iterate (no unit).",

@@ -11,7 +11,8 @@ namespace Signorini
 
   namespace
   {
-    /// An iteration that leaves more than this of the correction calls for interface sweeps: .25 for V(3,3).
+    /// An iteration that leaves more than this of the correction calls for interface sweeps: .25 for V(3,3),
+    /// and more where fewer sweeps leave more in any case.
     double slow_rate(const SmoothingParameters &smoothing)
     {
       return 1.5 / std::max(2u, smoothing.n_pre + smoothing.n_post);
@@ -49,8 +50,12 @@ namespace Signorini
     if (parameters.method != SolverMethod::accelerated || problem.semidefinite || hierarchy.n_levels() < 3 ||
         !v.all_zero())
       return false;
-    const MultigridLevel &below = hierarchy.level(hierarchy.n_levels() - 2);
-    return Utilities::MPI::sum(below.half_spaces.size(), below.matrix.partition().communicator()) > 0;
+    const MultigridLevel     &below = hierarchy.level(hierarchy.n_levels() - 2);
+    const std::vector<double> sizes = {static_cast<double>(problem.half_spaces.size()),
+                                       static_cast<double>(below.half_spaces.size())};
+    std::vector<double>       sums(2);
+    Utilities::MPI::sum(sizes, below.matrix.partition().communicator(), sums);
+    return sums[0] > 0. && sums[1] > 0.;
   }
 
 
@@ -74,12 +79,13 @@ namespace Signorini
 
     Vector start;
     below.matrix.partition().reinit(start);
-    std::unique_ptr<MultigridLevel> finest = hierarchy.remove_finest();
-    ConvergenceReport               report =
-        TruncatedNewtonMultigrid(hierarchy, parameters_below).solve(start, problem_below);
-    hierarchy.truncate(problem_below.half_spaces, nothing(problem_below.half_spaces));
-    below.smoother->set_half_spaces(HalfSpaces());
-    hierarchy.restore_finest(std::move(finest));
+    ConvergenceReport report;
+    {
+      const MultigridHierarchy::WithoutFinest without_finest(hierarchy);
+      report = TruncatedNewtonMultigrid(hierarchy, parameters_below).solve(start, problem_below);
+      hierarchy.truncate(problem_below.half_spaces, nothing(problem_below.half_spaces));
+      below.smoother->set_half_spaces(HalfSpaces());
+    }
     below.to_finer.prolongate(v, start);
     report.start_iterations.push_back(report.iterations);
     return report.start_iterations;

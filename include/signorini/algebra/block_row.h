@@ -8,7 +8,7 @@
 #include <cstring>
 
 // Compiled for processors with AVX2 as well; the loader chooses. Distributions build for the oldest
-// processor.
+// processor. The kernels of block_row.cc are written for AVX2 by hand.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
 #  define SIGNORINI_VECTORIZED __attribute__((target_clones("arch=x86-64-v3", "default")))
 #else
@@ -31,8 +31,8 @@ namespace Signorini
   /// Four numbers at once.
   typedef double Vector4 __attribute__((vector_size(4 * sizeof(double))));
 
-  /// Kernels on consecutive 3x3 blocks (nine numbers each, row by row). They ask for memory further on
-  /// in the direction of reading, and read one number behind the last block: there must be one.
+  /// Kernels on consecutive 3x3 blocks (nine numbers each, row by row). Products ask for memory further on in
+  /// the direction of reading. All read one number behind the last block: there must be one.
   ///
   /// sums[3 r + c] = Σ_k (A_k x_{columns[k]})_c over the blocks k of range r, reading forward.
   void multiply_block_ranges(double *sums, const double *blocks, const unsigned int *columns,

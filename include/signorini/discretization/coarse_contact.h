@@ -40,7 +40,7 @@ namespace Signorini
                                    const InterfaceCoupling      &coarse,
                                    const std::vector<FixedMask> &coarse_masks);
 
-  /// Those at nodes that this rank owns.
+  /// Those at nodes that this rank owns; `rows` are sorted.
   HalfSpaces own_half_spaces(const RowHalfSpaces &half_spaces, const std::vector<NodeIndex> &rows,
                              const NodePartition &partition);
 } // namespace Signorini

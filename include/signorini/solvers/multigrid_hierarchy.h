@@ -24,12 +24,13 @@ namespace Signorini
     std::unique_ptr<ProjectedGaussSeidel> smoother;
     /// Contact nodes of a coarse level with their normals, for coarse obstacles (no bounds); may be empty.
     HalfSpaces contact;
-    /// Half-spaces at the contact nodes that a coarse level shares with the finest one: the level as an
-    /// obstacle problem of its own, for a start. May be empty.
+    /// Half-spaces at the contact nodes that a coarse level shares with the finest one, those of the problem
+    /// that the hierarchy is built for: the level as an obstacle problem of its own, for a start. May be
+    /// empty.
     HalfSpaces half_spaces;
     /// From this level to the finer one; unused on the finest level.
     NodalTransfer to_finer;
-    /// Size of the diagonal before truncation.
+    /// The largest diagonal entry when the level was built.
     double scale = 0.;
     /// One per half-space: where the prolongation to this level is truncated.
     std::vector<unsigned char> truncated;
@@ -87,11 +88,19 @@ namespace Signorini
     /// what changed since the last call. Returns whether anything changed on any rank.
     bool truncate(const HalfSpaces &half_spaces, const std::vector<unsigned char> &active);
 
-    /// Takes the finest level off: the levels below it are a hierarchy themselves. Its truncation must be
-    /// undone before restore_finest().
-    std::unique_ptr<MultigridLevel> remove_finest();
+    /// As long as an object of this class lives its hierarchy lacks the finest level: the levels below are a
+    /// hierarchy themselves. What they were truncated at must be undone before the object goes.
+    class WithoutFinest
+    {
+    public:
+      explicit WithoutFinest(MultigridHierarchy &hierarchy);
+      ~WithoutFinest();
+      WithoutFinest(const WithoutFinest &) = delete;
 
-    void restore_finest(std::unique_ptr<MultigridLevel> level);
+    private:
+      MultigridHierarchy             &hierarchy;
+      std::unique_ptr<MultigridLevel> finest;
+    };
 
     /// Level 0 is the coarsest.
     unsigned int n_levels() const

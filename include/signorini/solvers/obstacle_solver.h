@@ -61,7 +61,7 @@ namespace Signorini
     virtual ~ObstacleSolver() = default;
 
     /// Collective. Solves from the given start, which is projected first. v has the layout of the finest
-    /// level.
+    /// level. Instead of zero, accelerated takes a start from the coarser levels, if they have half-spaces.
     virtual ConvergenceReport solve(Vector &v, const ObstacleProblem &problem, const Monitor &monitor) = 0;
 
     ConvergenceReport solve(Vector &v, const ObstacleProblem &problem)

@@ -20,8 +20,9 @@ namespace Signorini
   /// or p leaves the admissible set, M(v) is taken, shortened if it was not searched and its energy is not
   /// lower. After that the active nodes are on the way to their planes, and M is no linear map: the first
   /// M(v) that need not be shortened is taken before conjugate gradients go on. None of this needs a product
-  /// with A more than the plain iteration. From a good start (MultigridHierarchy::expect_active_set()) the
-  /// interface sweeps of the finest level are left out while the active set rests and iterations are fast.
+  /// with A more than the plain iteration. From a good start (MultigridHierarchy::expect_active_set(), or
+  /// from below) the interface sweeps of the finest level are left out while the active set rests and
+  /// iterations are fast.
   ///
   /// Accelerated without a start gets one from the levels below, each an obstacle problem of its own with the
   /// half-spaces of the nodes it shares with the finest (nested iteration without coarser meshes).

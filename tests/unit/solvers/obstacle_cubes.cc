@@ -86,6 +86,7 @@ TEST(TruncatedNewtonMultigrid, StartsOnTheCoarserLevels)
   ObstacleProblem problem;
   problem.half_spaces = CubeProblem::paraboloid(CubeProblem::Grid(32));
   hierarchy.finest().matrix.partition().reinit(problem.rhs);
+  std::vector<ConvergenceReport> reports;
   for (unsigned int run = 0; run < 2; ++run)
     {
       Vector v;
@@ -93,13 +94,17 @@ TEST(TruncatedNewtonMultigrid, StartsOnTheCoarserLevels)
       const auto report = make_solver(hierarchy, SolverParameters())->solve(v, problem);
       EXPECT_TRUE(report.converged);
       EXPECT_LE(report.iterations, 10u);
-      EXPECT_LE(report.hierarchy_updates, 2u + run);
+      EXPECT_LE(report.hierarchy_updates, 2u);
       ASSERT_EQ(report.start_iterations.size(), 3u);
       for (const unsigned int n : report.start_iterations)
         EXPECT_LE(n, 3u);
       EXPECT_EQ(report.active_nodes.back(), 89u);
       EXPECT_NEAR(report.energy / 2.360079949137e-4, 1., 1e-11);
+      reports.push_back(report);
     }
+  EXPECT_EQ(reports[1].iterations, reports[0].iterations);
+  EXPECT_EQ(reports[1].start_iterations, reports[0].start_iterations);
+  EXPECT_EQ(reports[1].hierarchy_updates, reports[0].hierarchy_updates);
 }
 
 
