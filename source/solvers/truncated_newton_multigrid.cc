@@ -18,6 +18,10 @@ namespace Signorini
       return 1.5 / std::max(2u, smoothing.n_pre + smoothing.n_post);
     }
 
+    /// A longer step along a conjugate direction, in corrections of the V-cycle, is the ratio of two rounding
+    /// errors: a motion that costs nothing.
+    constexpr double longest_step = 100.;
+
     /// Tolerance on the levels that only give a start.
     constexpr double start_tolerance = 1e-2;
   } // namespace
@@ -135,7 +139,7 @@ namespace Signorini
 
 
   bool TruncatedNewtonMultigrid::accelerate(const Vector &v, const Vector &residual, Vector &z, Vector &az,
-                                            const HalfSpaces &half_spaces)
+                                            const ObstacleProblem &problem)
   {
     const ProjectedGaussSeidel &smoother = *hierarchy.finest().smoother;
     conjugate.update(z, az);
@@ -143,7 +147,8 @@ namespace Signorini
     const double  curvature = direction * conjugate.product();
     const double  slope     = residual * direction - smoother.normal_product(residual, direction);
     const double  length    = curvature > 0. ? slope / curvature : 0.;
-    if (!(length > 0.) || length > admissible_step(v, direction, half_spaces))
+    if (!(length > 0.) || (problem.semidefinite && length > longest_step) ||
+        length > admissible_step(v, direction, problem.half_spaces))
       return false;
     z.equ(length, direction);
     az.equ(length, conjugate.product());
@@ -228,8 +233,8 @@ namespace Signorini
           return searches ? 1. : safe_length(z, product, residual, keeps_active);
         };
         const bool goes_to_planes = !is_on_planes && step_length() == 1.;
-        rests                     = keeps_active && accelerates && !goes_to_planes &&
-                accelerate(v, residual, z, product, problem.half_spaces);
+        rests =
+            keeps_active && accelerates && !goes_to_planes && accelerate(v, residual, z, product, problem);
         // Before it is shortened: a correction that was cut off does not mean convergence.
         double norm = std::sqrt(std::max(0., z * product));
         if (rests)

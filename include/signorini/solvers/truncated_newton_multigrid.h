@@ -54,7 +54,7 @@ namespace Signorini
     /// direction, if it is not to be taken. On success z and az are the correction made and its product with
     /// A.
     bool accelerate(const Vector &v, const Vector &residual, Vector &z, Vector &az,
-                    const HalfSpaces &half_spaces);
+                    const ObstacleProblem &problem);
 
     /// Length of z (at most 1) that lowers the energy, for an admissible v + z that was not searched because
     /// the active set seemed to rest. az = A z.
