@@ -161,20 +161,29 @@ namespace Signorini
       return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
     }
 
-    bool uses_avx2 = has_avx2();
+    bool avx2_is_used = has_avx2();
 #endif
   } // namespace
+
+
+
+  bool uses_avx2()
+  {
+#ifdef SIGNORINI_AVX2
+    return avx2_is_used;
+#else
+    return false;
+#endif
+  }
 
 
 
   bool use_avx2([[maybe_unused]] const bool wanted)
   {
 #ifdef SIGNORINI_AVX2
-    uses_avx2 = wanted && has_avx2();
-    return uses_avx2;
-#else
-    return false;
+    avx2_is_used = wanted && has_avx2();
 #endif
+    return uses_avx2();
   }
 
 
@@ -184,7 +193,7 @@ namespace Signorini
                              const unsigned int n_ranges, const double *const x)
   {
 #ifdef SIGNORINI_AVX2
-    if (uses_avx2)
+    if (avx2_is_used)
       return Avx2::multiply<false>(sums, blocks, columns, ranges, n_ranges, x);
 #endif
     Plain::multiply<false>(sums, blocks, columns, ranges, n_ranges, x);
@@ -197,7 +206,7 @@ namespace Signorini
                                       const unsigned int n_ranges, const double *const x)
   {
 #ifdef SIGNORINI_AVX2
-    if (uses_avx2)
+    if (avx2_is_used)
       return Avx2::multiply<true>(sums, blocks, columns, ranges, n_ranges, x);
 #endif
     Plain::multiply<true>(sums, blocks, columns, ranges, n_ranges, x);
@@ -210,7 +219,7 @@ namespace Signorini
                                   const double *const change)
   {
 #ifdef SIGNORINI_AVX2
-    if (uses_avx2)
+    if (avx2_is_used)
       return Avx2::subtract_transposed(values, blocks, columns, range, change);
 #endif
     Plain::subtract_transposed(values, blocks, columns, range, change);

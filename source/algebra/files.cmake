@@ -6,5 +6,6 @@ signorini_add_layer(algebra
   node_block_matrix.cc
   node_partition.cc
   replicated_data.cc
+  rounded_sweep.cc
   vector_span.cc
 )

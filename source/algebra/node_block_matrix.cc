@@ -233,6 +233,28 @@ namespace Signorini
 
 
 
+  void NodeBlockMatrix::subtract_symmetric_product(Vector &dst, const Vector &src) const
+  {
+    src.update_ghost_values();
+    for (unsigned int i = 0; i < n_rows(); ++i)
+      {
+        // Ghosts are the last columns.
+        BlockRange ghosts = {upper_start[i + 1], upper_start[i + 1]};
+        while (ghosts.begin > upper_start[i] && columns[ghosts.begin - 1] >= n_rows())
+          --ghosts.begin;
+        const BlockRange    here[3] = {{i, i + std::size_t(1)}, lower(i), ghosts};
+        const double *const x       = src.begin() + dim * static_cast<std::size_t>(i);
+        double *const       y       = dst.begin() + dim * static_cast<std::size_t>(i);
+        double              sums[9];
+        multiply_block_ranges(sums, values.data(), columns.data(), here, 3, src.begin());
+        for (unsigned int c = 0; c < dim; ++c)
+          y[c] -= sums[c] + sums[3 + c] + sums[6 + c];
+        subtract_transposed_blocks(dst.begin(), values.data(), columns.data(), here[1], x);
+      }
+  }
+
+
+
   std::size_t NodeBlockMatrix::memory_consumption() const
   {
     return values.capacity() * sizeof(double) + columns.capacity() * sizeof(unsigned int) +

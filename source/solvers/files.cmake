@@ -13,7 +13,7 @@ signorini_add_layer(solvers
   strong_blocks.cc
   sweep_measurement.cc
   sweep_schedule.cc
-  sweeps_by_halves.cc
+  rounded_smoothing.cc
   truncated_newton_multigrid.cc
   v_cycle.cc
 )

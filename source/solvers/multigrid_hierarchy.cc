@@ -266,7 +266,7 @@ namespace Signorini
           if (marked[i])
             rows.push_back(i);
         eliminate_fixed_components(level.matrix, level.fixed, rows, level.scale);
-        level.smoother->update_diagonal(rows);
+        level.smoother->update(rows);
       }
     level_zero_changed = true;
     return true;

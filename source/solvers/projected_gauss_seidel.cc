@@ -28,13 +28,15 @@ namespace Signorini
     , all_rows(matrix.partition())
     , blocks(matrix, all_rows)
     , interface_rows(all_rows.subset({}))
-    , reduced_rhs(dim * static_cast<std::size_t>(matrix.partition().n_local()))
+    , rounded(matrix)
     , inverse_diagonal(9 * static_cast<std::size_t>(matrix.n_rows()))
     , half_space_of_row(matrix.n_rows(), -1)
   {
     find_ordered_rows();
     block_rows = blocks.rows();
-    update_diagonal();
+    std::vector<unsigned int> rows(matrix.n_rows());
+    std::iota(rows.begin(), rows.end(), 0u);
+    update(rows);
   }
 
 
@@ -56,16 +58,7 @@ namespace Signorini
 
 
 
-  void ProjectedGaussSeidel::update_diagonal()
-  {
-    std::vector<unsigned int> rows(matrix.n_rows());
-    std::iota(rows.begin(), rows.end(), 0u);
-    update_diagonal(rows);
-  }
-
-
-
-  void ProjectedGaussSeidel::update_diagonal(const std::vector<unsigned int> &rows)
+  void ProjectedGaussSeidel::update(const std::vector<unsigned int> &rows)
   {
     blocks.update(rows);
     if (interface_correction)
@@ -73,6 +66,7 @@ namespace Signorini
     for (const unsigned int row : rows)
       write_block(inverse_diagonal.data() + 9 * static_cast<std::size_t>(row),
                   invert(read_block(matrix.block(matrix.diagonal(row)))));
+    rounded.update(rows, inverse_diagonal.data());
   }
 
 
@@ -158,21 +152,6 @@ namespace Signorini
         run(error, zero, schedule, backward);
       }
     return before > 0. ? std::sqrt(std::max(0., energy() / before)) : 0.;
-  }
-
-
-
-  template <ProjectedGaussSeidel::Direction direction>
-  inline void ProjectedGaussSeidel::relax(double *const v, const double *const rhs, const unsigned int row)
-  {
-    const BlockRange here[2] = {matrix.lower(row), matrix.upper(row)};
-    double           sums[6];
-    // Memory is read in one direction throughout, also within a row.
-    (direction == forward ? multiply_block_ranges : multiply_block_ranges_backward)(
-        sums, matrix.block_data(), matrix.column_data(), here, 2, v);
-    const double s[3] = {rhs[dim * row] - sums[0] - sums[3], rhs[dim * row + 1] - sums[1] - sums[4],
-                         rhs[dim * row + 2] - sums[2] - sums[5]};
-    minimize_row(v + dim * static_cast<std::size_t>(row), s, row);
   }
 
 

@@ -47,8 +47,10 @@ namespace Signorini
   void subtract_transposed_blocks(double *values, const double *blocks, const unsigned int *columns,
                                   const BlockRange range, const double *change);
 
-  /// Lets the kernels above use AVX2 where the processor has it (they do from the start), or not; whether
-  /// they do now. For tests.
+  /// Whether kernels use AVX2: where the processor has it.
+  bool uses_avx2();
+
+  /// Lets them use it or not; whether they do now. For tests.
   bool use_avx2(const bool wanted);
 
   /// y[c] += w[c] * x[c], c < 9: four weights, four more and the last.

@@ -118,6 +118,12 @@ namespace Signorini
       return columns.data();
     }
 
+    /// lower(row).begin of all owned rows, and the end of the last.
+    const std::size_t *lower_start_data() const
+    {
+      return lower_start.data();
+    }
+
     /// The blocks of all positions.
     const double *block_data() const
     {
@@ -184,6 +190,10 @@ namespace Signorini
 
     /// dst = A src. Updates the ghost values of src.
     void vmult(Vector &dst, const Vector &src) const;
+
+    /// dst -= A src on owned rows, if the matrix is symmetric: reads the diagonal, the lower parts and what
+    /// couples to ghosts. Updates the ghost values of src, and leaves those of dst alone.
+    void subtract_symmetric_product(Vector &dst, const Vector &src) const;
 
     std::size_t memory_consumption() const;
 

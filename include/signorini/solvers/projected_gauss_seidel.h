@@ -5,6 +5,7 @@
 #define signorini_solvers_projected_gauss_seidel_h
 
 #include <signorini/algebra/node_block_matrix.h>
+#include <signorini/algebra/rounded_sweep.h>
 #include <signorini/solvers/interface_correction.h>
 #include <signorini/solvers/obstacle_problem.h>
 #include <signorini/solvers/strong_blocks.h>
@@ -38,9 +39,8 @@ namespace Signorini
 
     explicit ProjectedGaussSeidel(const NodeBlockMatrix &matrix);
 
-    /// Recomputes the inverse diagonal blocks of all rows, or of the given ones.
-    void update_diagonal();
-    void update_diagonal(const std::vector<unsigned int> &rows);
+    /// Reads some rows of the matrix again.
+    void update(const std::vector<unsigned int> &rows);
 
     /// Sets the half-spaces; without a call there are none. Collective in nothing.
     void set_half_spaces(const HalfSpaces &half_spaces);
@@ -78,15 +78,13 @@ namespace Signorini
     void smooth(Vector &v, const Vector &rhs, const SmoothingParameters &parameters,
                 const Direction direction);
 
-    /// smooth() forward from v = 0, and residual = rhs - A v, reading half of each row in a sweep: the
-    /// products with nodes visited before are computed, those with the others are kept up to date by passing
-    /// the change of a node on to them while its row is at hand (the matrix is symmetric). After the last
-    /// sweep what is passed on is the residual, and interface sweeps read their rows once, to keep it one.
+    /// smooth() forward from v = 0, and residual = rhs - A v, in single precision (see RoundedSweep): for
+    /// corrections, and right hand sides that go to zero with them. Rows with a half-space and interface
+    /// sweeps are in double precision: at an active node the right hand side is the contact force.
     void smooth_from_zero(Vector &v, const Vector &rhs, const SmoothingParameters &parameters,
                           Vector &residual);
 
-    /// smooth() backward, and residual = rhs - A v (unless it is null), in the same way; the first sweep
-    /// reads whole rows.
+    /// smooth() backward in the same way, and residual = rhs - A v in double precision unless it is null.
     void smooth_to_residual(Vector &v, const Vector &rhs, const SmoothingParameters &parameters,
                             Vector *const residual);
 
@@ -122,14 +120,16 @@ namespace Signorini
     template <Direction direction>
     void relax(double *v, const double *rhs, const unsigned int row);
 
-    /// The same with half a row (see smooth_from_zero()). Reads all of it in the first sweep, which sets up
-    /// reduced_rhs, and at rows that are not ordered.
-    /// @param residual null, or where to leave rhs - A v at ordered rows
-    template <Direction direction>
-    void relax_by_halves(double *v, const double *rhs, const unsigned int row, const bool is_first,
-                         double *residual);
+    /// Whether sweeps in single precision read a row in double precision, as a whole.
+    bool is_exact(const unsigned int row) const
+    {
+      return !is_ordered[row] || half_space_of_row[row] >= 0;
+    }
 
-    /// The same from a residual that is valid at ordered rows, and stays so.
+    /// A sweep in single precision but for exact rows.
+    void run_rounded(Vector &v, const Vector &rhs, const RoundedSweep::Options &options);
+
+    /// The same in double precision from a residual that is valid where rows are not exact, and stays so.
     void relax_with_residual(Vector &v, const Vector &rhs, const unsigned int row, Vector &residual);
 
     /// residual -= A change of a row.
@@ -148,9 +148,6 @@ namespace Signorini
 
     void run(Vector &v, const Vector &rhs, const SweepSchedule &schedule, const Direction direction);
 
-    template <Direction direction>
-    void run_by_halves(Vector &v, const Vector &rhs, const bool is_first, Vector *const residual);
-
     void find_ordered_rows();
 
     /// Interface sweeps, each with the interface correction after it (before it, backward).
@@ -161,7 +158,11 @@ namespace Signorini
 
     void sweep_blocks(Vector &v, const Vector &rhs, const Direction direction);
 
-    /// The residual at rows that are not ordered.
+    /// sweep_blocks() between sweeps in single precision.
+    void sweep_blocks_rounded(Vector &v, const Vector &rhs, const Direction direction,
+                              const bool passes_down);
+
+    /// The residual at exact rows.
     void complete_residual(Vector &residual, const Vector &v, const Vector &rhs);
 
     /// Collective. By how much a forward and a backward sweep over some rows reduce the energy norm of an
@@ -178,9 +179,8 @@ namespace Signorini
     std::unique_ptr<InterfaceCorrection> interface_correction;
     /// Rows of which a forward sweep visits the lower part before and the upper part after them, seen by no
     /// other rank.
-    std::vector<bool> is_ordered;
-    /// Of local nodes: the right hand side less the products with neighbours that a sweep visits later.
-    std::vector<double>        reduced_rhs;
+    std::vector<bool>          is_ordered;
+    RoundedSweep               rounded;
     std::vector<double>        inverse_diagonal;
     HalfSpaces                 constraints;
     std::vector<int>           half_space_of_row;
@@ -211,6 +211,21 @@ namespace Signorini
     y[2]                  = d[6] * s[0] + d[7] * s[1] + d[8] * s[2];
     if (half_space_of_row[row] >= 0)
       project_row(y, half_space_of_row[row]);
+  }
+
+
+
+  template <ProjectedGaussSeidel::Direction direction>
+  inline void ProjectedGaussSeidel::relax(double *const v, const double *const rhs, const unsigned int row)
+  {
+    const BlockRange here[2] = {matrix.lower(row), matrix.upper(row)};
+    double           sums[6];
+    // Memory is read in one direction throughout, also within a row.
+    (direction == forward ? multiply_block_ranges : multiply_block_ranges_backward)(
+        sums, matrix.block_data(), matrix.column_data(), here, 2, v);
+    const double s[3] = {rhs[dim * row] - sums[0] - sums[3], rhs[dim * row + 1] - sums[1] - sums[4],
+                         rhs[dim * row + 2] - sums[2] - sums[5]};
+    minimize_row(v + dim * static_cast<std::size_t>(row), s, row);
   }
 
 

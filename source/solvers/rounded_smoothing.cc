@@ -1,49 +1,40 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
-// Sweeps of a multigrid cycle, which read half of each row.
+// Sweeps of a multigrid cycle, in single precision but for what must not be rounded.
 
 #include <signorini/algebra/block_row.h>
 #include <signorini/solvers/projected_gauss_seidel.h>
 
 namespace Signorini
 {
-  template <ProjectedGaussSeidel::Direction direction>
-  inline void ProjectedGaussSeidel::relax_by_halves(double *const v, const double *const rhs,
-                                                    const unsigned int row, const bool is_first,
-                                                    double *const residual)
+  void ProjectedGaussSeidel::run_rounded(Vector &v, const Vector &rhs, const RoundedSweep::Options &options)
   {
-    const auto visited = [&](const unsigned int i) {
-      return direction == forward ? matrix.lower(i) : matrix.upper(i);
-    };
-    const auto unvisited = [&](const unsigned int i) {
-      return direction == forward ? matrix.upper(i) : matrix.lower(i);
-    };
-    const bool       reads_all = is_first || !is_ordered[row];
-    const BlockRange here[2]   = {visited(row), unvisited(row)};
-    double           sums[6];
-    (direction == forward ? multiply_block_ranges : multiply_block_ranges_backward)(
-        sums, matrix.block_data(), matrix.column_data(), here, reads_all ? 2 : 1, v);
-    const std::size_t i       = dim * static_cast<std::size_t>(row);
-    double *const     reduced = reduced_rhs.data() + i;
-    if (reads_all)
-      for (unsigned int c = 0; c < dim; ++c)
-        reduced[c] = rhs[i + c] - sums[dim + c];
-    const double  s[3]   = {reduced[0] - sums[0], reduced[1] - sums[1], reduced[2] - sums[2]};
-    double *const y      = v + i;
-    const double  old[3] = {y[0], y[1], y[2]};
-    minimize_row(y, s, row);
-    if (residual != nullptr)
+    const std::size_t n_phases = all_rows.phases().size();
+    for (std::size_t phase = 0; phase < n_phases; ++phase)
       {
-        const bool          is_contact = half_space_of_row[row] >= 0;
-        const double *const a          = matrix.block(matrix.diagonal(row));
-        for (unsigned int c = 0; c < dim; ++c)
-          residual[i + c] =
-              is_contact ? s[c] - a[dim * c] * y[0] - a[dim * c + 1] * y[1] - a[dim * c + 2] * y[2] : 0.;
+        v.update_ghost_values();
+        const auto &rows = all_rows.phases()[options.backward ? n_phases - 1 - phase : phase];
+        const auto at = [&](const std::size_t k) { return rows[options.backward ? rows.size() - 1 - k : k]; };
+        for (std::size_t k = 0; k < rows.size();)
+          {
+            const std::size_t begin = k;
+            while (k < rows.size() && !is_exact(at(k)))
+              ++k;
+            rounded.relax(v, rows.data() + (options.backward ? rows.size() - k : begin), k - begin, options);
+            for (; k < rows.size() && is_exact(at(k)); ++k)
+              {
+                double *const y        = v.begin() + dim * static_cast<std::size_t>(at(k));
+                const double  old[dim] = {y[0], y[1], y[2]};
+                relax<forward>(v.begin(), rhs.begin(), at(k));
+                double change[dim];
+                for (unsigned int c = 0; c < dim; ++c)
+                  change[c] = options.passes_all ? y[c] : y[c] - old[c];
+                rounded.set(at(k), y);
+                rounded.pass_down(at(k), change);
+              }
+          }
       }
-    const double change[3] = {y[0] - old[0], y[1] - old[1], y[2] - old[2]};
-    subtract_transposed_blocks(residual != nullptr ? residual : reduced_rhs.data(), matrix.block_data(),
-                               matrix.column_data(), visited(row), change);
   }
 
 
@@ -57,7 +48,7 @@ namespace Signorini
     const double *const r      = residual.begin() + i;
     const double *const a      = matrix.block(matrix.diagonal(row));
     double              s[3]   = {r[0], r[1], r[2]};
-    if (!is_ordered[row])
+    if (is_exact(row))
       {
         double product[3];
         matrix.multiply_row(product, row, v);
@@ -78,18 +69,6 @@ namespace Signorini
   {
     for (const BlockRange &range : matrix.ranges(row))
       subtract_transposed_blocks(residual, matrix.block_data(), matrix.column_data(), range, change);
-  }
-
-
-
-  template <ProjectedGaussSeidel::Direction direction>
-  void ProjectedGaussSeidel::run_by_halves(Vector &v, const Vector &rhs, const bool is_first,
-                                           Vector *const residual)
-  {
-    double *const r = residual != nullptr ? residual->begin() : nullptr;
-    visit(v, all_rows, direction, [&](const unsigned int row) {
-      relax_by_halves<direction>(v.begin(), rhs.begin(), row, is_first, r);
-    });
   }
 
 
@@ -120,7 +99,7 @@ namespace Signorini
     residual.zero_out_ghost_values();
     v.update_ghost_values();
     for (unsigned int row = 0; row < matrix.n_rows(); ++row)
-      if (!is_ordered[row])
+      if (is_exact(row))
         {
           double *const r = residual.begin() + dim * static_cast<std::size_t>(row);
           matrix.multiply_row(r, row, v);
@@ -135,20 +114,23 @@ namespace Signorini
                                               const SmoothingParameters &parameters, Vector &residual)
   {
     v = 0.;
-    residual.copy_locally_owned_data_from(rhs);
-    std::copy_n(rhs.begin(), dim * static_cast<std::size_t>(matrix.n_rows()), reduced_rhs.begin());
+    rounded.start(v, rhs);
     for (unsigned int i = 0; i < parameters.n_pre; ++i)
       {
         const bool is_last = i + 1 == parameters.n_pre;
-        run_by_halves<forward>(v, rhs, false, is_last ? &residual : nullptr);
+        run_rounded(v, rhs, {false, false, is_last});
+        if (!is_last)
+          sweep_blocks_rounded(v, rhs, forward, true);
+      }
+    if (parameters.n_pre == 0)
+      residual.copy_locally_owned_data_from(rhs);
+    else
+      {
+        rounded.get_residual(residual);
         follow_changes(
             block_rows, v, [&] { sweep_blocks(v, rhs, forward); },
             [&](const unsigned int row, const double *const change) {
-              if (is_last)
-                pass_on(residual.begin(), row, change);
-              else
-                subtract_transposed_blocks(reduced_rhs.data(), matrix.block_data(), matrix.column_data(),
-                                           matrix.lower(row), change);
+              pass_on(residual.begin(), row, change);
             });
       }
     for (unsigned int i = 0; i < parameters.n_interface_sweeps; ++i)
@@ -167,30 +149,36 @@ namespace Signorini
 
 
 
+  void ProjectedGaussSeidel::sweep_blocks_rounded(Vector &v, const Vector &rhs, const Direction direction,
+                                                  const bool passes_down)
+  {
+    follow_changes(
+        block_rows, v, [&] { sweep_blocks(v, rhs, direction); },
+        [&](const unsigned int row, const double *const change) {
+          rounded.set(row, v.begin() + dim * static_cast<std::size_t>(row));
+          if (passes_down)
+            rounded.pass_down(row, change);
+        });
+  }
+
+
+
   void ProjectedGaussSeidel::smooth_to_residual(Vector &v, const Vector &rhs,
                                                 const SmoothingParameters &parameters, Vector *const residual)
   {
     smooth_interface(v, rhs, parameters, backward);
+    if (parameters.n_post > 0)
+      rounded.start(v, rhs);
     for (unsigned int i = 0; i < parameters.n_post; ++i)
       {
-        follow_changes(
-            block_rows, v, [&] { sweep_blocks(v, rhs, backward); },
-            [&](const unsigned int row, const double *const change) {
-              // The first sweep reads all anyway.
-              if (i > 0)
-                subtract_transposed_blocks(reduced_rhs.data(), matrix.block_data(), matrix.column_data(),
-                                           matrix.upper(row), change);
-            });
-        run_by_halves<backward>(v, rhs, i == 0, i + 1 == parameters.n_post ? residual : nullptr);
+        // Nothing has been passed on before the first sweep, which passes all on.
+        const bool is_first = i == 0;
+        sweep_blocks_rounded(v, rhs, backward, !is_first);
+        run_rounded(v, rhs, {true, is_first, false});
       }
     if (residual == nullptr)
       return;
-    if (parameters.n_post > 0)
-      complete_residual(*residual, v, rhs);
-    else
-      {
-        matrix.vmult(*residual, v);
-        residual->sadd(-1., 1., rhs);
-      }
+    residual->copy_locally_owned_data_from(rhs);
+    matrix.subtract_symmetric_product(*residual, v);
   }
 } // namespace Signorini

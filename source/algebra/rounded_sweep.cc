@@ -1,0 +1,404 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/algebra/rounded_sweep.h>
+
+#include <cmath>
+
+#if defined(__x86_64__) && defined(__GNUC__)
+#  include <immintrin.h>
+#  define SIGNORINI_AVX2 __attribute__((target("avx2,fma")))
+#endif
+
+namespace Signorini
+{
+  namespace
+  {
+    constexpr unsigned int n_entries = dim * dim;
+
+    /// A row of the arrays.
+    struct Row
+    {
+      Row(const RoundedSweep::Arrays &arrays, const unsigned int row)
+        : n(arrays.lower_start[row + 1] - arrays.lower_start[row])
+        , columns(arrays.columns + arrays.lower_start[row])
+        , blocks(arrays.blocks + n_entries * (arrays.lower_start[row] - arrays.lower_start[0] + row))
+      {
+      }
+
+      std::size_t n_pairs() const
+      {
+        return n > 0 ? (n - 1) / 2 : 0;
+      }
+
+      /// The last block, if there is one.
+      const float *last() const
+      {
+        return blocks + n_entries * (n - 1);
+      }
+
+      const float *inverse() const
+      {
+        return blocks + n_entries * n;
+      }
+
+      std::size_t         n;
+      const unsigned int *columns;
+      const float        *blocks;
+    };
+
+    inline float *node(float *const values, const unsigned int i)
+    {
+      return values + 4 * static_cast<std::size_t>(i);
+    }
+
+    /// Plain loops, for processors without AVX2.
+    namespace Plain
+    {
+      /// Calls action(block, stride of its rows, column) for all blocks of a row.
+      template <typename Action>
+      void for_all_blocks(const Row &row, const Action &action)
+      {
+        std::size_t k = 0;
+        for (; k < 2 * row.n_pairs(); ++k)
+          action(row.blocks + 2 * n_entries * (k / 2) + dim * (k % 2), 2 * dim, row.columns[k]);
+        for (; k < row.n; ++k)
+          action(row.blocks + n_entries * k, dim, row.columns[k]);
+      }
+
+      void pass_down(const RoundedSweep::Arrays &arrays, const Row &row, const float *const change)
+      {
+        for_all_blocks(row, [&](const float *const a, const unsigned int stride, const unsigned int column) {
+          float *const y = node(arrays.reduced, column);
+          for (unsigned int c = 0; c < dim; ++c)
+            for (unsigned int d = 0; d < dim; ++d)
+              y[d] -= a[stride * c + d] * change[c];
+        });
+      }
+
+      void relax(const RoundedSweep::Arrays &arrays, double *const v, const unsigned int *const rows,
+                 const std::size_t n, const RoundedSweep::Options &options)
+      {
+        for (std::size_t k = 0; k < n; ++k)
+          {
+            const unsigned int i = rows[options.backward ? n - 1 - k : k];
+            const Row          row(arrays, i);
+            float *const x = node(arrays.values, i), *const reduced = node(arrays.reduced, i);
+            float s[dim], change[dim];
+            std::copy_n(reduced, dim, s);
+            for_all_blocks(
+                row, [&](const float *const a, const unsigned int stride, const unsigned int column) {
+                  const float *const y = node(arrays.values, column);
+                  for (unsigned int c = 0; c < dim; ++c)
+                    s[c] -= a[stride * c] * y[0] + a[stride * c + 1] * y[1] + a[stride * c + 2] * y[2];
+                });
+            const float *const inverse = row.inverse();
+            for (unsigned int c = 0; c < dim; ++c)
+              {
+                const float y = inverse[c] * s[0] + inverse[dim + c] * s[1] + inverse[2 * dim + c] * s[2];
+                change[c]     = options.passes_all ? y : y - x[c];
+                x[c]          = y;
+                v[dim * static_cast<std::size_t>(i) + c] = arrays.value_unit * y;
+                if (options.keeps_residual)
+                  reduced[c] = 0.f;
+              }
+            pass_down(arrays, row, change);
+          }
+      }
+    } // namespace Plain
+
+
+
+#ifdef SIGNORINI_AVX2
+    /// A row of two blocks at once, six numbers. What is read beside them is not used.
+    namespace Avx2
+    {
+#  define SIGNORINI_INLINE_AVX2 SIGNORINI_AVX2 inline __attribute__((always_inline))
+
+      /// How far ahead memory is asked for, in bytes.
+      constexpr std::ptrdiff_t bytes_ahead = 2304;
+      constexpr std::ptrdiff_t line        = 64;
+
+      /// Σ_j L_row,j x_j over all j < row but the last one, which the sweep has just changed if it goes
+      /// forward. Reads backward in sweeps that go backward: memory is read in one direction throughout.
+      template <bool backward>
+      SIGNORINI_INLINE_AVX2 __m128 multiply_but_last(const RoundedSweep::Arrays &arrays, const Row &row)
+      {
+        const std::size_t    n_pairs = row.n_pairs();
+        const std::ptrdiff_t step    = backward ? -1 : 1;
+        const float         *a       = row.blocks;
+        const unsigned int  *columns = row.columns;
+        if (backward && n_pairs > 0)
+          {
+            a += 2 * n_entries * (n_pairs - 1);
+            columns += 2 * (n_pairs - 1);
+          }
+        __m256 sums[dim] = {_mm256_setzero_ps(), _mm256_setzero_ps(), _mm256_setzero_ps()};
+        for (std::size_t p = 0; p < n_pairs; ++p, a += 18 * step, columns += 2 * step)
+          {
+            const char *const ahead = reinterpret_cast<const char *>(a) + step * bytes_ahead;
+            __builtin_prefetch(ahead);
+            __builtin_prefetch(ahead + line);
+            // The first three numbers of one node, the next three of the other.
+            const __m256 one   = _mm256_castps128_ps256(_mm_loadu_ps(node(arrays.values, columns[0])));
+            const __m256 other = _mm256_loadu_ps(node(arrays.values, columns[1]) - 3);
+            const __m256 both  = _mm256_blend_ps(other, one, 7);
+            sums[0]            = _mm256_fmadd_ps(_mm256_loadu_ps(a), both, sums[0]);
+            sums[1]            = _mm256_fmadd_ps(_mm256_loadu_ps(a + 6), both, sums[1]);
+            sums[2]            = _mm256_fmadd_ps(_mm256_loadu_ps(a + 12), both, sums[2]);
+          }
+        if (row.n > 0 && row.n % 2 == 0)
+          {
+            const float *const single = row.last() - n_entries;
+            const __m256       x      = _mm256_blend_ps(
+                           _mm256_setzero_ps(),
+                           _mm256_castps128_ps256(_mm_loadu_ps(node(arrays.values, row.columns[row.n - 2]))), 7);
+            for (unsigned int c = 0; c < dim; ++c)
+              sums[c] = _mm256_fmadd_ps(_mm256_castps128_ps256(_mm_loadu_ps(single + dim * c)), x, sums[c]);
+          }
+        // Lanes 0, 1, 2 and 3, 4, 5.
+        __m128 s[dim];
+        for (unsigned int c = 0; c < dim; ++c)
+          {
+            const __m128  low = _mm256_castps256_ps128(sums[c]), high = _mm256_extractf128_ps(sums[c], 1);
+            const __m128i other = _mm_alignr_epi8(_mm_castps_si128(high), _mm_castps_si128(low), 12);
+            s[c]                = _mm_blend_ps(_mm_add_ps(low, _mm_castsi128_ps(other)), _mm_setzero_ps(), 8);
+          }
+        return _mm_hadd_ps(_mm_hadd_ps(s[0], s[1]), _mm_hadd_ps(s[2], _mm_setzero_ps()));
+      }
+
+      SIGNORINI_INLINE_AVX2 void subtract(float *const values, const __m128 &change)
+      {
+        _mm_storeu_ps(values, _mm_sub_ps(_mm_loadu_ps(values), change));
+      }
+
+      SIGNORINI_INLINE_AVX2 void subtract_single(const RoundedSweep::Arrays &arrays, const float *const a,
+                                                 const unsigned int column, const __m128 &c0,
+                                                 const __m128 &c1, const __m128 &c2)
+      {
+        __m128 sum = _mm_mul_ps(c0, _mm_loadu_ps(a));
+        sum        = _mm_fmadd_ps(c1, _mm_loadu_ps(a + 3), sum);
+        sum        = _mm_fmadd_ps(c2, _mm_loadu_ps(a + 6), sum);
+        subtract(node(arrays.reduced, column), sum);
+      }
+
+      /// The last block first: a sweep that goes backward needs it next.
+      SIGNORINI_INLINE_AVX2 void pass_down(const RoundedSweep::Arrays &arrays, const Row &row,
+                                           const __m128 &change)
+      {
+        if (row.n == 0)
+          return;
+        const __m128 c0 = _mm_permute_ps(change, 0), c1 = _mm_permute_ps(change, 0x55),
+                     c2 = _mm_permute_ps(change, 0xaa);
+        subtract_single(arrays, row.last(), row.columns[row.n - 1], c0, c1, c2);
+        if (row.n % 2 == 0)
+          subtract_single(arrays, row.last() - n_entries, row.columns[row.n - 2], c0, c1, c2);
+        const __m256 w0 = _mm256_set_m128(c0, c0), w1 = _mm256_set_m128(c1, c1), w2 = _mm256_set_m128(c2, c2);
+        const float *a              = row.blocks;
+        const unsigned int *columns = row.columns;
+        for (std::size_t p = row.n_pairs(); p > 0; --p, a += 18, columns += 2)
+          {
+            __m256 sum        = _mm256_mul_ps(w0, _mm256_loadu_ps(a));
+            sum               = _mm256_fmadd_ps(w1, _mm256_loadu_ps(a + 6), sum);
+            sum               = _mm256_fmadd_ps(w2, _mm256_loadu_ps(a + 12), sum);
+            const __m128  low = _mm256_castps256_ps128(sum), high = _mm256_extractf128_ps(sum, 1);
+            const __m128i other = _mm_alignr_epi8(_mm_castps_si128(high), _mm_castps_si128(low), 12);
+            subtract(node(arrays.reduced, columns[0]), low);
+            subtract(node(arrays.reduced, columns[1]), _mm_castsi128_ps(other));
+          }
+      }
+
+      template <bool backward>
+      SIGNORINI_AVX2 void relax(const RoundedSweep::Arrays &arrays, double *const v, const unsigned int *rows,
+                                const std::size_t n, const RoundedSweep::Options &options)
+      {
+        const std::ptrdiff_t step = backward ? -1 : 1;
+        if (backward)
+          rows += n - 1;
+        __m128 sum = multiply_but_last<backward>(arrays, Row(arrays, *rows));
+        for (std::size_t k = 0; k < n; ++k, rows += step)
+          {
+            const unsigned int i = *rows;
+            const Row          row(arrays, i);
+            float *const x = node(arrays.values, i), *const reduced = node(arrays.reduced, i);
+            const __m128 old = _mm_loadu_ps(x);
+            __m128       s   = _mm_sub_ps(_mm_loadu_ps(reduced), sum);
+            if (row.n > 0)
+              {
+                const float *const a = row.last();
+                const __m128       z = _mm_loadu_ps(node(arrays.values, row.columns[row.n - 1]));
+                s                    = _mm_sub_ps(
+                                       s, _mm_hadd_ps(
+                                              _mm_hadd_ps(_mm_mul_ps(_mm_loadu_ps(a), z), _mm_mul_ps(_mm_loadu_ps(a + 3), z)),
+                                              _mm_hadd_ps(_mm_mul_ps(_mm_loadu_ps(a + 6), z), _mm_setzero_ps())));
+              }
+            const float *const d = row.inverse();
+            __m128             y = _mm_mul_ps(_mm_permute_ps(s, 0), _mm_loadu_ps(d));
+            y                    = _mm_fmadd_ps(_mm_permute_ps(s, 0x55), _mm_loadu_ps(d + 3), y);
+            y                    = _mm_fmadd_ps(_mm_permute_ps(s, 0xaa), _mm_loadu_ps(d + 6), y);
+            // The fourth number stays zero: products rely on it.
+            y = _mm_blend_ps(y, _mm_setzero_ps(), 8);
+            _mm_storeu_ps(x, y);
+            if (options.keeps_residual)
+              _mm_storeu_ps(reduced, _mm_setzero_ps());
+            const __m256d exact = _mm256_mul_pd(_mm256_cvtps_pd(y), _mm256_set1_pd(arrays.value_unit));
+            double *const here  = v + dim * static_cast<std::size_t>(i);
+            _mm_storeu_pd(here, _mm256_castpd256_pd128(exact));
+            _mm_store_sd(here + 2, _mm256_extractf128_pd(exact, 1));
+            // In most cases this needs nothing of this row, and need not wait for it.
+            if (k + 1 < n)
+              sum = multiply_but_last<backward>(arrays, Row(arrays, rows[step]));
+            pass_down(arrays, row, options.passes_all ? y : _mm_sub_ps(y, old));
+          }
+      }
+
+      SIGNORINI_AVX2 void pass_down_change(const RoundedSweep::Arrays &arrays, const Row &row,
+                                           const float *const change)
+      {
+        pass_down(arrays, row, _mm_setr_ps(change[0], change[1], change[2], 0.f));
+      }
+    } // namespace Avx2
+#endif
+
+    /// The largest number on this rank.
+    double largest(const Vector &x)
+    {
+      // Several at once: each comparison waits for the one before.
+      constexpr std::size_t n_chains      = 8;
+      double                max[n_chains] = {};
+      const double *const   begin         = x.begin();
+      const std::size_t     n             = x.locally_owned_size();
+      for (std::size_t i = 0; i < n; ++i)
+        max[i % n_chains] = std::max(max[i % n_chains], std::abs(begin[i]));
+      return *std::max_element(max, max + n_chains);
+    }
+
+    double power_of_two_below(const double x)
+    {
+      return x > 0. ? std::ldexp(1., std::ilogb(x)) : 1.;
+    }
+  } // namespace
+
+
+
+  RoundedSweep::RoundedSweep(const NodeBlockMatrix &matrix)
+    : matrix(matrix)
+    , values(matrix.n_rows())
+    , reduced(matrix.n_rows())
+  {
+    const unsigned int n = matrix.n_rows();
+    if (n == 0)
+      return;
+    double scale = 0.;
+    for (unsigned int row = 0; row < n; ++row)
+      for (unsigned int c = 0; c < dim; ++c)
+        scale = std::max(scale, matrix.block(matrix.diagonal(row))[(dim + 1) * c]);
+    matrix_unit = power_of_two_below(scale);
+    // Registers are filled from behind the last row.
+    blocks.resize(n_entries * (matrix.lower(n - 1).end - matrix.lower(0).begin + n) + 8);
+  }
+
+
+
+  RoundedSweep::Arrays RoundedSweep::arrays()
+  {
+    return {blocks.data(),  matrix.lower_start_data(), matrix.column_data(),
+            values.node(0), reduced.node(0),           value_unit};
+  }
+
+
+
+  void RoundedSweep::update(const std::vector<unsigned int> &rows, const double *const inverse_diagonal)
+  {
+    const double factor = 1. / matrix_unit;
+    const Arrays here   = arrays();
+    for (const unsigned int i : rows)
+      {
+        const Row         row(here, i);
+        float            *a     = blocks.data() + (row.blocks - here.blocks);
+        const std::size_t begin = matrix.lower(i).begin;
+        for (std::size_t k = 0, n_beside; k < row.n; k += n_beside)
+          {
+            n_beside = k < 2 * row.n_pairs() ? 2 : 1;
+            for (unsigned int c = 0; c < dim; ++c)
+              for (std::size_t b = 0; b < n_beside; ++b)
+                for (unsigned int d = 0; d < dim; ++d)
+                  *a++ = static_cast<float>(factor * matrix.block(begin + k + b)[dim * c + d]);
+          }
+        const double *const inverse = inverse_diagonal + n_entries * static_cast<std::size_t>(i);
+        for (unsigned int c = 0; c < dim; ++c)
+          for (unsigned int d = 0; d < dim; ++d)
+            *a++ = static_cast<float>(matrix_unit * inverse[dim * d + c]);
+      }
+  }
+
+
+
+  void RoundedSweep::start(const Vector &v, const Vector &rhs)
+  {
+    value_unit               = power_of_two_below(std::max(largest(v), largest(rhs) / matrix_unit));
+    rhs_unit                 = value_unit * matrix_unit;
+    const double  from_value = 1. / value_unit, from_rhs = 1. / rhs_unit;
+    const double *x = v.begin(), *b = rhs.begin();
+    for (unsigned int row = 0; row < matrix.n_rows(); ++row, x += dim, b += dim)
+      {
+        float *const y = values.node(row), *const r = reduced.node(row);
+        for (unsigned int c = 0; c < dim; ++c)
+          {
+            y[c] = static_cast<float>(from_value * x[c]);
+            r[c] = static_cast<float>(from_rhs * b[c]);
+          }
+      }
+  }
+
+
+
+  void RoundedSweep::relax(Vector &v, const unsigned int *const rows, const std::size_t n,
+                           const Options &options)
+  {
+    if (n == 0)
+      return;
+    const Arrays here = arrays();
+#ifdef SIGNORINI_AVX2
+    if (uses_avx2())
+      return (options.backward ? Avx2::relax<true> : Avx2::relax<false>)(here, v.begin(), rows, n, options);
+#endif
+    Plain::relax(here, v.begin(), rows, n, options);
+  }
+
+
+
+  void RoundedSweep::set(const unsigned int row, const double *const v_row)
+  {
+    for (unsigned int c = 0; c < dim; ++c)
+      values.node(row)[c] = static_cast<float>(v_row[c] / value_unit);
+  }
+
+
+
+  void RoundedSweep::pass_down(const unsigned int row, const double *const change)
+  {
+    const Arrays here = arrays();
+    float        rounded[dim];
+    for (unsigned int c = 0; c < dim; ++c)
+      rounded[c] = static_cast<float>(change[c] / value_unit);
+#ifdef SIGNORINI_AVX2
+    if (uses_avx2())
+      return Avx2::pass_down_change(here, Row(here, row), rounded);
+#endif
+    Plain::pass_down(here, Row(here, row), rounded);
+  }
+
+
+
+  void RoundedSweep::get_residual(Vector &residual) const
+  {
+    double *r = residual.begin();
+    for (unsigned int row = 0; row < matrix.n_rows(); ++row, r += dim)
+      {
+        const float *const rounded = reduced.node(row);
+        for (unsigned int c = 0; c < dim; ++c)
+          r[c] = rhs_unit * rounded[c];
+      }
+  }
+} // namespace Signorini

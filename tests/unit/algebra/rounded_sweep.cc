@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include "random_matrix.h"
+
+#include <signorini/algebra/rounded_sweep.h>
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+
+using namespace Signorini;
+
+namespace
+{
+  /// Rows of this rank that couple to owned nodes only, as a dense matrix times a factor, made dominant so
+  /// that sweeps stay bounded.
+  struct OwnedPart
+  {
+    OwnedPart(NodeBlockMatrix &matrix, const double factor)
+      : dense(Eigen::MatrixXd::Zero(3 * matrix.n_rows(), 3 * matrix.n_rows()))
+    {
+      for (unsigned int i = 0; i < matrix.n_rows(); ++i)
+        {
+          for (unsigned int c = 0; c < 3; ++c)
+            matrix.block(matrix.diagonal(i))[4 * c] += 20.;
+          for (const BlockRange &range : matrix.ranges(i))
+            for (std::size_t k = range.begin; k < range.end; ++k)
+              for (unsigned int c = 0; c < 9; ++c)
+                {
+                  matrix.block(k)[c] *= factor;
+                  if (matrix.column(k) < matrix.n_rows())
+                    dense(3 * i + c / 3, 3 * matrix.column(k) + c % 3) = matrix.block(k)[c];
+                }
+          const Eigen::Matrix3d inverse = dense.block<3, 3>(3 * i, 3 * i).inverse();
+          for (unsigned int c = 0; c < 9; ++c)
+            inverse_diagonal.push_back(inverse(c / 3, c % 3));
+        }
+    }
+
+    void sweep(Eigen::VectorXd &v, const Eigen::VectorXd &rhs, const bool backward) const
+    {
+      const Eigen::Index n = dense.rows() / 3;
+      for (Eigen::Index k = 0; k < n; ++k)
+        {
+          const Eigen::Index i = backward ? n - 1 - k : k;
+          v.segment<3>(3 * i) += dense.block<3, 3>(3 * i, 3 * i)
+                                     .fullPivLu()
+                                     .solve(rhs.segment<3>(3 * i) - dense.middleRows(3 * i, 3) * v);
+        }
+    }
+
+    Eigen::MatrixXd     dense;
+    std::vector<double> inverse_diagonal;
+  };
+} // namespace
+
+
+
+// Against a dense Gauss-Seidel iteration in double precision: from zero and on, forward and backward, with
+// the residual; rows of all lengths, in units at both ends of single precision.
+TEST(RoundedSweep, FollowsGaussSeidel)
+{
+  for (const bool vectorized : {true, false})
+    for (const double factor : {1., 1e-60, 1e60})
+      {
+        use_avx2(vectorized);
+        SCOPED_TRACE((vectorized ? "vectorized, " : "plain, ") + std::to_string(factor));
+        NodeBlockMatrix           matrix = RandomMatrix::make(43, 5).matrix;
+        const OwnedPart           part(matrix, factor);
+        std::vector<unsigned int> rows(matrix.n_rows());
+        std::iota(rows.begin(), rows.end(), 0u);
+        RoundedSweep sweep(matrix);
+        sweep.update(rows, part.inverse_diagonal.data());
+
+        const double    load = 1e-40;
+        Vector          v, rhs, residual;
+        Eigen::VectorXd exact = Eigen::VectorXd::Zero(3 * matrix.n_rows()), exact_rhs = exact;
+        for (Vector *vector : {&v, &rhs, &residual})
+          matrix.partition().reinit(*vector);
+        for (unsigned int i = 0; i < 3 * matrix.n_rows(); ++i)
+          exact_rhs[i] = rhs.local_element(i) = factor * load * std::sin(1. + 7. * i);
+        const auto expect = [&](const Eigen::VectorXd &expected, const Vector &actual, const double scale) {
+          for (unsigned int i = 0; i < 3 * matrix.n_rows(); ++i)
+            ASSERT_NEAR(actual.local_element(i), expected[i], 2e-6 * scale);
+        };
+        sweep.start(v, rhs);
+        for (const bool is_last : {false, false, true})
+          {
+            sweep.relax(v, rows.data(), rows.size(), {false, false, is_last});
+            part.sweep(exact, exact_rhs, false);
+            expect(exact, v, .1 * load);
+          }
+        sweep.get_residual(residual);
+        expect(exact_rhs - part.dense * exact, residual, factor * load);
+
+        // v changes at a node; the first sweep backward passes all on.
+        if (matrix.n_rows() > 3)
+          exact[10] = v.local_element(10) = load;
+        sweep.start(v, rhs);
+        for (const bool is_first : {true, false, false})
+          {
+            sweep.relax(v, rows.data(), rows.size(), {true, is_first, false});
+            part.sweep(exact, exact_rhs, true);
+            expect(exact, v, .1 * load);
+            // Someone else changes v as well.
+            if (matrix.n_rows() > 3)
+              {
+                const double change[3] = {.3 * load, -.2 * load, .1 * load};
+                for (unsigned int c = 0; c < 3; ++c)
+                  exact[9 + c] = v.local_element(9 + c) += change[c];
+                sweep.set(3, v.begin() + 9);
+                sweep.pass_down(3, change);
+              }
+          }
+      }
+  use_avx2(true);
+}
+
+
+
+// The product of a symmetric matrix that reads half of it, over all ranks.
+TEST(NodeBlockMatrix, HalfOfASymmetricMatrixIsEnough)
+{
+  for (const NodeIndex n : {1u, 7u, 60u})
+    {
+      const RandomMatrix::Case c = RandomMatrix::make(n, 11 + n);
+      Vector                   x, y;
+      const NodePartition     &nodes = c.matrix.partition();
+      Eigen::VectorXd          dense_x(3 * n);
+      nodes.reinit(x);
+      nodes.reinit(y);
+      for (unsigned int i = 0; i < 3 * n; ++i)
+        dense_x[i] = std::sin(1. + 7. * i);
+      for (unsigned int i = 0; i < 3 * nodes.n_owned(); ++i)
+        {
+          x.local_element(i) = dense_x[3 * nodes.first_owned() + i];
+          y.local_element(i) = 1.;
+        }
+      c.matrix.subtract_symmetric_product(y, x);
+      const Eigen::VectorXd expected = Eigen::VectorXd::Ones(3 * n) - c.dense * dense_x;
+      for (unsigned int i = 0; i < 3 * nodes.n_owned(); ++i)
+        EXPECT_NEAR(y.local_element(i), expected[3 * nodes.first_owned() + i], 1e-12);
+    }
+}
