@@ -281,6 +281,38 @@ namespace Signorini
 
 
 
+  namespace RoundingKernels
+  {
+    typedef float Float4 __attribute__((vector_size(4 * sizeof(float))));
+
+    /// Writes n blocks times a factor in the order of RoundedSweep::blocks, and a number behind them.
+    SIGNORINI_VECTORIZED
+    void round_blocks(float *to, const double *from, const std::size_t n, const std::size_t n_pairs,
+                      const double factor)
+    {
+      const auto round = [&](const double *const row) {
+        // The fourth number is written over by what comes behind.
+        Vector4 numbers;
+        std::memcpy(&numbers, row, sizeof(numbers));
+        numbers *= factor;
+        const auto rounded = __builtin_convertvector(numbers, Float4);
+        std::memcpy(to, &rounded, sizeof(rounded));
+        to += dim;
+      };
+      for (std::size_t p = 0; p < n_pairs; ++p, from += 2 * n_entries)
+        for (unsigned int c = 0; c < dim; ++c)
+          {
+            round(from + dim * c);
+            round(from + n_entries + dim * c);
+          }
+      for (std::size_t k = 2 * n_pairs; k < n; ++k, from += n_entries)
+        for (unsigned int c = 0; c < dim; ++c)
+          round(from + dim * c);
+    }
+  } // namespace RoundingKernels
+
+
+
   RoundedSweep::RoundedSweep(const NodeBlockMatrix &matrix)
     : matrix(matrix)
     , values(matrix.n_rows())
@@ -294,15 +326,19 @@ namespace Signorini
       for (unsigned int c = 0; c < dim; ++c)
         scale = std::max(scale, matrix.block(matrix.diagonal(row))[(dim + 1) * c]);
     matrix_unit = power_of_two_below(scale);
-    // Registers are filled from behind the last row.
-    blocks.resize(n_entries * (matrix.lower(n - 1).end - matrix.lower(0).begin + n) + 8);
+    // Registers are filled from behind the last row. Nothing is set: who updates all rows touches the memory
+    // for the first time.
+    constexpr unsigned int n_behind = 8;
+    const std::size_t      n_blocks = n_entries * (matrix.lower(n - 1).end - matrix.lower(0).begin + n);
+    blocks.reset(new float[n_blocks + n_behind]);
+    std::fill_n(blocks.get() + n_blocks, n_behind, 0.f);
   }
 
 
 
   RoundedSweep::Arrays RoundedSweep::arrays()
   {
-    return {blocks.data(),  matrix.lower_start_data(), matrix.column_data(),
+    return {blocks.get(),   matrix.lower_start_data(), matrix.column_data(),
             values.node(0), reduced.node(0),           value_unit};
   }
 
@@ -314,17 +350,10 @@ namespace Signorini
     const Arrays here   = arrays();
     for (const unsigned int i : rows)
       {
-        const Row         row(here, i);
-        float            *a     = blocks.data() + (row.blocks - here.blocks);
-        const std::size_t begin = matrix.lower(i).begin;
-        for (std::size_t k = 0, n_beside; k < row.n; k += n_beside)
-          {
-            n_beside = k < 2 * row.n_pairs() ? 2 : 1;
-            for (unsigned int c = 0; c < dim; ++c)
-              for (std::size_t b = 0; b < n_beside; ++b)
-                for (unsigned int d = 0; d < dim; ++d)
-                  *a++ = static_cast<float>(factor * matrix.block(begin + k + b)[dim * c + d]);
-          }
+        const Row row(here, i);
+        float    *a = blocks.get() + (row.blocks - here.blocks);
+        RoundingKernels::round_blocks(a, matrix.block(matrix.lower(i).begin), row.n, row.n_pairs(), factor);
+        a += n_entries * row.n;
         const double *const inverse = inverse_diagonal + n_entries * static_cast<std::size_t>(i);
         for (unsigned int c = 0; c < dim; ++c)
           for (unsigned int d = 0; d < dim; ++d)

@@ -6,6 +6,7 @@
 
 #include <signorini/algebra/node_block_matrix.h>
 
+#include <memory>
 #include <vector>
 
 namespace Signorini
@@ -50,6 +51,7 @@ namespace Signorini
   class RoundedSweep
   {
   public:
+    /// To be completed by an update of all rows.
     explicit RoundedSweep(const NodeBlockMatrix &matrix);
 
     /// Reads some owned rows of the matrix again.
@@ -79,11 +81,6 @@ namespace Signorini
     /// The residual after a sweep that has kept it.
     void get_residual(Vector &residual) const;
 
-    std::size_t memory_consumption() const
-    {
-      return blocks.capacity() * sizeof(float);
-    }
-
     /// What the kernels need.
     struct Arrays
     {
@@ -103,8 +100,8 @@ namespace Signorini
     const NodeBlockMatrix &matrix;
     /// A row: its lower blocks two by two, side by side (three rows of six numbers), the last one alone, as
     /// well as the one before if it is left over; then the inverse diagonal block, column by column.
-    std::vector<float> blocks;
-    RoundedVector      values, reduced;
+    std::unique_ptr<float[]> blocks;
+    RoundedVector            values, reduced;
     /// Powers of two by which matrix, values and right hand side are divided: single precision has a small
     /// range.
     double matrix_unit = 1., value_unit = 1., rhs_unit = 1.;
