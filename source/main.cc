@@ -12,6 +12,10 @@
 #include <optional>
 #include <thread>
 
+#if defined(__GLIBC__)
+#  include <malloc.h>
+#endif
+
 namespace
 {
   using namespace Signorini;
@@ -134,10 +138,28 @@ namespace
 
 
 
+namespace
+{
+  /// MPI libraries may keep malloc from giving memory back to the system, because networks know where it is:
+  /// large arrays that come and go then pile up. A single rank has no network.
+  void give_memory_back()
+  {
+#if defined(__GLIBC__)
+    if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
+      return;
+    mallopt(M_MMAP_MAX, 1 << 16);
+    mallopt(M_MMAP_THRESHOLD, 1 << 24);
+#endif
+  }
+} // namespace
+
+
+
 int
 main(int argc, char **argv)
 {
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  give_memory_back();
   const bool is_root = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
   MPI_Comm   for_errors;
   MPI_Comm_dup(MPI_COMM_WORLD, &for_errors);

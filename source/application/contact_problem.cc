@@ -179,8 +179,9 @@ namespace Signorini
 
     time.restart();
     progress.show("building levels");
-    const LevelSpaces levels(*d.space, coarser_spaces.update(bodies, d.space), bodies, loads);
-    cycle.levels = levels.n_levels();
+    auto levels =
+        std::make_unique<const LevelSpaces>(*d.space, coarser_spaces.update(bodies, d.space), bodies, loads);
+    cycle.levels = levels->n_levels();
     cycle.times["levels"] += time.wall_time();
 
     time.restart();
@@ -189,18 +190,15 @@ namespace Signorini
     problem.half_spaces                 = make_half_spaces(partition, gaps);
     Vector v, start;
     partition.reinit(v);
-    const bool has_start = d.displacement.size() == 3 * d.space->n_nodes();
+    const bool has_start       = d.displacement.size() == 3 * d.space->n_nodes();
+    const bool compares_linear = parameters.compare_linear && !d.is_held_by_ties && !d.pairs.empty();
     if (has_start)
-      {
-        d.transformation->from_displacement(v, d.displacement);
-        start = d.displacement;
-      }
-    else
-      {
-        d.partition->reinit(start);
-        start = d.transformation->to_displacement(v, partition);
-      }
-    auto hierarchy = make_hierarchy(std::move(system), levels, problem, has_start ? &v : nullptr);
+      d.transformation->from_displacement(v, d.displacement);
+    if (compares_linear)
+      start = has_start ? d.displacement : d.transformation->to_displacement(v, partition);
+    auto hierarchy = make_hierarchy(std::move(system), *levels, problem, has_start ? &v : nullptr);
+    if (!compares_linear)
+      levels.reset();
     const NodeBlockMatrix &matrix = hierarchy->finest().matrix;
     cycle.times["hierarchy"] += time.wall_time();
 
@@ -248,12 +246,12 @@ namespace Signorini
       cycle.sweeps = measure_sweeps(*hierarchy, problem.rhs);
     if (parameters.compare_linear && d.is_held_by_ties)
       note("no comparison with the linear problem: a body is held by its ties alone.");
-    else if (parameters.compare_linear && !d.pairs.empty())
+    if (compares_linear)
       {
         // The contact hierarchy is not needed any more: make room for the linear one.
         hierarchy.reset();
         progress.show("linear comparison");
-        solve_linear(cycle, levels, start);
+        solve_linear(cycle, *levels, start);
       }
   }
 

@@ -36,7 +36,7 @@ namespace Signorini
     const NodePartition &coarse = hierarchy.level(hierarchy.n_levels() - 2).matrix.partition();
     coarse.reinit(coarse_defect);
     coarse.reinit(coarse_correction);
-    hierarchy.finest().matrix.partition().reinit(step);
+    hierarchy.finest().matrix.partition().reinit(scratch);
   }
 
 
@@ -108,6 +108,7 @@ namespace Signorini
     restrict_defect(coarse, coarse_defect, residual);
     cycle.apply(coarse_correction, coarse_defect);
 
+    Vector &step = scratch;
     coarse.to_finer.prolongate(step, coarse_correction);
     if (problem.semidefinite)
       {
@@ -184,8 +185,9 @@ namespace Signorini
     conjugate.restart();
 
     // One iteration: v + z from v. The residuals are those of v and v + z.
-    Vector z, product, residual, new_residual;
-    for (Vector *vector : {&z, &product, &residual, &new_residual})
+    Vector  z, residual, new_residual;
+    Vector &product = scratch;
+    for (Vector *vector : {&z, &residual, &new_residual})
       vector->reinit(v);
     matrix.vmult(residual, v);
     residual.sadd(-1., 1., problem.rhs);

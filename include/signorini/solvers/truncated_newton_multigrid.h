@@ -63,8 +63,10 @@ namespace Signorini
 
     bool all_ranks(const bool condition) const;
 
-    VCycle             cycle;
-    Vector             coarse_defect, coarse_correction, step;
+    VCycle cycle;
+    Vector coarse_defect, coarse_correction;
+    /// On the finest level: a coarse correction there, then the product of a whole one.
+    Vector             scratch;
     unsigned int       n_updates = 0;
     ConjugateDirection conjugate;
   };
