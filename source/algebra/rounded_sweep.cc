@@ -3,6 +3,7 @@
 
 #include <signorini/algebra/rounded_sweep.h>
 
+#include <algorithm>
 #include <cmath>
 
 #if defined(__x86_64__) && defined(__GNUC__)
@@ -273,9 +274,12 @@ namespace Signorini
       return *std::max_element(max, max + n_chains);
     }
 
+    /// 1 for zero; not so close to the ends of double precision that a product of two or its inverse
+    /// overflows.
     double power_of_two_below(const double x)
     {
-      return x > 0. ? std::ldexp(1., std::ilogb(x)) : 1.;
+      constexpr int largest_exponent = 400;
+      return x > 0. ? std::ldexp(1., std::clamp(std::ilogb(x), -largest_exponent, largest_exponent)) : 1.;
     }
   } // namespace
 
