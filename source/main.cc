@@ -141,7 +141,8 @@ namespace
 namespace
 {
   /// MPI libraries may keep malloc from giving memory back to the system, because networks know where it is:
-  /// large arrays that come and go then pile up. A single rank has no network.
+  /// large arrays that come and go then pile up (5.3 million unknowns: 1.6 instead of 1.4 kB each). A single
+  /// rank has no network. Arrays from 16 MiB on: matrices, but not the vectors that solvers make and forget.
   void give_memory_back()
   {
 #if defined(__GLIBC__)

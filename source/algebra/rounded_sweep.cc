@@ -155,7 +155,7 @@ namespace Signorini
                            _mm256_setzero_ps(),
                            _mm256_castps128_ps256(_mm_loadu_ps(node(arrays.values, row.columns[row.n - 2]))), 7);
             for (unsigned int c = 0; c < dim; ++c)
-              sums[c] = _mm256_fmadd_ps(_mm256_castps128_ps256(_mm_loadu_ps(single + dim * c)), x, sums[c]);
+              sums[c] = _mm256_fmadd_ps(_mm256_zextps128_ps256(_mm_loadu_ps(single + dim * c)), x, sums[c]);
           }
         // Lanes 0, 1, 2 and 3, 4, 5.
         __m128 s[dim];
@@ -276,7 +276,7 @@ namespace Signorini
 
     /// 1 for zero; not so close to the ends of double precision that a product of two or its inverse
     /// overflows.
-    double power_of_two_below(const double x)
+    double power_of_two_near(const double x)
     {
       constexpr int largest_exponent = 400;
       return x > 0. ? std::ldexp(1., std::clamp(std::ilogb(x), -largest_exponent, largest_exponent)) : 1.;
@@ -329,7 +329,7 @@ namespace Signorini
     for (unsigned int row = 0; row < n; ++row)
       for (unsigned int c = 0; c < dim; ++c)
         scale = std::max(scale, matrix.block(matrix.diagonal(row))[(dim + 1) * c]);
-    matrix_unit = power_of_two_below(scale);
+    matrix_unit = power_of_two_near(scale);
     // Registers are filled from behind the last row. Nothing is set: who updates all rows touches the memory
     // for the first time.
     constexpr unsigned int n_behind = 8;
@@ -369,7 +369,7 @@ namespace Signorini
 
   void RoundedSweep::start(const Vector &v, const Vector &rhs)
   {
-    value_unit               = power_of_two_below(std::max(largest(v), largest(rhs) / matrix_unit));
+    value_unit               = power_of_two_near(std::max(largest(v), largest(rhs) / matrix_unit));
     rhs_unit                 = value_unit * matrix_unit;
     const double  from_value = 1. / value_unit, from_rhs = 1. / rhs_unit;
     const double *x = v.begin(), *b = rhs.begin();

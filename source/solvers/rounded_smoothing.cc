@@ -117,9 +117,10 @@ namespace Signorini
     rounded.start(v, rhs);
     for (unsigned int i = 0; i < parameters.n_pre; ++i)
       {
-        const bool is_last = i + 1 == parameters.n_pre;
-        run_rounded(v, rhs, {false, false, is_last});
-        if (!is_last)
+        RoundedSweep::Options options;
+        options.keeps_residual = i + 1 == parameters.n_pre;
+        run_rounded(v, rhs, options);
+        if (!options.keeps_residual)
           sweep_blocks_rounded(v, rhs, forward, true);
       }
     if (parameters.n_pre == 0)
@@ -172,9 +173,11 @@ namespace Signorini
     for (unsigned int i = 0; i < parameters.n_post; ++i)
       {
         // Nothing has been passed on before the first sweep, which passes all on.
-        const bool is_first = i == 0;
-        sweep_blocks_rounded(v, rhs, backward, !is_first);
-        run_rounded(v, rhs, {true, is_first, false});
+        RoundedSweep::Options options;
+        options.backward   = true;
+        options.passes_all = i == 0;
+        sweep_blocks_rounded(v, rhs, backward, !options.passes_all);
+        run_rounded(v, rhs, options);
       }
     if (residual == nullptr)
       return;

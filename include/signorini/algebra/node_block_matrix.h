@@ -191,8 +191,9 @@ namespace Signorini
     /// dst = A src. Updates the ghost values of src.
     void vmult(Vector &dst, const Vector &src) const;
 
-    /// dst -= A src on owned rows, if the matrix is symmetric: reads the diagonal, the lower parts and what
-    /// couples to ghosts. Updates the ghost values of src, and leaves those of dst alone.
+    /// Collective. dst -= A src on owned rows, dst another vector, if the matrix is symmetric: reads the
+    /// diagonal, the lower parts and what couples to ghosts. Updates the ghost values of src, and leaves
+    /// those of dst alone.
     void subtract_symmetric_product(Vector &dst, const Vector &src) const;
 
     std::size_t memory_consumption() const;

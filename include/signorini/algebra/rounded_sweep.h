@@ -51,7 +51,7 @@ namespace Signorini
   class RoundedSweep
   {
   public:
-    /// To be completed by an update of all rows.
+    /// To be completed by an update of all rows. The diagonal of the matrix, filled already, gives the units.
     explicit RoundedSweep(const NodeBlockMatrix &matrix);
 
     /// Reads some owned rows of the matrix again.
@@ -86,7 +86,8 @@ namespace Signorini
     {
       /// Nine numbers a block, see RoundedSweep::blocks.
       const float *blocks;
-      /// Position of the first block of a row, in the columns and in the blocks but for the inverses.
+      /// Position of the first lower block of a row in the matrix. Here those positions begin with zero, and
+      /// with an inverse behind each row.
       const std::size_t  *lower_start;
       const unsigned int *columns;
       /// Of node 0.

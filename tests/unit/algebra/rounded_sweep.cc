@@ -64,11 +64,18 @@ TEST(RoundedSweep, FollowsGaussSeidel)
     for (const double factor : {1., 1e-60, 1e60})
       {
         use_avx2(vectorized);
-        SCOPED_TRACE((vectorized ? "vectorized, " : "plain, ") + std::to_string(factor));
+        std::ostringstream text;
+        text << (vectorized ? "vectorized, " : "plain, ") << factor;
+        SCOPED_TRACE(text.str());
         NodeBlockMatrix           matrix = RandomMatrix::make(43, 5).matrix;
         const OwnedPart           part(matrix, factor);
         std::vector<unsigned int> rows(matrix.n_rows());
         std::iota(rows.begin(), rows.end(), 0u);
+        std::set<std::size_t> lengths;
+        for (const unsigned int row : rows)
+          lengths.insert(matrix.lower(row).size());
+        for (std::size_t n = 0; n <= 5 && RandomMatrix::n_ranks() == 1; ++n)
+          EXPECT_EQ(lengths.count(n), 1u);
         RoundedSweep sweep(matrix);
         sweep.update(rows, part.inverse_diagonal.data());
 
