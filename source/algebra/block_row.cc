@@ -3,9 +3,8 @@
 
 #include <signorini/algebra/block_row.h>
 
-#if defined(__x86_64__) && defined(__GNUC__)
+#ifdef SIGNORINI_AVX2
 #  include <immintrin.h>
-#  define SIGNORINI_AVX2 __attribute__((target("avx2,fma")))
 #endif
 
 namespace Signorini

@@ -3,12 +3,13 @@
 
 #include <signorini/algebra/rounded_sweep.h>
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <cmath>
 
-#if defined(__x86_64__) && defined(__GNUC__)
+#ifdef SIGNORINI_AVX2
 #  include <immintrin.h>
-#  define SIGNORINI_AVX2 __attribute__((target("avx2,fma")))
 #endif
 
 namespace Signorini
@@ -120,6 +121,19 @@ namespace Signorini
       constexpr std::ptrdiff_t bytes_ahead = 2304;
       constexpr std::ptrdiff_t line        = 64;
 
+      /// The second block's three numbers of a row of two.
+      SIGNORINI_INLINE_AVX2 __m128 second(const __m256 &row)
+      {
+        return _mm_castsi128_ps(_mm_alignr_epi8(_mm_castps_si128(_mm256_extractf128_ps(row, 1)),
+                                                _mm_castps_si128(_mm256_castps256_ps128(row)), 12));
+      }
+
+      /// The sums of the numbers of each, and a zero.
+      SIGNORINI_INLINE_AVX2 __m128 add_up(const __m128 &a, const __m128 &b, const __m128 &c)
+      {
+        return _mm_hadd_ps(_mm_hadd_ps(a, b), _mm_hadd_ps(c, _mm_setzero_ps()));
+      }
+
       /// Σ_j L_row,j x_j over all j < row but the last one, which the sweep has just changed if it goes
       /// forward. Reads backward in sweeps that go backward: memory is read in one direction throughout.
       template <bool backward>
@@ -157,15 +171,11 @@ namespace Signorini
             for (unsigned int c = 0; c < dim; ++c)
               sums[c] = _mm256_fmadd_ps(_mm256_zextps128_ps256(_mm_loadu_ps(single + dim * c)), x, sums[c]);
           }
-        // Lanes 0, 1, 2 and 3, 4, 5.
         __m128 s[dim];
         for (unsigned int c = 0; c < dim; ++c)
-          {
-            const __m128  low = _mm256_castps256_ps128(sums[c]), high = _mm256_extractf128_ps(sums[c], 1);
-            const __m128i other = _mm_alignr_epi8(_mm_castps_si128(high), _mm_castps_si128(low), 12);
-            s[c]                = _mm_blend_ps(_mm_add_ps(low, _mm_castsi128_ps(other)), _mm_setzero_ps(), 8);
-          }
-        return _mm_hadd_ps(_mm_hadd_ps(s[0], s[1]), _mm_hadd_ps(s[2], _mm_setzero_ps()));
+          s[c] =
+              _mm_blend_ps(_mm_add_ps(_mm256_castps256_ps128(sums[c]), second(sums[c])), _mm_setzero_ps(), 8);
+        return add_up(s[0], s[1], s[2]);
       }
 
       SIGNORINI_INLINE_AVX2 void subtract(float *const values, const __m128 &change)
@@ -199,13 +209,11 @@ namespace Signorini
         const unsigned int *columns = row.columns;
         for (std::size_t p = row.n_pairs(); p > 0; --p, a += 18, columns += 2)
           {
-            __m256 sum        = _mm256_mul_ps(w0, _mm256_loadu_ps(a));
-            sum               = _mm256_fmadd_ps(w1, _mm256_loadu_ps(a + 6), sum);
-            sum               = _mm256_fmadd_ps(w2, _mm256_loadu_ps(a + 12), sum);
-            const __m128  low = _mm256_castps256_ps128(sum), high = _mm256_extractf128_ps(sum, 1);
-            const __m128i other = _mm_alignr_epi8(_mm_castps_si128(high), _mm_castps_si128(low), 12);
-            subtract(node(arrays.reduced, columns[0]), low);
-            subtract(node(arrays.reduced, columns[1]), _mm_castsi128_ps(other));
+            __m256 sum = _mm256_mul_ps(w0, _mm256_loadu_ps(a));
+            sum        = _mm256_fmadd_ps(w1, _mm256_loadu_ps(a + 6), sum);
+            sum        = _mm256_fmadd_ps(w2, _mm256_loadu_ps(a + 12), sum);
+            subtract(node(arrays.reduced, columns[0]), _mm256_castps256_ps128(sum));
+            subtract(node(arrays.reduced, columns[1]), second(sum));
           }
       }
 
@@ -228,10 +236,8 @@ namespace Signorini
               {
                 const float *const a = row.last();
                 const __m128       z = _mm_loadu_ps(node(arrays.values, row.columns[row.n - 1]));
-                s                    = _mm_sub_ps(
-                                       s, _mm_hadd_ps(
-                                              _mm_hadd_ps(_mm_mul_ps(_mm_loadu_ps(a), z), _mm_mul_ps(_mm_loadu_ps(a + 3), z)),
-                                              _mm_hadd_ps(_mm_mul_ps(_mm_loadu_ps(a + 6), z), _mm_setzero_ps())));
+                s = _mm_sub_ps(s, add_up(_mm_mul_ps(_mm_loadu_ps(a), z), _mm_mul_ps(_mm_loadu_ps(a + 3), z),
+                                         _mm_mul_ps(_mm_loadu_ps(a + 6), z)));
               }
             const float *const d = row.inverse();
             __m128             y = _mm_mul_ps(_mm_permute_ps(s, 0), _mm_loadu_ps(d));
@@ -264,14 +270,7 @@ namespace Signorini
     /// The largest number on this rank.
     double largest(const Vector &x)
     {
-      // Several at once: each comparison waits for the one before.
-      constexpr std::size_t n_chains      = 8;
-      double                max[n_chains] = {};
-      const double *const   begin         = x.begin();
-      const std::size_t     n             = x.locally_owned_size();
-      for (std::size_t i = 0; i < n; ++i)
-        max[i % n_chains] = std::max(max[i % n_chains], std::abs(begin[i]));
-      return *std::max_element(max, max + n_chains);
+      return Eigen::Map<const Eigen::VectorXd>(x.begin(), x.locally_owned_size()).lpNorm<Eigen::Infinity>();
     }
 
     /// 1 for zero; not so close to the ends of double precision that a product of two or its inverse
@@ -322,14 +321,10 @@ namespace Signorini
     , values(matrix.n_rows())
     , reduced(matrix.n_rows())
   {
+    matrix_unit          = power_of_two_near(diagonal_scale(matrix));
     const unsigned int n = matrix.n_rows();
     if (n == 0)
       return;
-    double scale = 0.;
-    for (unsigned int row = 0; row < n; ++row)
-      for (unsigned int c = 0; c < dim; ++c)
-        scale = std::max(scale, matrix.block(matrix.diagonal(row))[(dim + 1) * c]);
-    matrix_unit = power_of_two_near(scale);
     // Registers are filled from behind the last row. Nothing is set: who updates all rows touches the memory
     // for the first time.
     constexpr unsigned int n_behind = 8;

@@ -8,11 +8,16 @@
 #include <cstring>
 
 // Compiled for processors with AVX2 as well; the loader chooses. Distributions build for the oldest
-// processor. The kernels of block_row.cc are written for AVX2 by hand.
+// processor.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
 #  define SIGNORINI_VECTORIZED __attribute__((target_clones("arch=x86-64-v3", "default")))
 #else
 #  define SIGNORINI_VECTORIZED
+#endif
+
+// For functions that are written for AVX2 by hand; whether the processor has it is asked by uses_avx2().
+#if defined(__x86_64__) && defined(__GNUC__)
+#  define SIGNORINI_AVX2 __attribute__((target("avx2,fma")))
 #endif
 
 namespace Signorini

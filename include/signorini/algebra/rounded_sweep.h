@@ -42,16 +42,17 @@ namespace Signorini
   /// 3x3 blocks, A = L + D + Lᵀ.
   ///
   /// A sweep reads L and D⁻¹ only, a quarter of the memory of A: products with nodes of smaller number are
-  /// computed, those with the others are kept up to date, in `reduced` = rhs - Lᵀ v, by
-  /// passing the change of a node on to nodes of smaller number while its row is at hand. Both are the same
-  /// in sweeps that go backward. The numbers of v are kept in double precision as well, for rows that are not
-  /// visited in this way: whoever changes v there tells by set() and pass_down().
+  /// computed, those with the others are kept up to date, in `reduced` = rhs - Lᵀ v, by passing the change of
+  /// a node on to nodes of smaller number while its row is at hand. Sweeps that go backward do the same. The
+  /// numbers of v are kept in double precision as well, for rows that are not visited in this way: whoever
+  /// changes v there tells by set() and pass_down().
   ///
   /// Errors are those of single precision relative to v. The matrix must outlive the object.
   class RoundedSweep
   {
   public:
-    /// To be completed by an update of all rows. The diagonal of the matrix, filled already, gives the units.
+    /// Collective. To be completed by an update of all rows. The diagonal of the matrix, filled already,
+    /// gives the units.
     explicit RoundedSweep(const NodeBlockMatrix &matrix);
 
     /// Reads some owned rows of the matrix again.

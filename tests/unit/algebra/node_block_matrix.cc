@@ -183,3 +183,30 @@ TEST(NodalTransfer, MarkedRowsAreAllThatDependOnTruncatedRows)
     }
   update({8, 13});
 }
+
+
+
+// The product of a symmetric matrix that reads half of it, over all ranks.
+TEST(NodeBlockMatrix, HalfOfASymmetricMatrixIsEnough)
+{
+  for (const NodeIndex n : {1u, 7u, 60u})
+    {
+      const RandomMatrix::Case c = RandomMatrix::make(n, 11 + n);
+      Vector                   x, y;
+      const NodePartition     &nodes = c.matrix.partition();
+      Eigen::VectorXd          dense_x(3 * n);
+      nodes.reinit(x);
+      nodes.reinit(y);
+      for (unsigned int i = 0; i < 3 * n; ++i)
+        dense_x[i] = std::sin(1. + 7. * i);
+      for (unsigned int i = 0; i < 3 * nodes.n_owned(); ++i)
+        {
+          x.local_element(i) = dense_x[3 * nodes.first_owned() + i];
+          y.local_element(i) = 1.;
+        }
+      c.matrix.subtract_symmetric_product(y, x);
+      const Eigen::VectorXd expected = Eigen::VectorXd::Ones(3 * n) - c.dense * dense_x;
+      for (unsigned int i = 0; i < 3 * nodes.n_owned(); ++i)
+        EXPECT_NEAR(y.local_element(i), expected[3 * nodes.first_owned() + i], 1e-12);
+    }
+}
