@@ -124,11 +124,11 @@ namespace Signorini
 
 
 
-  void ObstacleSolver::add_searched(Vector &v, const Vector &c, Vector &residual,
-                                    const HalfSpaces &half_spaces, const bool semidefinite) const
+  ObstacleSolver::LineSearch ObstacleSolver::search_along(const Vector &v, const Vector &c,
+                                                          const Vector     &residual,
+                                                          const HalfSpaces &half_spaces,
+                                                          const bool        semidefinite) const
   {
-    // The slope must not see the contact forces: they are larger than the residual by orders of magnitude.
-    hierarchy.finest().smoother->restrict_to_tangents(residual);
     Vector product;
     product.reinit(v);
     hierarchy.finest().matrix.vmult(product, c);
@@ -137,10 +137,23 @@ namespace Signorini
     // Where c is close to a motion that costs nothing, its curvature is rounding.
     if (semidefinite)
       longest = std::min(longest, 2.);
+    LineSearch result;
     if (curvature > 0. && slope > 0.)
-      v.add(std::min(slope / curvature, longest), c);
+      result.length = std::min(slope / curvature, longest);
     else if (semidefinite && slope > 0.)
-      v.add(1., c);
+      result.length = 1.;
+    result.decrease = result.length * (slope - .5 * result.length * curvature);
+    return result;
+  }
+
+
+
+  void ObstacleSolver::add_searched(Vector &v, const Vector &c, Vector &residual,
+                                    const HalfSpaces &half_spaces, const bool semidefinite) const
+  {
+    // The slope must not see the contact forces: they are larger than the residual by orders of magnitude.
+    hierarchy.finest().smoother->restrict_to_tangents(residual);
+    v.add(search_along(v, c, residual, half_spaces, semidefinite).length, c);
   }
 
 

@@ -97,32 +97,71 @@ namespace Signorini
 
 
 
-  void TruncatedNewtonMultigrid::correct(Vector &z, Vector &residual, const ObstacleProblem &problem,
-                                         const bool search)
+  Vector &TruncatedNewtonMultigrid::prolongate_correction()
   {
-    ProjectedGaussSeidel &smoother = *hierarchy.finest().smoother;
-    MultigridLevel       &coarse   = hierarchy.level(hierarchy.n_levels() - 2);
+    hierarchy.level(hierarchy.n_levels() - 2).to_finer.prolongate(scratch, coarse_correction);
+    hierarchy.finest().smoother->restrict_to_tangents(scratch);
+    return scratch;
+  }
+
+
+
+  double TruncatedNewtonMultigrid::correct(Vector &z, Vector &residual, const bool semidefinite,
+                                           const bool searches)
+  {
+    const ProjectedGaussSeidel &smoother = *hierarchy.finest().smoother;
     if (hierarchy.truncate(smoother.half_spaces(), smoother.active()))
       ++n_updates;
     coarse_defect = 0.;
-    restrict_defect(coarse, coarse_defect, residual);
+    restrict_defect(hierarchy.level(hierarchy.n_levels() - 2), coarse_defect, residual);
     cycle.apply(coarse_correction, coarse_defect);
-
-    Vector &step = scratch;
-    coarse.to_finer.prolongate(step, coarse_correction);
-    if (problem.semidefinite)
+    z.zero_out_ghost_values();
+    if (searches)
       {
-        // Motions that cost nothing come out very long: shortened as a whole they stay motions.
-        smoother.restrict_to_tangents(step);
-        step *= std::min(1., admissible_step(z, step, smoother.half_spaces()));
+        // The slope must not see the contact forces: they are larger than the residual by orders of
+        // magnitude.
+        smoother.restrict_to_tangents(residual);
+        return add_better(z, residual, semidefinite);
       }
+    Vector &step = prolongate_correction();
+    if (semidefinite)
+      step *= std::min(1., admissible_step(z, step, smoother.half_spaces()));
     else
       smoother.project_correction(step, z);
-    z.zero_out_ghost_values();
-    if (search)
-      add_searched(z, step, residual, smoother.half_spaces(), problem.semidefinite);
-    else
-      z += step;
+    z += step;
+    return 0.;
+  }
+
+
+
+  double TruncatedNewtonMultigrid::add_better(Vector &z, const Vector &residual, const bool semidefinite)
+  {
+    const ProjectedGaussSeidel &smoother    = *hierarchy.finest().smoother;
+    const HalfSpaces           &half_spaces = smoother.half_spaces();
+    Vector                     &step        = prolongate_correction();
+    const double                length      = std::min(1., admissible_step(z, step, half_spaces));
+    double                      square      = 0.;
+    if (length < 1.)
+      {
+        // A V-cycle is at most the inverse of A: the slope is at least the curvature.
+        square                = std::max(0., residual * step);
+        const double decrease = (length - .5 * length * length) * square;
+        // Motions that cost nothing come out very long: shortened as a whole they stay motions.
+        if (!semidefinite)
+          {
+            smoother.project_correction(step, z);
+            const LineSearch projected = search_along(z, step, residual, half_spaces, semidefinite);
+            if (projected.decrease >= decrease)
+              {
+                z.add(projected.length, step);
+                return std::sqrt(square);
+              }
+            prolongate_correction();
+          }
+        step *= length;
+      }
+    z.add(search_along(z, step, residual, half_spaces, semidefinite).length, step);
+    return std::sqrt(square);
   }
 
 
@@ -223,7 +262,7 @@ namespace Signorini
         // Without a search the iteration as a whole lowers the energy, not each step after this one.
         if (!searches)
           energy = before;
-        correct(z, new_residual, problem, searches);
+        const double cut_off = correct(z, new_residual, problem.semidefinite, searches);
         if (searches)
           check(true);
         smoother.smooth_to_residual(z, residual, smoothing, &new_residual);
@@ -238,7 +277,7 @@ namespace Signorini
         rests =
             keeps_active && accelerates && !goes_to_planes && accelerate(v, residual, z, product, problem);
         // Before it is shortened: a correction that was cut off does not mean convergence.
-        double norm = std::sqrt(std::max(0., z * product));
+        const double norm = std::max(cut_off, std::sqrt(std::max(0., z * product)));
         if (rests)
           residual -= product;
         else

@@ -40,7 +40,7 @@ namespace Signorini
     double tolerance = 1e-12;
     /// Stop when the energy norm of the correction is below this; 0 for the relative rule.
     double       absolute_tolerance = 0.;
-    unsigned int max_iterations     = 100;
+    unsigned int max_iterations     = 1000;
     /// Not to wait until accelerated converges slowly before it takes interface sweeps on the finest level.
     bool starts_with_interface_sweeps = false;
     /// Measure energy and admissibility after every substep.
@@ -82,8 +82,19 @@ namespace Signorini
     /// Collective. Largest step along c that keeps the half-spaces that are not active.
     double admissible_step(const Vector &v, const Vector &c, const HalfSpaces &half_spaces) const;
 
-    /// Collective. v += t c with the t that minimizes the energy, as far as it is admissible. c is admissible
-    /// for v and tangential at active nodes; residual = b - A v is changed.
+    struct LineSearch
+    {
+      double length = 0.;
+      /// By which the energy falls.
+      double decrease = 0.;
+    };
+
+    /// Collective. The t that minimizes the energy of v + t c, as far as it is admissible. c is admissible
+    /// for v and tangential at active nodes, as is residual = b - A v.
+    LineSearch search_along(const Vector &v, const Vector &c, const Vector &residual,
+                            const HalfSpaces &half_spaces, const bool semidefinite) const;
+
+    /// Collective. v += t c with the t of search_along(); residual = b - A v is made tangential.
     void add_searched(Vector &v, const Vector &c, Vector &residual, const HalfSpaces &half_spaces,
                       const bool semidefinite) const;
 

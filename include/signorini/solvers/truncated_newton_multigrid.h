@@ -11,7 +11,9 @@ namespace Signorini
 {
   /// Truncated nonsmooth Newton multigrid (Gräser, Sack & Sander 2009): projected smoothing on the finest
   /// level, one linear V-cycle on the coarse spaces truncated at active nodes, projection, exact line
-  /// search, post-smoothing. (Linear problems: LinearMultigrid.)
+  /// search, post-smoothing. (Linear problems: LinearMultigrid.) Instead of being projected node by node the
+  /// coarse correction is shortened as a whole where that lowers the energy more: projected bending of a
+  /// slender body leaves kinks that cost more than it wins.
   ///
   /// Accelerated: as long as the active set rests, the same iteration is a linear symmetric
   /// preconditioner z = M(v) - v of the residual on the free components, and the step goes along the
@@ -46,9 +48,17 @@ namespace Signorini
     /// coarser levels.
     std::vector<unsigned int> start_below(Vector &v, const ObstacleProblem &problem);
 
-    /// Adds the truncated V-cycle of the residual to the correction z, projected and, if wanted, with exact
-    /// line search. The residual may be changed.
-    void correct(Vector &z, Vector &residual, const ObstacleProblem &problem, const bool search);
+    /// The coarse correction on the finest level, tangential at active nodes, in `scratch`.
+    Vector &prolongate_correction();
+
+    /// Adds the truncated V-cycle of the residual, which may be changed, to the correction z, admissible and,
+    /// if wanted, with exact line search. Returns what add_better() does, zero without a search.
+    double correct(Vector &z, Vector &residual, const bool semidefinite, const bool searches);
+
+    /// Adds the coarse correction. What is not admissible is cut off node by node or the whole is shortened,
+    /// whichever lowers the energy more. Returns the energy norm of what was cut off or shortened, before
+    /// that; zero where nothing was.
+    double add_better(Vector &z, const Vector &residual, const bool semidefinite);
 
     /// One accelerated step from v with the correction z, az = A z; false, and nothing changed but the
     /// direction, if it is not to be taken. On success z and az are the correction made and its product with
