@@ -78,6 +78,16 @@ namespace Signorini
         });
       }
 
+      /// s -= Σ_j L_row,j x_j
+      void multiply(float *const s, const RoundedSweep::Arrays &arrays, const Row &row)
+      {
+        for_all_blocks(row, [&](const float *const a, const unsigned int stride, const unsigned int column) {
+          const float *const y = node(arrays.values, column);
+          for (unsigned int c = 0; c < dim; ++c)
+            s[c] -= a[stride * c] * y[0] + a[stride * c + 1] * y[1] + a[stride * c + 2] * y[2];
+        });
+      }
+
       void relax(const RoundedSweep::Arrays &arrays, double *const v, const unsigned int *const rows,
                  const std::size_t n, const RoundedSweep::Options &options)
       {
@@ -88,12 +98,7 @@ namespace Signorini
             float *const x = node(arrays.values, i), *const reduced = node(arrays.reduced, i);
             float s[dim], change[dim];
             std::copy_n(reduced, dim, s);
-            for_all_blocks(
-                row, [&](const float *const a, const unsigned int stride, const unsigned int column) {
-                  const float *const y = node(arrays.values, column);
-                  for (unsigned int c = 0; c < dim; ++c)
-                    s[c] -= a[stride * c] * y[0] + a[stride * c + 1] * y[1] + a[stride * c + 2] * y[2];
-                });
+            multiply(s, arrays, row);
             const float *const inverse = row.inverse();
             for (unsigned int c = 0; c < dim; ++c)
               {
@@ -178,6 +183,18 @@ namespace Signorini
         return add_up(s[0], s[1], s[2]);
       }
 
+      /// s less the product that multiply_but_last() leaves out.
+      SIGNORINI_INLINE_AVX2 __m128 subtract_last(const __m128 &s, const RoundedSweep::Arrays &arrays,
+                                                 const Row &row)
+      {
+        if (row.n == 0)
+          return s;
+        const float *const a = row.last();
+        const __m128       x = _mm_loadu_ps(node(arrays.values, row.columns[row.n - 1]));
+        return _mm_sub_ps(s, add_up(_mm_mul_ps(_mm_loadu_ps(a), x), _mm_mul_ps(_mm_loadu_ps(a + 3), x),
+                                    _mm_mul_ps(_mm_loadu_ps(a + 6), x)));
+      }
+
       SIGNORINI_INLINE_AVX2 void subtract(float *const values, const __m128 &change)
       {
         _mm_storeu_ps(values, _mm_sub_ps(_mm_loadu_ps(values), change));
@@ -230,19 +247,12 @@ namespace Signorini
             const unsigned int i = *rows;
             const Row          row(arrays, i);
             float *const x = node(arrays.values, i), *const reduced = node(arrays.reduced, i);
-            const __m128 old = _mm_loadu_ps(x);
-            __m128       s   = _mm_sub_ps(_mm_loadu_ps(reduced), sum);
-            if (row.n > 0)
-              {
-                const float *const a = row.last();
-                const __m128       z = _mm_loadu_ps(node(arrays.values, row.columns[row.n - 1]));
-                s = _mm_sub_ps(s, add_up(_mm_mul_ps(_mm_loadu_ps(a), z), _mm_mul_ps(_mm_loadu_ps(a + 3), z),
-                                         _mm_mul_ps(_mm_loadu_ps(a + 6), z)));
-              }
-            const float *const d = row.inverse();
-            __m128             y = _mm_mul_ps(_mm_permute_ps(s, 0), _mm_loadu_ps(d));
-            y                    = _mm_fmadd_ps(_mm_permute_ps(s, 0x55), _mm_loadu_ps(d + 3), y);
-            y                    = _mm_fmadd_ps(_mm_permute_ps(s, 0xaa), _mm_loadu_ps(d + 6), y);
+            const __m128       old = _mm_loadu_ps(x);
+            const __m128       s   = subtract_last(_mm_sub_ps(_mm_loadu_ps(reduced), sum), arrays, row);
+            const float *const d   = row.inverse();
+            __m128             y   = _mm_mul_ps(_mm_permute_ps(s, 0), _mm_loadu_ps(d));
+            y                      = _mm_fmadd_ps(_mm_permute_ps(s, 0x55), _mm_loadu_ps(d + 3), y);
+            y                      = _mm_fmadd_ps(_mm_permute_ps(s, 0xaa), _mm_loadu_ps(d + 6), y);
             // The fourth number stays zero: products rely on it.
             y = _mm_blend_ps(y, _mm_setzero_ps(), 8);
             _mm_storeu_ps(x, y);
@@ -257,6 +267,15 @@ namespace Signorini
               sum = multiply_but_last<backward>(arrays, Row(arrays, rows[step]));
             pass_down(arrays, row, options.passes_all ? y : _mm_sub_ps(y, old));
           }
+      }
+
+      SIGNORINI_AVX2 void multiply(float *const s, const RoundedSweep::Arrays &arrays, const Row &row)
+      {
+        __m128 sum = _mm_setr_ps(s[0], s[1], s[2], 0.f);
+        sum        = subtract_last(_mm_sub_ps(sum, multiply_but_last<false>(arrays, row)), arrays, row);
+        float numbers[4];
+        _mm_storeu_ps(numbers, sum);
+        std::copy_n(numbers, dim, s);
       }
 
       SIGNORINI_AVX2 void pass_down_change(const RoundedSweep::Arrays &arrays, const Row &row,
@@ -392,6 +411,30 @@ namespace Signorini
       return (options.backward ? Avx2::relax<true> : Avx2::relax<false>)(here, v.begin(), rows, n, options);
 #endif
     Plain::relax(here, v.begin(), rows, n, options);
+  }
+
+
+
+  void RoundedSweep::leave_out_rhs(const unsigned int row)
+  {
+    std::fill_n(reduced.node(row), dim, 0.f);
+  }
+
+
+
+  void RoundedSweep::subtract_product(double *const s, const unsigned int row)
+  {
+    const Arrays here = arrays();
+    float        rounded[dim];
+    std::copy_n(reduced.node(row), dim, rounded);
+#ifdef SIGNORINI_AVX2
+    if (uses_avx2())
+      Avx2::multiply(rounded, here, Row(here, row));
+    else
+#endif
+      Plain::multiply(rounded, here, Row(here, row));
+    for (unsigned int c = 0; c < dim; ++c)
+      s[c] += rhs_unit * rounded[c];
   }
 
 

@@ -76,6 +76,7 @@ namespace Signorini
     constraints = half_spaces;
     is_active.assign(constraints.size(), 0);
     projection_direction.resize(constraints.size());
+    contact_residual.resize(constraints.size());
     std::fill(half_space_of_row.begin(), half_space_of_row.end(), -1);
     for (std::size_t p = 0; p < constraints.size(); ++p)
       {

@@ -8,8 +8,38 @@
 
 namespace Signorini
 {
+  void ProjectedGaussSeidel::start_rounded(const Vector &v, const Vector &rhs)
+  {
+    rounded.start(v, rhs);
+    for (const unsigned int row : constraints.nodes)
+      if (is_ordered[row])
+        rounded.leave_out_rhs(row);
+  }
+
+
+
+  void ProjectedGaussSeidel::relax_half_space(double *const y, const double *const rhs,
+                                              const unsigned int row, const bool keeps_residual)
+  {
+    double s[dim] = {rhs[0], rhs[1], rhs[2]};
+    rounded.subtract_product(s, row);
+    minimize_row(y, s, row);
+    if (!keeps_residual)
+      return;
+    const double *const a = matrix.block(matrix.diagonal(row));
+    Vector3            &r = contact_residual[half_space_of_row[row]];
+    for (unsigned int c = 0; c < dim; ++c)
+      r[c] = s[c] - (a[dim * c] * y[0] + a[dim * c + 1] * y[1] + a[dim * c + 2] * y[2]);
+    rounded.leave_out_rhs(row);
+  }
+
+
+
   void ProjectedGaussSeidel::run_rounded(Vector &v, const Vector &rhs, const RoundedSweep::Options &options)
   {
+    const auto is_apart = [&](const unsigned int row) {
+      return is_exact(row) || half_space_of_row[row] >= 0;
+    };
     const std::size_t n_phases = all_rows.phases().size();
     for (std::size_t phase = 0; phase < n_phases; ++phase)
       {
@@ -19,22 +49,38 @@ namespace Signorini
         for (std::size_t k = 0; k < rows.size();)
           {
             const std::size_t begin = k;
-            while (k < rows.size() && !is_exact(at(k)))
+            while (k < rows.size() && !is_apart(at(k)))
               ++k;
             rounded.relax(v, rows.data() + (options.backward ? rows.size() - k : begin), k - begin, options);
-            for (; k < rows.size() && is_exact(at(k)); ++k)
+            for (; k < rows.size() && is_apart(at(k)); ++k)
               {
-                double *const y        = v.begin() + dim * static_cast<std::size_t>(at(k));
-                const double  old[dim] = {y[0], y[1], y[2]};
-                relax<forward>(v.begin(), rhs.begin(), at(k));
+                const unsigned int row      = at(k);
+                double *const      y        = v.begin() + dim * static_cast<std::size_t>(row);
+                const double       old[dim] = {y[0], y[1], y[2]};
+                if (is_exact(row))
+                  relax<forward>(v.begin(), rhs.begin(), row);
+                else
+                  relax_half_space(y, rhs.begin() + dim * static_cast<std::size_t>(row), row,
+                                   options.keeps_residual);
                 double change[dim];
                 for (unsigned int c = 0; c < dim; ++c)
                   change[c] = options.passes_all ? y[c] : y[c] - old[c];
-                rounded.set(at(k), y);
-                rounded.pass_down(at(k), change);
+                rounded.set(row, y);
+                rounded.pass_down(row, change);
               }
           }
       }
+  }
+
+
+
+  void ProjectedGaussSeidel::get_residual(Vector &residual) const
+  {
+    rounded.get_residual(residual);
+    for (std::size_t p = 0; p < constraints.size(); ++p)
+      if (const unsigned int row = constraints.nodes[p]; is_ordered[row])
+        for (unsigned int c = 0; c < dim; ++c)
+          residual.local_element(dim * row + c) += contact_residual[p][c];
   }
 
 
@@ -114,7 +160,7 @@ namespace Signorini
                                               const SmoothingParameters &parameters, Vector &residual)
   {
     v = 0.;
-    rounded.start(v, rhs);
+    start_rounded(v, rhs);
     for (unsigned int i = 0; i < parameters.n_pre; ++i)
       {
         RoundedSweep::Options options;
@@ -127,7 +173,7 @@ namespace Signorini
       residual.copy_locally_owned_data_from(rhs);
     else
       {
-        rounded.get_residual(residual);
+        get_residual(residual);
         follow_changes(
             block_rows, v, [&] { sweep_blocks(v, rhs, forward); },
             [&](const unsigned int row, const double *const change) {
@@ -169,7 +215,7 @@ namespace Signorini
   {
     smooth_interface(v, rhs, parameters, backward);
     if (parameters.n_post > 0)
-      rounded.start(v, rhs);
+      start_rounded(v, rhs);
     for (unsigned int i = 0; i < parameters.n_post; ++i)
       {
         // Nothing has been passed on before the first sweep, which passes all on.

@@ -75,6 +75,13 @@ namespace Signorini
     /// Solves n rows, rows[0] first, or rows[n - 1] if it goes backward.
     void relax(Vector &v, const unsigned int *rows, const std::size_t n, const Options &options);
 
+    /// For rows that are solved elsewhere, with a right hand side that must not be rounded. After start():
+    /// the sweeps know nothing of the right hand side of a row.
+    void leave_out_rhs(const unsigned int row);
+    /// s -= (A - D) v in such a row. Once leave_out_rhs() is called again, after the last visit of the row,
+    /// the changes of nodes that are visited later are what get_residual() finds there.
+    void subtract_product(double *s, const unsigned int row);
+
     /// Takes new values of a node, and passes a change (three numbers each) on to nodes of smaller number.
     void set(const unsigned int row, const double *v_row);
     void pass_down(const unsigned int row, const double *change);

@@ -79,8 +79,9 @@ namespace Signorini
                 const Direction direction);
 
     /// smooth() forward from v = 0, and residual = rhs - A v, in single precision (see RoundedSweep): for
-    /// corrections, and right hand sides that go to zero with them. Rows with a half-space and interface
-    /// sweeps are in double precision: at an active node the right hand side is the contact force.
+    /// corrections, and right hand sides that go to zero with them. The right hand side of rows with a
+    /// half-space, which at an active node is the contact force, and interface sweeps are in double
+    /// precision.
     void smooth_from_zero(Vector &v, const Vector &rhs, const SmoothingParameters &parameters,
                           Vector &residual);
 
@@ -123,10 +124,20 @@ namespace Signorini
     /// Whether sweeps in single precision read a row in double precision, as a whole.
     bool is_exact(const unsigned int row) const
     {
-      return !is_ordered[row] || half_space_of_row[row] >= 0;
+      return !is_ordered[row];
     }
 
-    /// A sweep in single precision but for exact rows.
+    /// RoundedSweep::start() without the right hand sides of relax_half_space().
+    void start_rounded(const Vector &v, const Vector &rhs);
+
+    /// minimize_row() of a row with a half-space, of which only products with other rows are rounded. Keeps
+    /// its residual if wanted.
+    void relax_half_space(double *y, const double *rhs, const unsigned int row, const bool keeps_residual);
+
+    /// The residual after a sweep that has kept it.
+    void get_residual(Vector &residual) const;
+
+    /// A sweep in single precision but for rows that are exact or have a half-space.
     void run_rounded(Vector &v, const Vector &rhs, const RoundedSweep::Options &options);
 
     /// The same in double precision from a residual that is valid where rows are not exact, and stays so.
@@ -179,12 +190,14 @@ namespace Signorini
     std::unique_ptr<InterfaceCorrection> interface_correction;
     /// Rows of which a forward sweep visits the lower part before and the upper part after them, seen by no
     /// other rank.
-    std::vector<bool>          is_ordered;
-    RoundedSweep               rounded;
-    std::vector<double>        inverse_diagonal;
-    HalfSpaces                 constraints;
-    std::vector<int>           half_space_of_row;
-    std::vector<Vector3>       projection_direction;
+    std::vector<bool>    is_ordered;
+    RoundedSweep         rounded;
+    std::vector<double>  inverse_diagonal;
+    HalfSpaces           constraints;
+    std::vector<int>     half_space_of_row;
+    std::vector<Vector3> projection_direction;
+    /// Of relax_half_space().
+    std::vector<Vector3>       contact_residual;
     std::vector<unsigned char> is_active;
   };
 

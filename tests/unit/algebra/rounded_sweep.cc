@@ -37,7 +37,9 @@ namespace
         }
     }
 
-    void sweep(Eigen::VectorXd &v, const Eigen::VectorXd &rhs, const bool backward) const
+    /// Row `half` takes half of its solution.
+    void sweep(Eigen::VectorXd &v, const Eigen::VectorXd &rhs, const bool backward,
+               const Eigen::Index half) const
     {
       const Eigen::Index n = dense.rows() / 3;
       for (Eigen::Index k = 0; k < n; ++k)
@@ -46,6 +48,8 @@ namespace
           v.segment<3>(3 * i) += dense.block<3, 3>(3 * i, 3 * i)
                                      .fullPivLu()
                                      .solve(rhs.segment<3>(3 * i) - dense.middleRows(3 * i, 3) * v);
+          if (i == half)
+            v.segment<3>(3 * i) *= .5;
         }
     }
 
@@ -90,24 +94,59 @@ TEST(RoundedSweep, FollowsGaussSeidel)
           for (unsigned int i = 0; i < 3 * matrix.n_rows(); ++i)
             ASSERT_NEAR(actual.local_element(i), expected[i], 2e-6 * scale);
         };
-        sweep.start(v, rhs);
+        // One row is solved outside, with a right hand side that is not rounded.
+        constexpr unsigned int apart = 5;
+        double                 apart_residual[3];
+        const auto             start = [&] {
+          sweep.start(v, rhs);
+          if (rows.size() > apart)
+            sweep.leave_out_rhs(apart);
+        };
+        const auto relax_apart = [&](const RoundedSweep::Options &options) {
+          Eigen::Map<Eigen::Vector3d> x(v.begin() + 3 * apart);
+          const Eigen::Vector3d       old = x;
+          Eigen::Vector3d             s(rhs.begin() + 3 * apart);
+          sweep.subtract_product(s.data(), apart);
+          const Eigen::Matrix3d block                    = part.dense.block<3, 3>(3 * apart, 3 * apart);
+          x                                              = .5 * block.fullPivLu().solve(s);
+          Eigen::Map<Eigen::Vector3d>(apart_residual, 3) = s - block * x;
+          if (options.keeps_residual)
+            sweep.leave_out_rhs(apart);
+          const Eigen::Vector3d change = options.passes_all ? Eigen::Vector3d(x) : x - old;
+          sweep.set(apart, x.data());
+          sweep.pass_down(apart, change.data());
+        };
+        const auto relax = [&](const RoundedSweep::Options &options) {
+          if (rows.size() <= apart)
+            return sweep.relax(v, rows.data(), rows.size(), options);
+          const auto below = [&] { sweep.relax(v, rows.data(), apart, options); };
+          const auto above = [&] {
+            sweep.relax(v, rows.data() + apart + 1, rows.size() - apart - 1, options);
+          };
+          options.backward ? above() : below();
+          relax_apart(options);
+          options.backward ? below() : above();
+        };
+        start();
         for (const bool is_last : {false, false, true})
           {
-            sweep.relax(v, rows.data(), rows.size(), {false, false, is_last});
-            part.sweep(exact, exact_rhs, false);
+            relax({false, false, is_last});
+            part.sweep(exact, exact_rhs, false, apart);
             expect(exact, v, .1 * load);
           }
         sweep.get_residual(residual);
+        for (unsigned int c = 0; c < 3 && rows.size() > apart; ++c)
+          residual.local_element(3 * apart + c) += apart_residual[c];
         expect(exact_rhs - part.dense * exact, residual, factor * load);
 
         // v changes at a node; the first sweep backward passes all on.
         if (matrix.n_rows() > 3)
           exact[10] = v.local_element(10) = load;
-        sweep.start(v, rhs);
+        start();
         for (const bool is_first : {true, false, false})
           {
-            sweep.relax(v, rows.data(), rows.size(), {true, is_first, false});
-            part.sweep(exact, exact_rhs, true);
+            relax({true, is_first, false});
+            part.sweep(exact, exact_rhs, true, apart);
             expect(exact, v, .1 * load);
             // Someone else changes v as well.
             if (matrix.n_rows() > 3)

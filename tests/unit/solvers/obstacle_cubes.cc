@@ -254,6 +254,10 @@ TEST(ProjectedGaussSeidel, SmoothingHandsOutItsResidual)
               pressed.local_element(3 * half_spaces.nodes[q] + c) += force * half_spaces.normals[q][c];
           plain = v;
           smoother.smooth_from_zero(v, pressed, {3, 3, 0}, residual);
+          matrix.vmult(product, v);
+          product.sadd(-1., 1., pressed);
+          product -= residual;
+          EXPECT_LT(product.linfty_norm(), 1e-6);
         }
       v -= plain;
       EXPECT_LT(v.linfty_norm(), 1e-6 * plain.linfty_norm());
