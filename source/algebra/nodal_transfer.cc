@@ -42,15 +42,20 @@ namespace Signorini
     row_start.reserve(rows.start.size());
     global_columns.clear();
     weights.clear();
-    global_columns.reserve(rows.columns.size());
-    weights.reserve(rows.columns.size());
+    std::size_t n_entries = rows.columns.size();
+    for (const BlockRow &row : block_rows)
+      n_entries += row.columns.size();
+    global_columns.reserve(n_entries);
+    weights.reserve(n_entries);
     auto next = block_rows.begin();
     for (unsigned int i = 0; i < rows.n_rows(); ++i)
       {
         if (next != block_rows.end() && next->row == i)
           {
             global_columns.insert(global_columns.end(), next->columns.begin(), next->columns.end());
-            if (std::all_of(next->blocks.begin(), next->blocks.end(), is_multiple_of_identity))
+            if (!next->weights.empty())
+              weights.insert(weights.end(), next->weights.begin(), next->weights.end());
+            else if (std::all_of(next->blocks.begin(), next->blocks.end(), is_multiple_of_identity))
               for (const Block &block : next->blocks)
                 weights.push_back(block[0][0]);
             else

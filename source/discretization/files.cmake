@@ -10,5 +10,6 @@ signorini_add_layer(discretization
   interpolation_exchange.cc
   level_hierarchy.cc
   rigid_support.cc
+  transformed_rows.cc
   vertex_expansion.cc
 )

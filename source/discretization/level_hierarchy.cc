@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
-#include <signorini/algebra/rotation.h>
 #include <signorini/algebra/vector_span.h>
 #include <signorini/discretization/coarse_contact.h>
 #include <signorini/discretization/hexahedron.h>
 #include <signorini/discretization/interpolation_exchange.h>
 #include <signorini/discretization/level_hierarchy.h>
+#include <signorini/discretization/transformed_rows.h>
 
 namespace Signorini
 {
@@ -225,110 +225,6 @@ namespace Signorini
 
 
 
-    /// Builds the rows of P̂ = (I - E S) P (I + E_c S_c) that differ from those of P. With normals the rows of
-    /// contact nodes have relative displacements only, turned from the coarse normals to the fine one: what
-    /// coarse obstacles need.
-    class TransformedRows
-    {
-    public:
-      TransformedRows(const InterfaceCoupling &fine, const std::vector<FixedMask> &fine_masks,
-                      const std::vector<NodeIndex> &nodes, const NodeRows &node_rows,
-                      const InterfaceCoupling &coarse, const std::vector<FixedMask> &coarse_masks,
-                      const std::vector<Vector3> &normals, const std::vector<Vector3> &coarse_normals,
-                      const std::vector<unsigned char> &tied)
-        : fine(fine)
-        , fine_masks(fine_masks)
-        , nodes(nodes)
-        , node_rows(node_rows)
-        , coarse(coarse)
-        , coarse_masks(coarse_masks)
-        , normals(normals)
-        , coarse_normals(coarse_normals)
-        , tied(tied)
-      {
-      }
-
-      bool differs(const NodeIndex node, const NodeRows &rows, const std::size_t row) const
-      {
-        if (fine.find(node) >= 0)
-          return true;
-        for (std::size_t k = rows.start[row]; k < rows.start[row + 1]; ++k)
-          if (coarse.find(rows.columns[k]) >= 0)
-            return true;
-        return false;
-      }
-
-      NodalTransfer::BlockRow make(const unsigned int local, const NodeIndex node, const NodeRows &rows,
-                                   const std::size_t row)
-      {
-        if (const std::ptrdiff_t p = fine.find(node); p >= 0 && !tied.empty() && tied[p])
-          return {local, {}, {}};
-        if (const std::ptrdiff_t p = fine.find(node); p >= 0 && !normals.empty())
-          return make_turned(local, normals[p], rows, row);
-        sums.clear();
-        add(rows, row, 1., 0);
-        if (const std::ptrdiff_t p = fine.find(node); p >= 0)
-          for (const auto *entry = fine.begin(p); entry != fine.end(p); ++entry)
-            add(node_rows, std::lower_bound(nodes.begin(), nodes.end(), entry->node) - nodes.begin(),
-                -entry->weight, fine_masks[p]);
-        NodalTransfer::BlockRow result{local, {}, {}};
-        for (const auto &[column, diagonal] : sums)
-          {
-            Block block;
-            for (unsigned int c = 0; c < dim; ++c)
-              block[c][c] = diagonal[c];
-            result.columns.push_back(column);
-            result.blocks.push_back(block);
-          }
-        return result;
-      }
-
-    private:
-      NodalTransfer::BlockRow make_turned(const unsigned int local, const Vector3 &normal,
-                                          const NodeRows &rows, const std::size_t row) const
-      {
-        NodalTransfer::BlockRow result{local, {}, {}};
-        for (std::size_t k = rows.start[row]; k < rows.start[row + 1]; ++k)
-          {
-            const Vector3 &from = coarse_normals[coarse.find(rows.columns[k])];
-            result.columns.push_back(rows.columns[k]);
-            result.blocks.push_back(rows.weights[k] *
-                                    rotation(from.norm_square() > 0. ? from : normal, normal));
-          }
-        return result;
-      }
-
-      /// Adds factor * (row of P) * T_coarse in the components that are not blocked.
-      void add(const NodeRows &rows, const std::size_t row, const double factor, const FixedMask blocked)
-      {
-        for (std::size_t k = rows.start[row]; k < rows.start[row + 1]; ++k)
-          {
-            add_entry(rows.columns[k], factor * rows.weights[k], blocked);
-            const std::ptrdiff_t c = coarse.find(rows.columns[k]);
-            if (c >= 0)
-              for (const auto *entry = coarse.begin(c); entry != coarse.end(c); ++entry)
-                add_entry(entry->node, factor * rows.weights[k] * entry->weight, blocked | coarse_masks[c]);
-          }
-      }
-
-      void add_entry(const NodeIndex column, const double weight, const FixedMask blocked)
-      {
-        Vector3 &sum = sums[column];
-        for (unsigned int c = 0; c < dim; ++c)
-          if (!(blocked & (1u << c)))
-            sum[c] += weight;
-      }
-
-      const InterfaceCoupling          &fine;
-      const std::vector<FixedMask>     &fine_masks;
-      const std::vector<NodeIndex>     &nodes;
-      const NodeRows                   &node_rows;
-      const InterfaceCoupling          &coarse;
-      const std::vector<FixedMask>     &coarse_masks;
-      const std::vector<Vector3>       &normals, &coarse_normals;
-      const std::vector<unsigned char> &tied;
-      std::map<NodeIndex, Vector3>      sums;
-    };
     /// v = T⁻¹ u, zero in fixed components, in place.
     void make_relative(Vector &u, const NodePartition &partition, const std::vector<FixedMask> &fixed,
                        const InterfaceCoupling &coupling)
@@ -413,12 +309,10 @@ namespace Signorini
         std::vector<Vector3> coarse_normals;
         if (!normals.empty())
           coarse_normals = coarsen_normals(normals, fine, nodes, node_rows, coarse, coarse_masks);
-        TransformedRows transformed(fine, fine_masks, nodes, node_rows, coarse, coarse_masks, normals,
-                                    coarse_normals, l + 1 == spaces.n_levels() ? options.tied : none_tied);
-        std::vector<NodalTransfer::BlockRow> block_rows;
-        for (unsigned int i = 0; i < partition.n_local(); ++i)
-          if (const NodeIndex node = partition.to_global(i); transformed.differs(node, rows, i))
-            block_rows.push_back(transformed.make(i, node, rows, i));
+        const auto block_rows =
+            transformed_rows(partition, rows,
+                             {fine, fine_masks, nodes, node_rows, coarse, coarse_masks, normals,
+                              coarse_normals, l + 1 == spaces.n_levels() ? options.tied : none_tied});
         NodalTransfer transfer;
         transfer.reinit(rows, block_rows, partition.n_owned());
         hierarchy.add_coarser_level(std::move(transfer), owned, spaces.fixed(l - 1));

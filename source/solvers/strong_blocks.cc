@@ -66,25 +66,31 @@ namespace Signorini
   void StrongBlocks::find_blocks()
   {
     const unsigned int        n = matrix.n_rows();
-    std::vector<double>       most_negative(n, 0.);
+    std::vector<double>       largest(n, 0.), most_negative(n, 0.);
     std::vector<bool>         is_stretched(n, false);
     std::vector<unsigned int> phase_of_row(n, 0);
     for (unsigned int phase = 0; phase < schedule.phases().size(); ++phase)
       for (const unsigned int row : schedule.phases()[phase])
         phase_of_row[row] = phase;
+    // Half of the matrix and, at the end of a row, the columns of other ranks.
     for (unsigned int i = 0; i < n; ++i)
       {
-        const double diagonal = trace_of(matrix.block(matrix.diagonal(i)));
-        double       largest  = 0.;
-        for (const BlockRange &range : {matrix.lower(i), matrix.upper(i)})
-          for (std::size_t k = range.begin; k < range.end; ++k)
-            {
-              const double t   = trace_of(matrix.block(k));
-              largest          = std::max(largest, t);
-              most_negative[i] = std::min(most_negative[i], t);
-            }
-        is_stretched[i] = largest >= stretched * diagonal;
+        const auto see = [&](const double t, const unsigned int row) {
+          largest[row]       = std::max(largest[row], t);
+          most_negative[row] = std::min(most_negative[row], t);
+        };
+        const BlockRange lower = matrix.lower(i), upper = matrix.upper(i);
+        for (std::size_t k = lower.begin; k < lower.end; ++k)
+          {
+            const double t = trace_of(matrix.block(k));
+            see(t, i);
+            see(t, matrix.column(k));
+          }
+        for (std::size_t k = upper.end; k > upper.begin && matrix.column(k - 1) >= n; --k)
+          see(trace_of(matrix.block(k - 1)), i);
       }
+    for (unsigned int i = 0; i < n; ++i)
+      is_stretched[i] = largest[i] >= stretched * trace_of(matrix.block(matrix.diagonal(i)));
 
     block_of_row.assign(n, -1);
     place_in_block.assign(n, 0);

@@ -31,16 +31,18 @@ namespace Signorini
   class NodalTransfer
   {
   public:
-    /// Rows with 3x3 blocks: for the fine local node `row`, columns (global) and blocks.
+    /// A row with 3x3 blocks, or with weights: for the fine local node `row`, columns (global) and one of the
+    /// two for each of them.
     struct BlockRow
     {
       unsigned int           row;
       std::vector<NodeIndex> columns;
       std::vector<Block>     blocks;
+      std::vector<double>    weights;
     };
 
     /// Scalar rows of all local fine nodes; block_rows (sorted by row) replace some of them. Those with
-    /// multiples of the identity only become scalar rows as well.
+    /// blocks that are multiples of the identity only become scalar rows as well.
     void reinit(NodeRows rows, const std::vector<BlockRow> &block_rows, const unsigned int n_owned_fine);
 
     /// Truncates a row to a plane: it is (I - n nᵀ) times the original row from now on. A zero vector undoes

@@ -141,20 +141,27 @@ namespace Signorini
       return values.data() + 9 * k;
     }
 
-    /// The owned rows that have a column with the given property, ascending.
+    /// The owned rows that have a column with the given property, ascending. The pattern is symmetric.
     template <typename Property>
     std::vector<unsigned int> rows_with_column(const Property &property) const
     {
-      std::vector<unsigned int> rows;
+      std::vector<bool> is_found(n_rows(), false);
       for (unsigned int row = 0; row < n_rows(); ++row)
         {
-          bool found = false;
-          for (const BlockRange &range : ranges(row))
-            for (std::size_t k = range.begin; k < range.end && !found; ++k)
-              found = property(columns[k]);
-          if (found)
-            rows.push_back(row);
+          if (property(row))
+            for (const BlockRange &range : ranges(row))
+              for (std::size_t k = range.begin; k < range.end && columns[k] < n_rows(); ++k)
+                is_found[columns[k]] = true;
+          // Columns of other ranks are the last ones.
+          const BlockRange after = upper(row);
+          for (std::size_t k = after.end; k > after.begin && columns[k - 1] >= n_rows() && !is_found[row];
+               --k)
+            is_found[row] = property(columns[k - 1]);
         }
+      std::vector<unsigned int> rows;
+      for (unsigned int row = 0; row < n_rows(); ++row)
+        if (is_found[row])
+          rows.push_back(row);
       return rows;
     }
 

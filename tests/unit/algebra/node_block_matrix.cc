@@ -56,7 +56,7 @@ namespace
       for (unsigned int i = 0; i < fine.n_local(); ++i)
         {
           const NodeIndex         global = fine.to_global(i);
-          NodalTransfer::BlockRow block_row{i, {}, {}};
+          NodalTransfer::BlockRow block_row{i, {}, {}, {}};
           for (const auto &[j, weight] : rows[global])
             {
               local.add(j, weight);
@@ -182,6 +182,31 @@ TEST(NodalTransfer, MarkedRowsAreAllThatDependOnTruncatedRows)
       p.dense.middleRows(3 * row, 3) = untruncated.middleRows(3 * row, 3);
     }
   update({8, 13});
+}
+
+
+
+// Columns of other ranks too.
+TEST(NodeBlockMatrix, FindsRowsByTheirColumns)
+{
+  for (const NodeIndex n : {1u, 7u, 60u})
+    {
+      const RandomMatrix::Case c        = RandomMatrix::make(n, 3 + n);
+      const auto               property = [&](const unsigned int column) {
+        return c.matrix.partition().to_global(column) % 13 == 5;
+      };
+      std::vector<unsigned int> expected;
+      for (unsigned int row = 0; row < c.matrix.n_rows(); ++row)
+        {
+          bool found = false;
+          for (const BlockRange &range : c.matrix.ranges(row))
+            for (std::size_t k = range.begin; k < range.end; ++k)
+              found = found || property(c.matrix.column(k));
+          if (found)
+            expected.push_back(row);
+        }
+      EXPECT_EQ(c.matrix.rows_with_column(property), expected);
+    }
 }
 
 

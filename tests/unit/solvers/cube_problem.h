@@ -188,7 +188,7 @@ namespace CubeProblem
                 const auto index = grid.index(p);
                 return normals(index[0] / double(grid.n), index[1] / double(grid.n));
               };
-              NodalTransfer::BlockRow row{i, {}, {}};
+              NodalTransfer::BlockRow row{i, {}, {}, {}};
               for (std::size_t k = rows.start[i]; k < rows.start[i + 1]; ++k)
                 {
                   row.columns.push_back(rows.columns[k]);

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_discretization_transformed_rows_h
+#define signorini_discretization_transformed_rows_h
+
+#include <signorini/algebra/interface_coupling.h>
+#include <signorini/algebra/nodal_transfer.h>
+
+#include <vector>
+
+namespace Signorini
+{
+  /// What is known at the contact of two neighbouring levels, the same on all ranks.
+  struct ContactOfLevels
+  {
+    const InterfaceCoupling &fine;
+    /// One per row of the coupling.
+    const std::vector<FixedMask> &fine_masks;
+    /// Sorted nodes of rows and columns of the fine coupling, and their interpolation rows.
+    const std::vector<NodeIndex> &nodes;
+    const NodeRows               &node_rows;
+    const InterfaceCoupling      &coarse;
+    const std::vector<FixedMask> &coarse_masks;
+    /// One per row of the couplings, or empty: see transformed_rows().
+    const std::vector<Vector3> &normals, &coarse_normals;
+    /// One per row of the fine coupling, or empty: rows that are zero, because their nodes are tied.
+    const std::vector<unsigned char> &tied;
+  };
+
+  /// The rows of P̂ = (I - E S) P (I + E_c S_c) that differ from those of P, for the local nodes of the fine
+  /// level (method.md, section 5). With normals the rows of contact nodes have relative displacements only,
+  /// turned from the coarse normals to the fine one: what coarse obstacles need.
+  /// @param rows the rows of P of the local nodes
+  std::vector<NodalTransfer::BlockRow> transformed_rows(const NodePartition &partition, const NodeRows &rows,
+                                                        const ContactOfLevels &contact);
+} // namespace Signorini
+
+#endif
