@@ -107,7 +107,7 @@ namespace Signorini
 
 
   double TruncatedNewtonMultigrid::correct(Vector &z, Vector &residual, const bool semidefinite,
-                                           const bool searches)
+                                           bool &searches)
   {
     const ProjectedGaussSeidel &smoother = *hierarchy.finest().smoother;
     if (hierarchy.truncate(smoother.half_spaces(), smoother.active()))
@@ -116,30 +116,28 @@ namespace Signorini
     restrict_defect(hierarchy.level(hierarchy.n_levels() - 2), coarse_defect, residual);
     cycle.apply(coarse_correction, coarse_defect);
     z.zero_out_ghost_values();
+    Vector      &step   = prolongate_correction();
+    const double length = std::min(1., admissible_step(z, step, smoother.half_spaces()));
+    searches            = searches || (length < 1. && !semidefinite);
     if (searches)
       {
         // The slope must not see the contact forces: they are larger than the residual by orders of
         // magnitude.
         smoother.restrict_to_tangents(residual);
-        return add_better(z, residual, semidefinite);
+        return add_better(z, residual, length, semidefinite);
       }
-    Vector &step = prolongate_correction();
-    if (semidefinite)
-      step *= std::min(1., admissible_step(z, step, smoother.half_spaces()));
-    else
-      smoother.project_correction(step, z);
-    z += step;
+    z.add(length, step);
     return 0.;
   }
 
 
 
-  double TruncatedNewtonMultigrid::add_better(Vector &z, const Vector &residual, const bool semidefinite)
+  double TruncatedNewtonMultigrid::add_better(Vector &z, const Vector &residual, const double length,
+                                              const bool semidefinite)
   {
     const ProjectedGaussSeidel &smoother    = *hierarchy.finest().smoother;
     const HalfSpaces           &half_spaces = smoother.half_spaces();
-    Vector                     &step        = prolongate_correction();
-    const double                length      = std::min(1., admissible_step(z, step, half_spaces));
+    Vector                     &step        = scratch;
     double                      square      = 0.;
     if (length < 1.)
       {
@@ -255,16 +253,17 @@ namespace Signorini
         const double before = energy;
         check(true);
         bool keeps_active = smoother.active() == active;
-        // A good start shows itself by an active set that rests from the beginning.
-        if (report.history.empty())
-          rests = accelerates && is_good_start && !problem.semidefinite && all_ranks(keeps_active);
-        const bool searches = !rests;
-        // Without a search the iteration as a whole lowers the energy, not each step after this one.
-        if (!searches)
-          energy = before;
-        const double cut_off = correct(z, new_residual, problem.semidefinite, searches);
+        // From a good start a set that the first half keeps is mostly the last one. A search would cost a
+        // product.
+        if (accelerates && is_good_start && !problem.semidefinite)
+          rests = all_ranks(keeps_active);
+        bool         searches = !rests;
+        const double cut_off  = correct(z, new_residual, problem.semidefinite, searches);
+        // Without a search the iteration as a whole lowers the energy, not each step after the first.
         if (searches)
           check(true);
+        else
+          energy = before;
         smoother.smooth_to_residual(z, residual, smoothing, &new_residual);
         keeps_active = all_ranks(keeps_active && smoother.active() == active);
 
@@ -274,8 +273,9 @@ namespace Signorini
           return searches ? 1. : safe_length(z, product, residual, keeps_active);
         };
         const bool goes_to_planes = !is_on_planes && step_length() == 1.;
-        rests =
-            keeps_active && accelerates && !goes_to_planes && accelerate(v, residual, z, product, problem);
+        // What was cut off is no linear function of the residual either.
+        const bool is_linear = keeps_active && !goes_to_planes && (cut_off == 0. || problem.semidefinite);
+        rests                = accelerates && is_linear && accelerate(v, residual, z, product, problem);
         // Before it is shortened: a correction that was cut off does not mean convergence.
         const double norm = std::max(cut_off, std::sqrt(std::max(0., z * product)));
         if (rests)

@@ -347,10 +347,10 @@ def slender(p):
              'Body lower/Young modulus=1', 'Pair interface/Initial gap=0.001')
     two = ('Refinement/Global cycles=1',)
     three = ('Refinement/Global cycles=0', 'Refinement/Initial global levels=2')
-    for text, prm, settings, bounds in (('bar', 'obstacle/paraboloid.prm', [f'Body cube/{b}' for b in bar] + [*plane, *two], (20, 18)),
+    for text, prm, settings, bounds in (('bar', 'obstacle/paraboloid.prm', [f'Body cube/{b}' for b in bar] + [*plane, *two], (20, 22)),
                                         ('bar from zero', 'obstacle/paraboloid.prm', [f'Body cube/{b}' for b in bar] + [*plane, *three], (20,)),
                                         ('plate', 'obstacle/paraboloid.prm', [f'Body cube/{b}' for b in plate] + [*plane, *two], (25, 25)),
-                                        ('bar on a block', 'cubes/cubes.prm', [f'Body upper/{b}' for b in bar] + [*below, *two], (20, 18))):
+                                        ('bar on a block', 'cubes/cubes.prm', [f'Body upper/{b}' for b in bar] + [*below, *two], (20, 22))):
         s = p.solve(prm, *settings)
         certificate(s)
         other = p.solve(prm, *settings, 'Solver/Method=active set amg', 'Solver/Compare linear multigrid=false')

@@ -18,13 +18,13 @@ namespace Signorini
   /// Accelerated: as long as the active set rests, the same iteration is a linear symmetric
   /// preconditioner z = M(v) - v of the residual on the free components, and the step goes along the
   /// A-conjugate direction p = z - (z·Ap_old / p_old·Ap_old) p_old with the exact step length. This
-  /// minimizes the energy over v + span(z, p_old), so it never ends above M(v). Where the active set moves
-  /// or p leaves the admissible set, M(v) is taken, shortened if it was not searched and its energy is not
-  /// lower. After that the active nodes are on the way to their planes, and M is no linear map: the first
-  /// M(v) that need not be shortened is taken before conjugate gradients go on. None of this needs a product
-  /// with A more than the plain iteration. From a good start (MultigridHierarchy::expect_active_set(), or
-  /// from below) the interface sweeps of the finest level are left out while the active set rests and
-  /// iterations are fast.
+  /// minimizes the energy over v + span(z, p_old), so it never ends above M(v). Where the active set moves,
+  /// something was cut off or p leaves the admissible set, M(v) is taken, shortened if it was not searched
+  /// and its energy is not lower. After that the active nodes are on the way to their planes, and M is no
+  /// linear map: the first M(v) that need not be shortened is taken before conjugate gradients go on. None of
+  /// this needs a product with A more than the plain iteration. From a good start
+  /// (MultigridHierarchy::expect_active_set(), or from below) the interface sweeps of the finest level are
+  /// left out while the active set rests and iterations are fast.
   ///
   /// Accelerated without a start gets one from the levels below, each an obstacle problem of its own with the
   /// half-spaces of the nodes it shares with the finest (nested iteration without coarser meshes).
@@ -51,14 +51,14 @@ namespace Signorini
     /// The coarse correction on the finest level, tangential at active nodes, in `scratch`.
     Vector &prolongate_correction();
 
-    /// Adds the truncated V-cycle of the residual, which may be changed, to the correction z, admissible and,
-    /// if wanted, with exact line search. Returns what add_better() does, zero without a search.
-    double correct(Vector &z, Vector &residual, const bool semidefinite, const bool searches);
+    /// Adds the truncated V-cycle of the residual, which may be changed, to the correction z. With a search,
+    /// or where it is not admissible, by add_better(). Returns what that does, or zero.
+    double correct(Vector &z, Vector &residual, const bool semidefinite, bool &searches);
 
-    /// Adds the coarse correction. What is not admissible is cut off node by node or the whole is shortened,
-    /// whichever lowers the energy more. Returns the energy norm of what was cut off or shortened, before
-    /// that; zero where nothing was.
-    double add_better(Vector &z, const Vector &residual, const bool semidefinite);
+    /// Adds the coarse correction in `scratch`, of which `length` is admissible, with exact line search. What
+    /// is not admissible is cut off node by node or the whole is shortened, whichever lowers the energy more.
+    /// Returns the energy norm of what was cut off or shortened, before that; zero where nothing was.
+    double add_better(Vector &z, const Vector &residual, const double length, const bool semidefinite);
 
     /// One accelerated step from v with the correction z, az = A z; false, and nothing changed but the
     /// direction, if it is not to be taken. On success z and az are the correction made and its product with
