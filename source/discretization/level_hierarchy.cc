@@ -299,7 +299,7 @@ namespace Signorini
         if (l == 0)
           break;
 
-        const NodeRows      rows      = import_ghost_rows(partition, spaces.interpolation(l));
+        NodeRows            rows      = import_ghost_rows(partition, spaces.interpolation(l));
         const NodeRows      node_rows = replicate_rows(partition, spaces.interpolation(l), nodes);
         InterfaceCoupling   coarse    = coarsen_coupling(fine, nodes, node_rows);
         const IndexSet     &owned     = spaces.space(l - 1).owned();
@@ -314,7 +314,7 @@ namespace Signorini
                              {fine, fine_masks, nodes, node_rows, coarse, coarse_masks, normals,
                               coarse_normals, l + 1 == spaces.n_levels() ? options.tied : none_tied});
         NodalTransfer transfer;
-        transfer.reinit(rows, block_rows, partition.n_owned());
+        transfer.reinit(std::move(rows), block_rows, partition.n_owned());
         hierarchy.add_coarser_level(std::move(transfer), owned, spaces.fixed(l - 1));
         MultigridLevel &level = hierarchy.coarsest();
         for (std::size_t q = 0; q < coarse_normals.size(); ++q)
