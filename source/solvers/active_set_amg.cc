@@ -124,7 +124,7 @@ namespace Signorini
         correction = v;
         correction -= start;
         matrix.vmult(product, correction);
-        book_iteration(report, std::sqrt(std::max(0., correction * product)), std::sqrt(std::max(0., square)),
+        book_iteration(report, std::sqrt(std::max(correction * product, 0.)), std::sqrt(std::max(square, 0.)),
                        monitor);
         // The active set decides; the linear problems have been solved to the tolerance.
         report.converged = !changed;

@@ -27,9 +27,9 @@ namespace Signorini
           }
         correction.sadd(-1., 1., v);
         matrix.vmult(product, correction);
-        const double size = std::sqrt(std::max(0., product * correction));
+        const double size = std::sqrt(std::max(product * correction, 0.));
         matrix.vmult(product, v);
-        book_iteration(report, size, std::sqrt(std::max(0., product * v)), monitor);
+        book_iteration(report, size, std::sqrt(std::max(product * v, 0.)), monitor);
       }
     close(report, v, problem);
     return report;

@@ -36,7 +36,7 @@ namespace Signorini
         cycle.apply(z, residual, new_residual);
         product = residual;
         product -= new_residual;
-        const double norm = std::sqrt(std::max(0., z * product));
+        const double norm = std::sqrt(std::max(z * product, 0.));
         z.zero_out_ghost_values();
         v.zero_out_ghost_values();
         // Rounding along motions that cost nothing feeds on itself through old directions.
@@ -63,7 +63,7 @@ namespace Signorini
             residual.swap(new_residual);
           }
         const double square = v * problem.rhs - v * residual;
-        book_iteration(report, norm, std::sqrt(std::max(0., square)), monitor);
+        book_iteration(report, norm, std::sqrt(std::max(square, 0.)), monitor);
       }
     close(report, v, problem, residual);
     return report;

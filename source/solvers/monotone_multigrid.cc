@@ -172,7 +172,7 @@ namespace Signorini
         check_substep(report, energy, v, problem);
         start.sadd(-1., 1., v);
         matrix.vmult(product, start);
-        book_iteration(report, std::sqrt(std::max(0., start * product)), std::sqrt(std::max(0., square)),
+        book_iteration(report, std::sqrt(std::max(start * product, 0.)), std::sqrt(std::max(square, 0.)),
                        monitor);
       }
     close(report, v, problem);

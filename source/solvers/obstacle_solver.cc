@@ -151,7 +151,6 @@ namespace Signorini
   void ObstacleSolver::add_searched(Vector &v, const Vector &c, Vector &residual,
                                     const HalfSpaces &half_spaces, const bool semidefinite) const
   {
-    // The slope must not see the contact forces: they are larger than the residual by orders of magnitude.
     hierarchy.finest().smoother->restrict_to_tangents(residual);
     v.add(search_along(v, c, residual, half_spaces, semidefinite).length, c);
   }

@@ -139,25 +139,22 @@ namespace Signorini
     const HalfSpaces           &half_spaces = smoother.half_spaces();
     Vector                     &step        = scratch;
     double                      square      = 0.;
-    if (length < 1.)
+    if (length < 1. && !semidefinite)
       {
         // A V-cycle is at most the inverse of A: the slope is at least the curvature.
-        square                = std::max(0., residual * step);
+        square                = std::max(residual * step, 0.);
         const double decrease = (length - .5 * length * length) * square;
-        // Motions that cost nothing come out very long: shortened as a whole they stay motions.
-        if (!semidefinite)
+        smoother.project_correction(step, z);
+        const LineSearch projected = search_along(z, step, residual, half_spaces, semidefinite);
+        if (projected.decrease >= decrease)
           {
-            smoother.project_correction(step, z);
-            const LineSearch projected = search_along(z, step, residual, half_spaces, semidefinite);
-            if (projected.decrease >= decrease)
-              {
-                z.add(projected.length, step);
-                return std::sqrt(square);
-              }
-            prolongate_correction();
+            z.add(projected.length, step);
+            return std::sqrt(square);
           }
-        step *= length;
+        prolongate_correction();
       }
+    if (length < 1.)
+      step *= length;
     z.add(search_along(z, step, residual, half_spaces, semidefinite).length, step);
     return std::sqrt(square);
   }
@@ -256,7 +253,7 @@ namespace Signorini
         // From a good start a set that the first half keeps is mostly the last one. A search would cost a
         // product.
         if (accelerates && is_good_start && !problem.semidefinite)
-          rests = all_ranks(keeps_active);
+          rests = is_on_planes && all_ranks(keeps_active);
         bool         searches = !rests;
         const double cut_off  = correct(z, new_residual, problem.semidefinite, searches);
         // Without a search the iteration as a whole lowers the energy, not each step after the first.
@@ -274,10 +271,10 @@ namespace Signorini
         };
         const bool goes_to_planes = !is_on_planes && step_length() == 1.;
         // What was cut off is no linear function of the residual either.
-        const bool is_linear = keeps_active && !goes_to_planes && (cut_off == 0. || problem.semidefinite);
+        const bool is_linear = keeps_active && !goes_to_planes && cut_off == 0.;
         rests                = accelerates && is_linear && accelerate(v, residual, z, product, problem);
         // Before it is shortened: a correction that was cut off does not mean convergence.
-        const double norm = std::max(cut_off, std::sqrt(std::max(0., z * product)));
+        const double norm = std::max(std::sqrt(std::max(z * product, 0.)), cut_off);
         if (rests)
           residual -= product;
         else
@@ -306,7 +303,7 @@ namespace Signorini
           }
         check(false);
         const double square = v * problem.rhs - v * residual;
-        book_iteration(report, norm, std::sqrt(std::max(0., square)), monitor);
+        book_iteration(report, norm, std::sqrt(std::max(square, 0.)), monitor);
       }
     close(report, v, problem, residual);
     report.hierarchy_updates       = n_updates;

@@ -354,6 +354,8 @@ def slender(p):
         s = p.solve(prm, *settings)
         certificate(s)
         other = p.solve(prm, *settings, 'Solver/Method=active set amg', 'Solver/Compare linear multigrid=false')
+        check(len(s['cycles']) == len(other['cycles']) == len(bounds), f'{text}: {len(s["cycles"])} cycles')
+        check('bar on' in text or 'monotonicity' in s['cycles'][0]['nonlinear'], f'{text}: monotonicity was not checked')
         for a, b, bound in zip(s['cycles'], other['cycles'], bounds):
             solver = a['nonlinear']
             print(f'{text}: {solver["iterations"]} iterations, start {solver.get("start_iterations", [])}')
@@ -363,6 +365,11 @@ def slender(p):
             # The energy is a difference of numbers larger by the ratio of the stiffness of a cell to that of the bar, 4 (40 / 1)^3.
             if 'monotonicity' in solver:
                 check(solver['monotonicity']['largest_energy_rise'] <= 1e-10, f'{text}: energy rises by {solver["monotonicity"]["largest_energy_rise"]}')
+
+
+    s = p.solve('obstacle/paraboloid.prm', *[f'Body cube/{b}' for b in bar], *plane, *two, 'Solver/Method=truncated newton multigrid')
+    for c in s['cycles']:
+        check(c['nonlinear']['iterations'] <= 30, f'truncated newton multigrid: {c["nonlinear"]["iterations"]} iterations')
 
 
 def free_bodies(p):

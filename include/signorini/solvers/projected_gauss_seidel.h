@@ -80,8 +80,8 @@ namespace Signorini
 
     /// smooth() forward from v = 0, and residual = rhs - A v, in single precision (see RoundedSweep): for
     /// corrections, and right hand sides that go to zero with them. The right hand side of rows with a
-    /// half-space, which at an active node is the contact force, and interface sweeps are in double
-    /// precision.
+    /// half-space, which at an active node is the contact force, is not rounded. Interface sweeps are in
+    /// double precision, from the residual that the others leave.
     void smooth_from_zero(Vector &v, const Vector &rhs, const SmoothingParameters &parameters,
                           Vector &residual);
 

@@ -48,16 +48,20 @@ namespace Signorini
     /// coarser levels.
     std::vector<unsigned int> start_below(Vector &v, const ObstacleProblem &problem);
 
-    /// The coarse correction on the finest level, tangential at active nodes, in `scratch`.
+    /// Collective. The coarse correction on the finest level, tangential at active nodes, in `scratch`.
     Vector &prolongate_correction();
 
-    /// Adds the truncated V-cycle of the residual, which may be changed, to the correction z. With a search,
-    /// or where it is not admissible, by add_better(). Returns what that does, or zero.
+    /// Collective. Adds the truncated V-cycle of the residual, which may be changed, to the correction z: by
+    /// add_better() if `searches` or something is not admissible, and then `searches` is set. Motions of
+    /// semidefinite problems that cost nothing come out very long: what is not admissible is shortened as a
+    /// whole there, so that they stay motions, with a search or without. Returns what add_better() does, or
+    /// zero.
     double correct(Vector &z, Vector &residual, const bool semidefinite, bool &searches);
 
-    /// Adds the coarse correction in `scratch`, of which `length` is admissible, with exact line search. What
-    /// is not admissible is cut off node by node or the whole is shortened, whichever lowers the energy more.
-    /// Returns the energy norm of what was cut off or shortened, before that; zero where nothing was.
+    /// Collective. Adds the coarse correction in `scratch`, of which `length` is admissible, with exact line
+    /// search. What is not admissible is cut off node by node or the whole is shortened, whichever lowers the
+    /// energy more. Returns the energy norm of what was cut off or shortened, before that; zero where nothing
+    /// was, and for semidefinite problems.
     double add_better(Vector &z, const Vector &residual, const double length, const bool semidefinite);
 
     /// One accelerated step from v with the correction z, az = A z; false, and nothing changed but the

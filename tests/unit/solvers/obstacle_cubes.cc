@@ -191,9 +191,8 @@ TEST(InterfaceCorrection, SolvesTheObstacleProblemOfTheContactNodes)
 
 
 // Smoothing in single precision, and its residual, against sweeps in double precision: with half-spaces,
-// interface sweeps and lines of flat cells. Where a half-space is, nothing is
-// rounded: v keeps it exactly, and a force that presses a node onto its plane, however large, leaves no
-// trace.
+// interface sweeps and lines of flat cells. Where a half-space is, the right hand side is not rounded: v
+// keeps it exactly, and a force that presses a node onto its plane, however large, leaves no trace.
 TEST(ProjectedGaussSeidel, SmoothingHandsOutItsResidual)
 {
   for (const double height : {1., .05})
