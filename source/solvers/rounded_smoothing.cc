@@ -38,7 +38,7 @@ namespace Signorini
   void ProjectedGaussSeidel::run_rounded(Vector &v, const Vector &rhs, const RoundedSweep::Options &options)
   {
     const auto is_apart = [&](const unsigned int row) {
-      return is_exact(row) || half_space_of_row[row] >= 0;
+      return !is_ordered[row] || half_space_of_row[row] >= 0;
     };
     const std::size_t n_phases = all_rows.phases().size();
     for (std::size_t phase = 0; phase < n_phases; ++phase)
@@ -57,7 +57,7 @@ namespace Signorini
                 const unsigned int row      = at(k);
                 double *const      y        = v.begin() + dim * static_cast<std::size_t>(row);
                 const double       old[dim] = {y[0], y[1], y[2]};
-                if (is_exact(row))
+                if (!is_ordered[row])
                   relax<forward>(v.begin(), rhs.begin(), row);
                 else
                   relax_half_space(y, rhs.begin() + dim * static_cast<std::size_t>(row), row,
@@ -94,7 +94,7 @@ namespace Signorini
     const double *const r      = residual.begin() + i;
     const double *const a      = matrix.block(matrix.diagonal(row));
     double              s[3]   = {r[0], r[1], r[2]};
-    if (is_exact(row))
+    if (!is_ordered[row])
       {
         double product[3];
         matrix.multiply_row(product, row, v);
@@ -145,7 +145,7 @@ namespace Signorini
     residual.zero_out_ghost_values();
     v.update_ghost_values();
     for (unsigned int row = 0; row < matrix.n_rows(); ++row)
-      if (is_exact(row))
+      if (!is_ordered[row])
         {
           double *const r = residual.begin() + dim * static_cast<std::size_t>(row);
           matrix.multiply_row(r, row, v);

@@ -121,8 +121,6 @@ namespace Signorini
     searches            = searches || (length < 1. && !semidefinite);
     if (searches)
       {
-        // The slope must not see the contact forces: they are larger than the residual by orders of
-        // magnitude.
         smoother.restrict_to_tangents(residual);
         return add_better(z, residual, length, semidefinite);
       }
@@ -225,8 +223,9 @@ namespace Signorini
       vector->reinit(v);
     matrix.vmult(residual, v);
     residual.sadd(-1., 1., problem.rhs);
-    // Whether active nodes lie on their planes: a shortened step leaves them on the way. The way to the
-    // planes is no linear function of the residual, as conjugate gradients need it.
+    // Whether active nodes lie on their planes: a shortened step leaves them on the way, and the next
+    // iteration, with a search, is not shortened and takes them there. The way to the planes is no linear
+    // function of the residual, as conjugate gradients need it.
     bool       is_on_planes = true;
     bool       rests        = false;
     double     energy       = std::numeric_limits<double>::infinity();
@@ -266,12 +265,9 @@ namespace Signorini
 
         product = residual;
         product -= new_residual;
-        const auto step_length = [&] {
-          return searches ? 1. : safe_length(z, product, residual, keeps_active);
-        };
-        const bool goes_to_planes = !is_on_planes && step_length() == 1.;
+        Assert(searches || is_on_planes, ExcInternalError());
         // What was cut off is no linear function of the residual either.
-        const bool is_linear = keeps_active && !goes_to_planes && cut_off == 0.;
+        const bool is_linear = keeps_active && is_on_planes && cut_off == 0.;
         rests                = accelerates && is_linear && accelerate(v, residual, z, product, problem);
         // Before it is shortened: a correction that was cut off does not mean convergence.
         const double norm = std::max(std::sqrt(std::max(z * product, 0.)), cut_off);
@@ -280,7 +276,7 @@ namespace Signorini
         else
           {
             conjugate.restart();
-            const double length = step_length();
+            const double length = searches ? 1. : safe_length(z, product, residual, keeps_active);
             is_on_planes        = length == 1.;
             if (length == 1.)
               residual.swap(new_residual);

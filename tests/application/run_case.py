@@ -365,8 +365,6 @@ def slender(p):
             # The energy is a difference of numbers larger by the ratio of the stiffness of a cell to that of the bar, 4 (40 / 1)^3.
             if 'monotonicity' in solver:
                 check(solver['monotonicity']['largest_energy_rise'] <= 1e-10, f'{text}: energy rises by {solver["monotonicity"]["largest_energy_rise"]}')
-
-
     s = p.solve('obstacle/paraboloid.prm', *[f'Body cube/{b}' for b in bar], *plane, *two, 'Solver/Method=truncated newton multigrid')
     for c in s['cycles']:
         check(c['nonlinear']['iterations'] <= 30, f'truncated newton multigrid: {c["nonlinear"]["iterations"]} iterations')

@@ -90,7 +90,8 @@ namespace Signorini
     };
 
     /// Collective. The t that minimizes the energy of v + t c, as far as it is admissible. c is admissible
-    /// for v and tangential at active nodes, as is residual = b - A v.
+    /// for v; c and residual = b - A v are tangential at active nodes: the slope must not see the contact
+    /// forces, which are larger than the residual by orders of magnitude.
     LineSearch search_along(const Vector &v, const Vector &c, const Vector &residual,
                             const HalfSpaces &half_spaces, const bool semidefinite) const;
 

@@ -121,12 +121,6 @@ namespace Signorini
     template <Direction direction>
     void relax(double *v, const double *rhs, const unsigned int row);
 
-    /// Whether sweeps in single precision read a row in double precision, as a whole.
-    bool is_exact(const unsigned int row) const
-    {
-      return !is_ordered[row];
-    }
-
     /// RoundedSweep::start() without the right hand sides of relax_half_space().
     void start_rounded(const Vector &v, const Vector &rhs);
 
@@ -137,10 +131,10 @@ namespace Signorini
     /// The residual after a sweep that has kept it.
     void get_residual(Vector &residual) const;
 
-    /// A sweep in single precision but for rows that are exact or have a half-space.
+    /// A sweep in single precision but for rows that are not ordered or have a half-space.
     void run_rounded(Vector &v, const Vector &rhs, const RoundedSweep::Options &options);
 
-    /// The same in double precision from a residual that is valid where rows are not exact, and stays so.
+    /// The same in double precision from a residual that is valid where rows are ordered, and stays so.
     void relax_with_residual(Vector &v, const Vector &rhs, const unsigned int row, Vector &residual);
 
     /// residual -= A change of a row.
@@ -173,7 +167,7 @@ namespace Signorini
     void sweep_blocks_rounded(Vector &v, const Vector &rhs, const Direction direction,
                               const bool passes_down);
 
-    /// The residual at exact rows.
+    /// The residual at rows that are not ordered.
     void complete_residual(Vector &residual, const Vector &v, const Vector &rhs);
 
     /// Collective. By how much a forward and a backward sweep over some rows reduce the energy norm of an
@@ -189,7 +183,7 @@ namespace Signorini
     /// Null where sweeps by node are fast enough.
     std::unique_ptr<InterfaceCorrection> interface_correction;
     /// Rows of which a forward sweep visits the lower part before and the upper part after them, seen by no
-    /// other rank.
+    /// other rank. Sweeps in single precision read the others as a whole, in double precision.
     std::vector<bool>    is_ordered;
     RoundedSweep         rounded;
     std::vector<double>  inverse_diagonal;
