@@ -255,6 +255,14 @@ namespace Signorini
 
 
 
+  void NodeBlockMatrix::symmetric_residual(Vector &residual, const Vector &src, const Vector &rhs) const
+  {
+    residual.copy_locally_owned_data_from(rhs);
+    subtract_symmetric_product(residual, src);
+  }
+
+
+
   std::size_t NodeBlockMatrix::memory_consumption() const
   {
     return values.capacity() * sizeof(double) + columns.capacity() * sizeof(unsigned int) +

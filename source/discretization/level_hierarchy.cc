@@ -211,6 +211,38 @@ namespace Signorini
 
 
 
+  void drop_small_weights(InterfaceCoupling &coupling)
+  {
+    constexpr double  small = .1;
+    InterfaceCoupling kept  = coupling;
+    kept.entries.clear();
+    kept.row_start.assign(1, 0);
+    for (std::size_t p = 0; p < coupling.n_rows(); ++p)
+      {
+        const auto *const largest =
+            std::max_element(coupling.begin(p), coupling.end(p), [](const auto &a, const auto &b) {
+              return std::abs(a.weight) < std::abs(b.weight);
+            });
+        double      dropped = 0.;
+        std::size_t place   = 0;
+        for (const auto *entry = coupling.begin(p); entry != coupling.end(p); ++entry)
+          if (std::abs(entry->weight) < small * std::abs(largest->weight))
+            dropped += entry->weight;
+          else
+            {
+              if (entry == largest)
+                place = kept.entries.size();
+              kept.entries.push_back(*entry);
+            }
+        if (largest != coupling.end(p))
+          kept.entries[place].weight += dropped;
+        kept.row_start.push_back(kept.entries.size());
+      }
+    coupling = std::move(kept);
+  }
+
+
+
   namespace
   {
     std::vector<NodeIndex> interface_nodes(const InterfaceCoupling &coupling)
@@ -299,10 +331,13 @@ namespace Signorini
         if (l == 0)
           break;
 
-        NodeRows            rows      = import_ghost_rows(partition, spaces.interpolation(l));
-        const NodeRows      node_rows = replicate_rows(partition, spaces.interpolation(l), nodes);
-        InterfaceCoupling   coarse    = coarsen_coupling(fine, nodes, node_rows);
-        const IndexSet     &owned     = spaces.space(l - 1).owned();
+        NodeRows          rows      = import_ghost_rows(partition, spaces.interpolation(l));
+        const NodeRows    node_rows = replicate_rows(partition, spaces.interpolation(l), nodes);
+        InterfaceCoupling coarse    = coarsen_coupling(fine, nodes, node_rows);
+        // Coarse obstacles bound the relative displacements themselves, not just a basis.
+        if (normals.empty())
+          drop_small_weights(coarse);
+        const IndexSet     &owned = spaces.space(l - 1).owned();
         const NodePartition coarse_partition(owned, IndexSet(owned.size()), partition.communicator());
         const auto          fine_masks = replicate_masks(partition, spaces.fixed(l), fine.rows);
         const auto coarse_masks        = replicate_masks(coarse_partition, spaces.fixed(l - 1), coarse.rows);

@@ -33,6 +33,9 @@ namespace Signorini
       std::vector<bool> bits;
     };
 
+    /// What is left of weights of interpolation, which are of the order of one, where they cancel.
+    constexpr double rounding = 1e-12;
+
     class RowBuilder
     {
     public:
@@ -127,6 +130,8 @@ namespace Signorini
         result.columns.reserve(sums.size());
         for (const auto &[column, diagonal] : sums)
           {
+            if (std::max({std::abs(diagonal[0]), std::abs(diagonal[1]), std::abs(diagonal[2])}) <= rounding)
+              continue;
             result.columns.push_back(column);
             if (is_scalar)
               result.weights.push_back(diagonal[0]);

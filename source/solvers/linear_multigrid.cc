@@ -29,8 +29,7 @@ namespace Signorini
     Vector             z, product, residual, new_residual;
     for (Vector *vector : {&z, &product, &residual, &new_residual})
       vector->reinit(v);
-    matrix.vmult(residual, v);
-    residual.sadd(-1., 1., problem.rhs);
+    matrix.symmetric_residual(residual, v, problem.rhs);
     while (goes_on(report))
       {
         cycle.apply(z, residual, new_residual);

@@ -90,8 +90,7 @@ namespace Signorini
     // step is the solution.
     for (unsigned int i = 0; i < n_steps; ++i)
       {
-        level.matrix.vmult(w.residual, w.correction);
-        w.residual.sadd(-1., 1., w.rhs);
+        level.matrix.symmetric_residual(w.residual, w.correction, w.rhs);
         hierarchy.coarse_solver().solve(step, w.residual);
         const double length =
             std::min(1., Utilities::MPI::min(spaces.longest_step(w.correction, step), comm));
@@ -156,8 +155,7 @@ namespace Signorini
 
         if (hierarchy.truncate(problem.half_spaces, smoother.active()))
           ++n_updates;
-        matrix.vmult(residual, v);
-        residual.sadd(-1., 1., problem.rhs);
+        matrix.symmetric_residual(residual, v, problem.rhs);
         const double square = v * problem.rhs - v * residual;
         work[coarse].rhs    = 0.;
         restrict_defect(hierarchy.level(coarse), work[coarse].rhs, residual);

@@ -210,21 +210,19 @@ namespace Signorini
     const NodePartition        &partition = levels[0]->matrix.partition();
     std::vector<unsigned char> &truncated = levels[0]->truncated;
     truncated.resize(half_spaces.size(), 0);
+    const bool any_change = !std::equal(truncated.begin(), truncated.end(), active.begin());
+    if (Utilities::MPI::max(static_cast<int>(any_change), partition.communicator()) == 0)
+      return false;
     partition.reinit(planes);
     partition.reinit(changed);
-    bool any_change = false;
     for (std::size_t p = 0; p < half_spaces.size(); ++p)
       {
-        const bool change                                 = truncated[p] != active[p];
-        any_change                                        = any_change || change;
-        changed.local_element(dim * half_spaces.nodes[p]) = change;
+        changed.local_element(dim * half_spaces.nodes[p]) = truncated[p] != active[p];
         if (active[p])
           for (unsigned int c = 0; c < dim; ++c)
             planes.local_element(dim * half_spaces.nodes[p] + c) = half_spaces.normals[p][c];
         truncated[p] = active[p];
       }
-    if (Utilities::MPI::max(static_cast<int>(any_change), partition.communicator()) == 0)
-      return false;
     planes.update_ghost_values();
     changed.update_ghost_values();
     return true;

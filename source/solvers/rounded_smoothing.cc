@@ -227,7 +227,6 @@ namespace Signorini
       }
     if (residual == nullptr)
       return;
-    residual->copy_locally_owned_data_from(rhs);
-    matrix.subtract_symmetric_product(*residual, v);
+    matrix.symmetric_residual(*residual, v, rhs);
   }
 } // namespace Signorini

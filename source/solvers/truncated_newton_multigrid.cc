@@ -221,8 +221,7 @@ namespace Signorini
     Vector &product = scratch;
     for (Vector *vector : {&z, &residual, &new_residual})
       vector->reinit(v);
-    matrix.vmult(residual, v);
-    residual.sadd(-1., 1., problem.rhs);
+    matrix.symmetric_residual(residual, v, problem.rhs);
     // Whether active nodes lie on their planes: a shortened step leaves them on the way, and the next
     // iteration, with a search, is not shortened and takes them there. The way to the planes is no linear
     // function of the residual, as conjugate gradients need it.

@@ -203,6 +203,9 @@ namespace Signorini
     /// those of dst alone.
     void subtract_symmetric_product(Vector &dst, const Vector &src) const;
 
+    /// Collective. residual = rhs - A src on owned rows, in the same way.
+    void symmetric_residual(Vector &residual, const Vector &src, const Vector &rhs) const;
+
     std::size_t memory_consumption() const;
 
   private:

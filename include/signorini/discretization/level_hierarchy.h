@@ -69,6 +69,11 @@ namespace Signorini
   InterfaceCoupling coarsen_coupling(const InterfaceCoupling &fine, const std::vector<NodeIndex> &nodes,
                                      const NodeRows &rows);
 
+  /// Drops the weights below a tenth of the largest one of their row, and adds them to that one: translations
+  /// still have no relative displacements. On coarse levels S is only a choice of the basis: their spaces
+  /// stay the same, their matrices become sparser.
+  void drop_small_weights(InterfaceCoupling &coupling);
+
   struct HierarchyOptions
   {
     /// One per row of the coupling: for a monotone multigrid, with relative displacements at contact nodes

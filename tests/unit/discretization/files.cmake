@@ -2,4 +2,5 @@ signorini_add_unit_tests(discretization RANKS "1;2;4"
   elasticity.cc
   error_indicator.cc
   hexahedron.cc
+  level_hierarchy.cc
 )
