@@ -234,9 +234,15 @@ TEST(NodeBlockMatrix, HalfOfASymmetricMatrixIsEnough)
           x.local_element(i) = dense_x[3 * nodes.first_owned() + i];
           y.local_element(i) = 1.;
         }
+      Vector residual;
+      nodes.reinit(residual);
+      c.matrix.symmetric_residual(residual, x, y);
       c.matrix.subtract_symmetric_product(y, x);
       const Eigen::VectorXd expected = Eigen::VectorXd::Ones(3 * n) - c.dense * dense_x;
       for (unsigned int i = 0; i < 3 * nodes.n_owned(); ++i)
-        EXPECT_NEAR(y.local_element(i), expected[3 * nodes.first_owned() + i], 1e-12);
+        {
+          EXPECT_NEAR(y.local_element(i), expected[3 * nodes.first_owned() + i], 1e-12);
+          EXPECT_EQ(residual.local_element(i), y.local_element(i));
+        }
     }
 }
