@@ -334,7 +334,8 @@ namespace Signorini
         NodeRows          rows      = import_ghost_rows(partition, spaces.interpolation(l));
         const NodeRows    node_rows = replicate_rows(partition, spaces.interpolation(l), nodes);
         InterfaceCoupling coarse    = coarsen_coupling(fine, nodes, node_rows);
-        // Coarse obstacles bound the relative displacements themselves, not just a basis.
+        // Coarse obstacles bound the relative displacements themselves, not just a basis. (Those for a start
+        // may be rough.)
         if (normals.empty())
           drop_small_weights(coarse);
         const IndexSet     &owned = spaces.space(l - 1).owned();
