@@ -68,6 +68,7 @@ TEST(Elasticity, LoadsAddUpToForces)
   const auto       partition = partition_of(space);
   Vector           u;
   partition.reinit(u);
+  u.update_ghost_values();
   const auto force_of = [&](const LoadParameters &parameters) {
     Loads loads;
     loads.add(block.bodies, 0, parameters);
