@@ -92,8 +92,7 @@ namespace Signorini
     Discretization &d = discretization;
     Vector          residual;
     residual.reinit(v);
-    matrix.vmult(residual, v);
-    residual.sadd(-1., 1., problem.rhs);
+    matrix.symmetric_residual(residual, v, problem.rhs);
     const auto forces = replicate_values(matrix.partition(), residual, d.coupling.rows);
     const auto values = replicate_values(matrix.partition(), v, d.coupling.rows);
     // The active set is what the projection of the solver wrote.

@@ -94,8 +94,7 @@ namespace Signorini
         for (std::size_t p = 0; p < spaces.size(); ++p)
           if (is_active[p])
             spaces.add_normal(v, p, spaces.bounds[p] - spaces.normal_part(p, v));
-        matrix.vmult(residual, v);
-        residual.sadd(-1., 1., problem.rhs);
+        matrix.symmetric_residual(residual, v, problem.rhs);
         remove_normal_parts(residual, spaces);
         const double size = residual.l2_norm();
         reference         = std::max(reference, size);

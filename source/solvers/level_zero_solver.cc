@@ -130,8 +130,7 @@ namespace Signorini
         step.reinit(rhs);
         for (unsigned int i = 0; i < n_steps; ++i)
           {
-            matrix->vmult(residual, solution);
-            residual.sadd(-1., 1., rhs);
+            matrix->symmetric_residual(residual, solution, rhs);
             amg->vmult(step, residual);
             solution += step;
           }

@@ -200,8 +200,7 @@ namespace Signorini
   {
     Vector residual;
     residual.reinit(v);
-    hierarchy.finest().matrix.vmult(residual, v);
-    residual.sadd(-1., 1., problem.rhs);
+    hierarchy.finest().matrix.symmetric_residual(residual, v, problem.rhs);
     close(report, v, problem, residual);
   }
 
