@@ -59,7 +59,11 @@ namespace Signorini
             const auto [body, boundary] = split_side(*sides[i], where);
             definition.body[i]          = bodies.body_index(body, where);
             definition.boundary[i]      = boundary;
-            bodies.boundary_ids(definition.body[i], boundary, where);
+            const auto ids              = bodies.boundary_ids(definition.body[i], boundary, where);
+            if (p.surface != "faceted" && p.contact != "tied")
+              bodies.follow_start_mesh(definition.body[i], ids, p.surface == "smooth");
+            definition.shapes[i]     = {bodies.true_shapes(definition.body[i], ids, p.surface != "automatic"),
+                                        p.surface != "faceted"};
             definition.has_region[i] = !Utilities::trim(*regions[i]).empty();
             if (definition.has_region[i])
               definition.region[i] = Expression(*regions[i], where + " region");
@@ -125,7 +129,8 @@ namespace Signorini
               return d.dirichlet.mask[d.space->relevant().index_within_set(node)];
             },
             definition.has_region[i] ? [&](const Point<3> &p) { return definition.region[i](p) > 0.; }
-                                     : std::function<bool(const Point<3> &)>());
+                                     : std::function<bool(const Point<3> &)>(),
+            definition.shapes[i]);
         if (surfaces[i].faces.empty())
           throw InputError("Pair " + definition.parameters.name + ": the boundary \"" +
                            definition.boundary[i] + "\" of body \"" + bodies.body_name(definition.body[i]) +

@@ -43,6 +43,14 @@ namespace Signorini
         "geometry, or an expression in x, y, z (length) evaluated on the nonmortar surface, for "
         "crowned surfaces that are meshed flat.");
     prm.add_parameter(
+        "Surface", surface,
+        "What the gap and the normals are measured on. automatic: the boundary shapes, where there are any; "
+        "else curved patches over the faces of the start mesh where it shows itself that it stands for a "
+        "smooth "
+        "surface, and its facets elsewhere. smooth: curved patches wherever there is no boundary shape. "
+        "faceted: the facets of the mesh. Flat parts and creases stay as they are.",
+        Patterns::Selection("automatic|smooth|faceted"));
+    prm.add_parameter(
         "Initial penetration", penetration,
         "What to do where the surfaces overlap at the start: resolve it as an interference fit, or "
         "refuse to compute.",

@@ -228,6 +228,8 @@ namespace Signorini
               }
             select_volumes(body.mesh, p.volumes, section + "Volumes");
           }
+        // New vertices in the middles of faces would not lie on the surface.
+        start_surfaces.push_back(start_surface(body));
         if (p.convert_to_hexahedra && p.convert_to_tetrahedra)
           throw InputError(section + "Convert to hexahedra, Convert to tetrahedra: choose one.");
         if (p.convert_to_hexahedra)
@@ -271,6 +273,8 @@ namespace Signorini
         first_boundary.push_back(body.first_boundary);
         read_shapes(p, body, base_folder);
         for (Point<3> &v : body.mesh.vertices)
+          v = body.placement(v);
+        for (Point<3> &v : start_surfaces.back().mesh.vertices)
           v = body.placement(v);
         if (p.snap)
           snap_vertices(body, section + "Snap boundary vertices");
@@ -345,7 +349,6 @@ namespace Signorini
             "a face with more than one other cell, or distorted cells?");
       }
 
-    types::manifold_id next_manifold = 1;
     for (unsigned int b = 0; b < placed.size(); ++b)
       for (const CurvedBoundary &curved : placed[b].curved)
         {
@@ -363,7 +366,7 @@ namespace Signorini
                                                   placement.rotation * Tensor<1, 3>({0., 0., 1.}), centre));
           ++next_manifold;
         }
-    set_manifolds(next_manifold);
+    set_manifolds();
   }
 
 

@@ -8,6 +8,7 @@
 #include <signorini/algebra/input_error.h>
 #include <signorini/mesh/cell_shape.h>
 #include <signorini/mesh/expression.h>
+#include <signorini/mesh/triangulated_shape.h>
 
 #include <sstream>
 
@@ -66,6 +67,159 @@ namespace Signorini
                      b = index(parts[1], section + "Sharp edges");
           sharp.insert({std::min(a, b), std::max(a, b)});
         }
+  }
+
+
+
+  namespace
+  {
+    /// Calls add(face, cell) for the named faces of a mesh with a cell that they belong to.
+    template <typename Add>
+    void for_each_named_face(const VolumeMesh &mesh, const Add &add)
+    {
+      std::map<VolumeMesh::Face, const VolumeMesh::BoundaryFace *> named;
+      std::vector<bool>                                            is_on_face(mesh.vertices.size(), false);
+      for (const auto &face : mesh.faces)
+        {
+          named[face_key(face.vertices)] = &face;
+          for (const unsigned int v : face.vertices)
+            if (v != VolumeMesh::no_vertex)
+              is_on_face[v] = true;
+        }
+      for (const VolumeMesh::Cell &cell : mesh.cells)
+        for (unsigned int f = 0; f < CellShape::n_faces(cell.n_vertices); ++f)
+          {
+            VolumeMesh::Face key;
+            key.fill(VolumeMesh::no_vertex);
+            unsigned int n = 0;
+            for (const unsigned int v : CellShape::face(cell.n_vertices, f))
+              key[n++] = cell.vertices[v];
+            if (std::all_of(key.begin(), key.begin() + n, [&](const auto v) { return is_on_face[v]; }))
+              if (const auto it = named.find(face_key(key)); it != named.end())
+                add(*it->second, cell);
+          }
+    }
+
+    /// The corners of a face around it, counterclockwise seen from outside of its cell.
+    std::vector<unsigned int> outward_polygon(const VolumeMesh &mesh, const VolumeMesh::BoundaryFace &face,
+                                              const VolumeMesh::Cell &cell)
+    {
+      const auto               &x           = mesh.vertices;
+      const bool                is_triangle = face.vertices[3] == VolumeMesh::no_vertex;
+      std::vector<unsigned int> polygon(face.vertices.begin(), face.vertices.begin() + (is_triangle ? 3 : 4));
+      // Faces of hexahedra are lexicographic.
+      if (!is_triangle)
+        std::swap(polygon[2], polygon[3]);
+      Tensor<1, 3> inward;
+      for (unsigned int v = 0; v < cell.n_vertices; ++v)
+        inward += (x[cell.vertices[v]] - x[polygon[0]]) / cell.n_vertices;
+      if (cross_product_3d(x[polygon[1]] - x[polygon[0]], x[polygon[2]] - x[polygon[0]]) * inward > 0.)
+        std::reverse(polygon.begin() + 1, polygon.end());
+      return polygon;
+    }
+  } // namespace
+
+
+
+  Bodies::StartSurface Bodies::start_surface(const Placed &placed)
+  {
+    StartSurface              result;
+    std::vector<unsigned int> number(placed.mesh.vertices.size(), VolumeMesh::no_vertex);
+    for_each_named_face(placed.mesh, [&](const VolumeMesh::BoundaryFace &face, const VolumeMesh::Cell &cell) {
+      std::vector<unsigned int> polygon = outward_polygon(placed.mesh, face, cell);
+      for (unsigned int &v : polygon)
+        {
+          if (number[v] == VolumeMesh::no_vertex)
+            {
+              number[v] = static_cast<unsigned int>(result.mesh.vertices.size());
+              result.mesh.vertices.push_back(placed.mesh.vertices[v]);
+            }
+          v = number[v];
+        }
+      const auto &x = result.mesh.vertices;
+      // The shorter diagonal.
+      if (polygon.size() == 4 &&
+          x[polygon[1]].distance(x[polygon[3]]) < x[polygon[0]].distance(x[polygon[2]]))
+        std::rotate(polygon.begin(), polygon.begin() + 1, polygon.end());
+      for (std::size_t i = 1; i + 1 < polygon.size(); ++i)
+        {
+          result.mesh.triangles.push_back({{polygon[0], polygon[i], polygon[i + 1]}});
+          result.boundary.push_back(placed.first_boundary + face.name);
+        }
+    });
+    return result;
+  }
+
+
+
+  std::map<types::boundary_id, BoundaryShapePointer>
+  Bodies::true_shapes(const unsigned int body, const std::set<types::boundary_id> &ids,
+                      const bool everywhere) const
+  {
+    std::map<types::boundary_id, BoundaryShapePointer> result;
+    const StartSurface                                &start = start_surfaces[body];
+    std::vector<bool>                                  wanted;
+    for (const types::boundary_id id : start.boundary)
+      wanted.push_back(ids.count(id) > 0 && !shapes[id]);
+    BoundaryShapePointer smooth;
+    if (std::find(wanted.begin(), wanted.end(), true) != wanted.end())
+      if (const auto shape = std::make_shared<const SmoothShape>(start.mesh, wanted, everywhere);
+          !shape->is_flat())
+        smooth = shape;
+    for (const types::boundary_id id : ids)
+      result[id] = shapes[id] ? shapes[id] : smooth;
+    return result;
+  }
+
+
+
+  BoundaryShapePointer Bodies::plane_shape(const unsigned int body, const types::boundary_id id) const
+  {
+    const StartSurface &start = start_surfaces[body];
+    const auto         &x     = start.mesh.vertices;
+    Tensor<1, 3>        normal;
+    for (std::size_t t = 0; t < start.boundary.size(); ++t)
+      if (const auto &[a, b, c] = start.mesh.triangles[t]; start.boundary[t] == id)
+        normal += cross_product_3d(x[b] - x[a], x[c] - x[a]);
+    if (!(normal.norm() > 0.))
+      return nullptr;
+    normal /= normal.norm();
+    const Point<3> *origin = nullptr;
+    double          height = 0., size = 0.;
+    for (std::size_t t = 0; t < start.boundary.size(); ++t)
+      if (start.boundary[t] == id)
+        for (const unsigned int v : start.mesh.triangles[t])
+          {
+            if (origin == nullptr)
+              origin = &x[v];
+            height = std::max(height, std::abs((x[v] - *origin) * normal));
+            size   = std::max(size, x[v].distance(*origin));
+          }
+    return height <= SmoothingRule().flat * size ? make_plane_shape(*origin, normal) : nullptr;
+  }
+
+
+
+  void Bodies::follow_start_mesh(const unsigned int body, const std::set<types::boundary_id> &ids,
+                                 const bool everywhere)
+  {
+    bool any = false;
+    for (const auto &[id, shape] : true_shapes(body, ids, everywhere))
+      if (!shapes[id] && shape)
+        {
+          shapes[id]        = shape;
+          is_user_shape[id] = any = true;
+        }
+    if (!any)
+      return;
+    for (unsigned int i = 0; i < boundaries[body].size(); ++i)
+      if (const types::boundary_id id = first_boundary[body] + i; !shapes[id])
+        {
+          shapes[id]        = plane_shape(body, id);
+          is_user_shape[id] = static_cast<bool>(shapes[id]);
+        }
+    if (tria)
+      set_manifolds();
   }
 
 
@@ -213,7 +367,7 @@ namespace Signorini
 
 
 
-  void Bodies::set_manifolds(types::manifold_id next)
+  void Bodies::set_manifolds()
   {
     if (sharp.empty() && std::find(is_user_shape.begin(), is_user_shape.end(), true) == is_user_shape.end())
       return;
@@ -224,9 +378,9 @@ namespace Signorini
       const auto on = shapes_of(ids);
       if (on.empty())
         return numbers::flat_manifold_id;
-      const auto [it, is_new] = manifold_of.insert({ids, next});
+      const auto [it, is_new] = manifold_of.insert({ids, next_manifold});
       if (is_new)
-        tria->set_manifold(next++, ShapeManifold(on));
+        tria->set_manifold(next_manifold++, ShapeManifold(on));
       return it->second;
     };
     // What is neither keeps the manifolds of generated meshes.

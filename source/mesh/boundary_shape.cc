@@ -5,8 +5,7 @@
 #include <signorini/mesh/boundary_shape.h>
 #include <signorini/mesh/expression.h>
 #include <signorini/mesh/surface_file.h>
-#include <signorini/surface/box_tree.h>
-#include <signorini/surface/normal_projection.h>
+#include <signorini/mesh/triangulated_shape.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -63,138 +62,22 @@ namespace Signorini
         return way.norm() > 0. ? circle + (tube / way.norm()) * way : p;
       }
 
+      Tensor<1, 3> normal(const Point<3> &p, const Tensor<1, 3> &facing) const override
+      {
+        const Tensor<1, 3> d   = p - centre;
+        const Tensor<1, 3> out = d - (d * axis) * axis;
+        Tensor<1, 3>       n   = kind == plane ? axis : kind == sphere ? d : out;
+        if (kind == torus && out.norm() > 0.)
+          n = d - (radius / out.norm()) * out;
+        const double length = n.norm();
+        return length > 0. ? (n * facing < 0. ? -1. : 1.) / length * n : facing;
+      }
+
     private:
       const Kind         kind;
       const Point<3>     centre;
       const Tensor<1, 3> axis;
       const double       radius, tube;
-    };
-
-
-
-    /// The point of a triangle nearest to p (Ericson: Real-Time Collision Detection, 5.1.5).
-    Point<3> nearest_in_triangle(const std::array<Point<3>, 3> &x, const Point<3> &p)
-    {
-      const Tensor<1, 3> ab = x[1] - x[0], ac = x[2] - x[0], ap = p - x[0], bp = p - x[1], cp = p - x[2];
-      const double       d1 = ab * ap, d2 = ac * ap, d3 = ab * bp, d4 = ac * bp, d5 = ab * cp, d6 = ac * cp;
-      if (d1 <= 0. && d2 <= 0.)
-        return x[0];
-      if (d3 >= 0. && d4 <= d3)
-        return x[1];
-      if (d6 >= 0. && d5 <= d6)
-        return x[2];
-      const double vc = d1 * d4 - d3 * d2, vb = d5 * d2 - d1 * d6, va = d3 * d6 - d5 * d4;
-      if (vc <= 0. && d1 >= 0. && d3 <= 0.)
-        return x[0] + (d1 / (d1 - d3)) * ab;
-      if (vb <= 0. && d2 >= 0. && d6 <= 0.)
-        return x[0] + (d2 / (d2 - d6)) * ac;
-      if (va <= 0. && d4 - d3 >= 0. && d5 - d6 >= 0.)
-        return x[1] + ((d4 - d3) / ((d4 - d3) + (d5 - d6))) * (x[2] - x[1]);
-      const double sum = va + vb + vc;
-      return x[0] + (vb / sum) * ab + (vc / sum) * ac;
-    }
-
-
-
-    std::vector<BoxTree::Box> boxes_of(const SurfaceMesh &mesh)
-    {
-      std::vector<BoxTree::Box> boxes;
-      for (const auto &t : mesh.triangles)
-        {
-          boxes.push_back({mesh.vertices[t[0]], mesh.vertices[t[0]]});
-          boxes.back().include(mesh.vertices[t[1]]);
-          boxes.back().include(mesh.vertices[t[2]]);
-        }
-      return boxes;
-    }
-
-
-
-    /// A triangulated surface. Points come from it along its continuous normals, as in the contact mapping
-    /// (system (9) of the paper), so that neighbours stay neighbours; where no normal meets the point, the
-    /// nearest point counts.
-    class TriangulatedShape : public BoundaryShape
-    {
-    public:
-      TriangulatedShape(SurfaceMesh surface, std::string remark)
-        : mesh(std::move(surface))
-        , tree(boxes_of(mesh))
-        , remark(std::move(remark))
-      {
-      }
-
-      Point<3> project(const Point<3> &p) const override
-      {
-        std::vector<unsigned int> found;
-        Point<3>                  best;
-        double                    distance = std::numeric_limits<double>::max();
-        // Boxes come nearest first or not: ask for more until the nearest point cannot improve.
-        for (unsigned int n = 16;; n *= 4)
-          {
-            tree.find_nearest(found, p, n);
-            double farthest = 0.;
-            for (const unsigned int t : found)
-              {
-                const auto     x    = corners(t);
-                const Point<3> near = nearest_in_triangle(x, p);
-                farthest            = std::max(farthest, box_distance(x, p));
-                if (p.distance(near) < distance)
-                  {
-                    distance = p.distance(near);
-                    best     = near;
-                  }
-              }
-            if (distance <= farthest || found.size() < n)
-              break;
-          }
-        double least = 2. * distance + 1e-300;
-        for (const unsigned int t : found)
-          {
-            const auto                 &v = mesh.triangles[t];
-            std::array<double, 3>       weights;
-            double                      eta;
-            std::array<Tensor<1, 3>, 3> normals = {
-                {mesh.vertex_normals[v[0]], mesh.vertex_normals[v[1]], mesh.vertex_normals[v[2]]}};
-            const auto x = corners(t);
-            if (!NormalProjection::inverse_project(weights, eta, p, x, normals) ||
-                *std::min_element(weights.begin(), weights.end()) < -1e-10)
-              continue;
-            Point<3> foot;
-            for (unsigned int i = 0; i < 3; ++i)
-              foot += weights[i] * x[i];
-            if (p.distance(foot) < least)
-              {
-                least = p.distance(foot);
-                best  = foot;
-              }
-          }
-        return best;
-      }
-
-      std::string note() const override
-      {
-        return remark;
-      }
-
-    private:
-      std::array<Point<3>, 3> corners(const unsigned int t) const
-      {
-        const auto &v = mesh.triangles[t];
-        return {{mesh.vertices[v[0]], mesh.vertices[v[1]], mesh.vertices[v[2]]}};
-      }
-
-      static double box_distance(const std::array<Point<3>, 3> &x, const Point<3> &p)
-      {
-        Tensor<1, 3> way;
-        for (unsigned int c = 0; c < 3; ++c)
-          way[c] = std::max({std::min({x[0][c], x[1][c], x[2][c]}) - p[c],
-                             p[c] - std::max({x[0][c], x[1][c], x[2][c]}), 0.});
-        return way.norm();
-      }
-
-      const SurfaceMesh mesh;
-      const BoxTree     tree;
-      const std::string remark;
     };
 
 
@@ -296,6 +179,13 @@ namespace Signorini
     return std::make_shared<RoundShape>(is_sphere ? RoundShape::sphere : RoundShape::cylinder,
                                         placement(Point<3>()),
                                         placement.rotation * Tensor<1, 3>({0., 0., 1.}), radius, 1.);
+  }
+
+
+
+  BoundaryShapePointer make_plane_shape(const Point<3> &point, const Tensor<1, 3> &normal)
+  {
+    return std::make_shared<RoundShape>(RoundShape::plane, point, normal, 1., 1.);
   }
 
 

@@ -12,6 +12,9 @@ signorini_add_layer(mesh
   refinement.cc
   surface_extraction.cc
   surface_file.cc
+  surface_normals.cc
   tetrahedral_forest.cc
+  triangulated_shape.cc
+  true_shape.cc
   volume_mesh.cc
 )

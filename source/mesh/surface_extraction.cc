@@ -3,6 +3,7 @@
 
 #include <signorini/algebra/replicated_data.h>
 #include <signorini/mesh/surface_extraction.h>
+#include <signorini/mesh/surface_normals.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -15,7 +16,8 @@ namespace Signorini
     /// One face as it travels: where it comes from, corners and hanging vertices on its edges.
     struct PackedFace
     {
-      std::uint64_t coarse_cell, path, face_number;
+      std::uint64_t      coarse_cell, path, face_number;
+      types::boundary_id boundary;
       /// Corners counterclockwise from outside; behind each its successor edge's hanging vertex or
       /// invalid_node.
       std::array<NodeIndex, 8>             nodes;
@@ -63,6 +65,7 @@ namespace Signorini
       packed.coarse_cell = cell.coarse_cell;
       packed.path        = cell.path;
       packed.face_number = face.face;
+      packed.boundary    = face.id;
       packed.owner       = Utilities::MPI::this_mpi_process(space.communicator());
       packed.nodes.fill(invalid_node);
       const auto nodes   = space.nodes(cell);
@@ -190,61 +193,26 @@ namespace Signorini
       std::vector<std::size_t>                  apex;
     };
 
-    /// Vertex normals: sums of the area vectors of the faces around (half the product of the diagonals,
-    /// whatever way a face is cut into triangles), those of triangles over the squares of both edges at the
-    /// vertex, which is exact on spheres (Max: Weights for computing vertex normals from facet normals, 1999;
-    /// triangles around a vertex of a tetrahedral mesh lie too irregularly for plain areas); hanging vertices
-    /// get the mean of their parents; then projected onto the free directions.
-    void set_normals(ContactSurface &surface)
+    TrueShape true_shape_of(const ContactSurface &surface, const SurfaceShapes &shapes)
     {
-      auto &normals = surface.mesh.vertex_normals;
-      normals.assign(surface.mesh.vertices.size(), Tensor<1, 3>());
+      std::vector<BoundaryShapePointer> list;
+      std::vector<unsigned int>         of_face, of_triangle;
       for (const ContactSurface::Face &face : surface.faces)
         {
-          const auto        &x           = surface.mesh.vertices;
-          const Tensor<1, 3> area_vector = .5 * cross_product_3d(x[face.corners[2]] - x[face.corners[0]],
-                                                                 x[face.corners[3]] - x[face.corners[1]]);
-          for (unsigned int v = 0; v < face.n_corners; ++v)
+          const auto known = shapes.by_boundary.find(face.boundary);
+          if (known == shapes.by_boundary.end() || !known->second)
             {
-              double weight = 1.;
-              if (face.n_corners == 3)
-                weight = 1. / ((x[face.corners[(v + 1) % 3]] - x[face.corners[v]]).norm_square() *
-                               (x[face.corners[(v + 2) % 3]] - x[face.corners[v]]).norm_square());
-              normals[face.corners[v]] += weight * area_vector;
+              of_face.push_back(TrueShape::no_shape);
+              continue;
             }
+          const auto it = std::find(list.begin(), list.end(), known->second);
+          of_face.push_back(static_cast<unsigned int>(it - list.begin()));
+          if (it == list.end())
+            list.push_back(known->second);
         }
-      for (Tensor<1, 3> &normal : normals)
-        if (const double length = normal.norm(); length > 0.)
-          normal /= length;
-      std::vector<bool> is_without_faces;
-      for (const Tensor<1, 3> &normal : normals)
-        is_without_faces.push_back(normal.norm() == 0.);
-      for (std::size_t v = 0; v < normals.size(); ++v)
-        if (!surface.hanging[v].empty())
-          {
-            Tensor<1, 3> mean;
-            for (const auto &[parent, weight] : surface.hanging[v])
-              mean += weight * normals[parent];
-            if (mean.norm() > 0.)
-              normals[v] = mean / mean.norm();
-          }
-      // Vertices without faces take after the hanging vertices that depend on them.
-      std::vector<Tensor<1, 3>> inherited(normals.size());
-      for (std::size_t v = 0; v < normals.size(); ++v)
-        for (const auto &[parent, weight] : surface.hanging[v])
-          if (is_without_faces[parent])
-            inherited[parent] += weight * normals[v];
-      for (std::size_t v = 0; v < normals.size(); ++v)
-        if (inherited[v].norm() > 0.)
-          normals[v] = inherited[v] / inherited[v].norm();
-      surface.normal_share.resize(normals.size());
-      for (std::size_t v = 0; v < normals.size(); ++v)
-        {
-          const Vector3 projected = project_free(surface.vertex_fixed[v], normals[v]);
-          surface.normal_share[v] = projected.norm();
-          if (surface.normal_share[v] > 1e-6)
-            normals[v] = projected / surface.normal_share[v];
-        }
+      for (const unsigned int face : surface.triangle_face)
+        of_triangle.push_back(of_face[face]);
+      return TrueShape(std::move(list), std::move(of_triangle), shapes.are_used);
     }
   } // namespace
 
@@ -252,7 +220,8 @@ namespace Signorini
 
   ContactSurface extract_contact_surface(const NodalSpace &space, const std::set<types::boundary_id> &ids,
                                          const std::function<FixedMask(const NodeIndex)>  &fixed,
-                                         const std::function<bool(const Point<3> &point)> &region)
+                                         const std::function<bool(const Point<3> &point)> &region,
+                                         const SurfaceShapes                              &shapes)
   {
     std::vector<PackedFace>   mine;
     std::vector<PackedParent> my_parents;
@@ -294,7 +263,8 @@ namespace Signorini
       {
         polygon.clear();
         surface.faces.emplace_back();
-        surface.faces.back().owner = face.owner;
+        surface.faces.back().owner    = face.owner;
+        surface.faces.back().boundary = face.boundary;
         for (unsigned int v = 0; v < 8; ++v)
           if (face.nodes[v] != invalid_node)
             {
@@ -322,7 +292,8 @@ namespace Signorini
         surface.hanging[number[entry.hanging]].emplace_back(parent, entry.weight);
       }
     surface.hanging.resize(surface.vertex_node.size());
-    set_normals(surface);
+    surface.true_shape = true_shape_of(surface, shapes);
+    set_normals(surface, shapes);
     return surface;
   }
 

@@ -211,7 +211,8 @@ namespace Signorini
             const Point<3> image = mor.point(cell.mortar_triangle, w_image);
             const Vector3  n     = non.normal(cell.nonmortar_triangle, w);
             const auto     phi   = non.shape(cell.nonmortar_triangle, x);
-            const double   gap   = prescribed_gap ? prescribed_gap(x) : (image - x) * n;
+            const double   gap   = prescribed_gap ? prescribed_gap(x)
+                                                  : initial_gap(nonmortar, mortar, cell, point, x, image) * n;
             const double   opening =
                 gap - n * (non.value(displacement_nonmortar, cell.nonmortar_triangle, phi) -
                            mor.value(displacement_mortar, cell.mortar_triangle,
@@ -267,7 +268,7 @@ namespace Signorini
             const Vector3  n   = non.normal(t, point);
             const auto     phi = non.shape(t, x);
             Vector3        gap;
-            if (image(gap, x, n))
+            if (image(gap, x + nonmortar.offset(t, point), n))
               violation.add(nonmortar.triangle_face[t], Signorini::triangle_area(nonmortar.mesh, t) / 3.,
                             n * (gap - non.value(displacement, t, phi)), n * non.value(stress, t, phi));
           }

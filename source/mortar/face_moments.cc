@@ -3,6 +3,7 @@
 
 #include <signorini/mortar/face_map.h>
 #include <signorini/mortar/face_moments.h>
+#include <signorini/mortar/surface_values.h>
 #include <signorini/surface/contact_mapping.h>
 
 #include <deal.II/base/mpi.h>
@@ -149,8 +150,8 @@ namespace Signorini
         for (std::size_t q = 0; q < rule.points.size(); ++q)
           {
             const Point<3> p = combine(x, rule.points[q]), image = combine(y, rule.points[q]);
-            add_point(rule.weights[q] * area, p, image, phi_at(rule.points[q], p),
-                      theta_at(rule.points[q], image));
+            add_point(rule.weights[q] * area, gap_at(cell, rule.points[q], p, image),
+                      phi_at(rule.points[q], p), theta_at(rule.points[q], image));
           }
         moments.covered += area;
       }
@@ -169,8 +170,9 @@ namespace Signorini
             Vector3 normal;
             for (unsigned int i = 0; i < 3; ++i)
               normal += rule.points[q][i] * nonmortar.mesh.vertex_normals[t[i]];
-            const double length = normal.norm();
-            if (!(length > 0.) || !image(gaps[q], combine(x, rule.points[q]), normal / length))
+            const double   length = normal.norm();
+            const Point<3> p      = combine(x, rule.points[q]) + nonmortar.offset(triangle, rule.points[q]);
+            if (!(length > 0.) || !image(gaps[q], p, normal / length))
               return;
           }
         const double    area = triangle_area(x);
@@ -194,12 +196,19 @@ namespace Signorini
           }
       }
 
-      void add_point(const double weight, const Point<3> &p, const Point<3> &image,
-                     const std::array<double, 4> &phi, const std::array<double, 4> &theta)
+      /// From a point of the true nonmortar surface to its image on the true mortar surface, or the
+      /// prescribed gap in component 0.
+      Vector3 gap_at(const OverlayTriangle &cell, const std::array<double, 3> &weights, const Point<3> &p,
+                     const Point<3> &image) const
       {
-        Vector3 gap = image - p;
         if (prescribed_gap)
-          gap = Point<3>(prescribed_gap(p), 0., 0.);
+          return Vector3({prescribed_gap(p), 0., 0.});
+        return initial_gap(nonmortar, mortar, cell, weights, p, image);
+      }
+
+      void add_point(const double weight, const Vector3 &gap, const std::array<double, 4> &phi,
+                     const std::array<double, 4> &theta)
+      {
         add_functions(weight, gap, phi);
         for (unsigned int a = 0; a < 4; ++a)
           for (unsigned int b = 0; b < 4; ++b)

@@ -41,9 +41,10 @@ namespace Signorini
           const Vector3  n        = non.normal(cell.nonmortar_triangle, weights);
           const Vector3  relative = non.value(displacement_nonmortar, cell.nonmortar_triangle, x) -
                                    mor.value(displacement_mortar, cell.mortar_triangle, image);
-          const double initial = prescribed_gap ? prescribed_gap(x) : (image - x) * n;
-          min_initial          = std::min(min_initial, initial);
-          min_gap              = std::min(min_gap, initial - n * relative);
+          const double initial =
+              prescribed_gap ? prescribed_gap(x) : initial_gap(nonmortar, mortar, cell, sample, x, image) * n;
+          min_initial = std::min(min_initial, initial);
+          min_gap     = std::min(min_gap, initial - n * relative);
         }
     return {Utilities::MPI::min(min_initial, communicator), Utilities::MPI::min(min_gap, communicator)};
   }

@@ -237,6 +237,7 @@ namespace Signorini
                 u += w[i] * displacement[v];
                 n += w[i] * surface.mesh.vertex_normals[v];
               }
+            x += surface.offset(t, w);
             if (!(n.norm() > 0.))
               continue;
             n /= n.norm();

@@ -19,6 +19,20 @@ namespace Signorini
 
 
 
+  Vector3 initial_gap(const ContactSurface &nonmortar, const ContactSurface &mortar,
+                      const OverlayTriangle &cell, const std::array<double, 3> &weights, const Point<3> &x,
+                      const Point<3> &image)
+  {
+    Vector3 gap = image - x;
+    if (mortar.true_shape.has_offsets())
+      gap += mortar.offset(cell.mortar_triangle, compose(cell.mortar, weights));
+    if (nonmortar.true_shape.has_offsets())
+      gap -= nonmortar.offset(cell.nonmortar_triangle, compose(cell.nonmortar, weights));
+    return gap;
+  }
+
+
+
   SurfaceValues::SurfaceValues(const ContactSurface &surface)
     : surface(surface)
   {

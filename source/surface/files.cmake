@@ -8,5 +8,7 @@ signorini_add_layer(surface
   part_region.cc
   plane_graph.cc
   plane_graph_edges.cc
+  smooth_surface.cc
+  surface_feet.cc
   surface_mesh.cc
 )

@@ -108,6 +108,7 @@ namespace Signorini
       std::string    boundary[2];
       Expression     region[2];
       bool           has_region[2];
+      SurfaceShapes  shapes[2];
       Expression     gap;
       bool           has_gap;
       RigidObstacle  obstacle;

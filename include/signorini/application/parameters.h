@@ -30,6 +30,7 @@ namespace Signorini
     std::string initial_gap = "geometry";
     std::string gap         = "weighted";
     std::string penetration = "resolve";
+    std::string surface     = "automatic";
     /// Expressions that are positive where a surface may touch; empty for everywhere.
     std::string first_region, second_region;
 

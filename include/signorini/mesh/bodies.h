@@ -9,6 +9,7 @@
 #include <signorini/mesh/node_movement.h>
 #include <signorini/mesh/tetrahedral_forest.h>
 #include <signorini/mesh/volume_mesh.h>
+#include <signorini/surface/surface_mesh.h>
 
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/distributed/tria.h>
@@ -140,6 +141,18 @@ namespace Signorini
     std::set<dealii::types::boundary_id> boundary_ids(const unsigned int body, const std::string &name,
                                                       const std::string &where = "") const;
 
+    /// The true shapes of boundaries: those that a user gave or that belong to a generated mesh; for the
+    /// others what the start mesh shows (SmoothShape), or null where that is flat.
+    /// @param everywhere whether the start mesh stands for a smooth surface whatever it looks like
+    std::map<dealii::types::boundary_id, BoundaryShapePointer>
+    true_shapes(const unsigned int body, const std::set<dealii::types::boundary_id> &ids,
+                const bool everywhere) const;
+
+    /// Makes new nodes of boundaries without a shape follow what the start mesh shows, and those of plane
+    /// boundaries beside them stay in their planes. To be called before the first refinement.
+    void follow_start_mesh(const unsigned int body, const std::set<dealii::types::boundary_id> &ids,
+                           const bool everywhere);
+
     /// What the last refinement (or the start, where vertices are snapped) did to the cells at boundaries
     /// with shapes.
     const MovementReport &movement() const
@@ -160,13 +173,24 @@ namespace Signorini
     void snap_vertices(Placed &placed, const std::string &where);
     void follow_shapes();
     void assess_hexahedra();
-    void set_manifolds(dealii::types::manifold_id next);
+    void set_manifolds();
     bool is_sharp(const std::set<dealii::types::boundary_id> &ids) const;
     /// The shapes that a point on the given boundaries has to lie on; none on sharp edges.
     std::vector<BoundaryShapePointer> shapes_of(const std::set<dealii::types::boundary_id> &ids) const;
     void                              create(const std::vector<Placed> &placed);
     void                              create_hexahedra(const std::vector<Placed> &placed);
     void                              create_tetrahedra(const std::vector<Placed> &placed);
+
+    /// The boundary of a start mesh, in its place.
+    struct StartSurface
+    {
+      SurfaceMesh mesh;
+      /// Boundary id of each triangle.
+      std::vector<dealii::types::boundary_id> boundary;
+    };
+
+    static StartSurface  start_surface(const Placed &placed);
+    BoundaryShapePointer plane_shape(const unsigned int body, const dealii::types::boundary_id id) const;
 
     const MPI_Comm                                                   comm;
     std::unique_ptr<dealii::parallel::distributed::Triangulation<3>> tria;
@@ -178,13 +202,15 @@ namespace Signorini
     std::vector<std::string>                                         remarks;
     /// By boundary id; null where a boundary has no shape of its own.
     std::vector<BoundaryShapePointer> shapes;
-    /// By boundary id: whether the shape is one of the parameters, not of a generated mesh.
+    std::vector<StartSurface>         start_surfaces;
+    /// By boundary id: whether the shape is not that of a generated mesh.
     std::vector<bool> is_user_shape;
     /// Pairs of boundary ids whose common edges stay as they are, the smaller id first.
     std::set<std::pair<dealii::types::boundary_id, dealii::types::boundary_id>> sharp;
     /// Vertices of the forest that are not yet where their shapes want them.
     std::map<unsigned int, std::set<dealii::types::boundary_id>> late_vertices;
     MovementReport                                               last_movement;
+    dealii::types::manifold_id                                   next_manifold = 1;
   };
 } // namespace Signorini
 

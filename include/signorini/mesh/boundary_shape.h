@@ -24,6 +24,17 @@ namespace Signorini
     /// The point of the shape that belongs to a point near it.
     virtual dealii::Point<3> project(const dealii::Point<3> &p) const = 0;
 
+    /// The unit normal of the shape at the point that belongs to p, on the side that `facing` points to. At
+    /// creases that of the side that faces there most.
+    virtual dealii::Tensor<1, 3> normal(const dealii::Point<3>     &p,
+                                        const dealii::Tensor<1, 3> &facing) const = 0;
+
+    /// By how much the shape itself may be wrong near p (length): nothing where a user gave it.
+    virtual double doubt(const dealii::Point<3> &) const
+    {
+      return 0.;
+    }
+
     /// Remarks for the user; empty if there are none.
     virtual std::string note() const
     {
@@ -56,6 +67,8 @@ namespace Signorini
   /// A sphere around the origin, or a cylinder around the z axis, through a point of it.
   BoundaryShapePointer make_round_shape(const bool is_sphere, const double radius,
                                         const Placement &placement);
+
+  BoundaryShapePointer make_plane_shape(const dealii::Point<3> &point, const dealii::Tensor<1, 3> &normal);
 
   /// Projects onto one shape, or onto the edge where several meet (by turns).
   dealii::Point<3> project_onto(const std::vector<BoundaryShapePointer> &shapes, const dealii::Point<3> &p);

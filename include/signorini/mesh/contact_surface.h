@@ -5,6 +5,7 @@
 #define signorini_mesh_contact_surface_h
 
 #include <signorini/algebra/types.h>
+#include <signorini/mesh/true_shape.h>
 #include <signorini/surface/surface_mesh.h>
 
 #include <array>
@@ -29,6 +30,8 @@ namespace Signorini
       /// The rank that owns the cell.
       unsigned int owner;
       unsigned int n_corners = 4;
+      /// Of the boundary that the face belongs to.
+      dealii::types::boundary_id boundary = dealii::numbers::invalid_boundary_id;
     };
 
     /// Triangles of all faces. Hanging vertices on the edges of a face are corners of its triangles:
@@ -47,6 +50,14 @@ namespace Signorini
     std::vector<double> normal_share;
     /// For hanging vertices: parents (vertex indices) and weights of the closed constraint; else empty.
     std::vector<std::vector<std::pair<unsigned int, double>>> hanging;
+    /// The true surface over the facets.
+    TrueShape true_shape;
+
+    /// From the point of a triangle with given barycentric coordinates to the true surface (length).
+    Vector3 offset(const unsigned int triangle, const std::array<double, 3> &weights) const
+    {
+      return true_shape.offset(mesh, triangle, weights);
+    }
   };
 } // namespace Signorini
 

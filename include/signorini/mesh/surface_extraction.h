@@ -16,10 +16,12 @@ namespace Signorini
   /// Collective. The boundary faces with given ids, gathered on all ranks.
   /// @param fixed prescribed components of a relevant node
   /// @param region a face belongs to the surface if a corner or the centre lies in the region; empty for all
+  /// @param shapes true shapes of the boundaries, where there are any
   ContactSurface extract_contact_surface(const NodalSpace                                         &space,
                                          const std::set<dealii::types::boundary_id>               &ids,
                                          const std::function<FixedMask(const NodeIndex)>          &fixed,
-                                         const std::function<bool(const dealii::Point<3> &point)> &region);
+                                         const std::function<bool(const dealii::Point<3> &point)> &region,
+                                         const SurfaceShapes &shapes = {});
 
   /// Collective. Values of a nodal field at all vertices of a surface, on all ranks.
   std::vector<Vector3> vertex_values(const ContactSurface &surface, const NodePartition &partition,

@@ -26,7 +26,8 @@ namespace Signorini
     double covered = 0., area = 0.;
     /// 4x4 row by row: products of corner functions (area).
     std::array<double, 16> mass = {};
-    /// Corner function times Phi(x) - x (area * length); or, with a prescribed gap, that gap in component 0.
+    /// Corner function times initial_gap() (area * length); or, with a prescribed gap, that gap in component
+    /// 0.
     std::array<Vector3, 4> gap;
     /// For each mortar vertex (index of its surface): products of its bilinear function with the corner
     /// functions.
@@ -50,9 +51,9 @@ namespace Signorini
   /// The vector (length) from a point to its image in the direction of a unit normal; false if there is none.
   using ImageFunction = std::function<bool(Vector3 &, const dealii::Point<3> &, const Vector3 &)>;
 
-  /// Collective. The moments of all faces where the images are given by a function and nothing moves on the
-  /// other side: no coupling. Normals are linear on triangles. A triangle with a quadrature point without
-  /// image counts as uncovered.
+  /// Collective. The moments of all faces where the images (of points of the true surface) are given by a
+  /// function and nothing moves on the other side: no coupling. Normals are linear on triangles. A triangle
+  /// with a quadrature point without image counts as uncovered.
   std::vector<FaceMoments> compute_face_moments(const ContactSurface &nonmortar, const ImageFunction &image,
                                                 const MPI_Comm communicator);
 } // namespace Signorini

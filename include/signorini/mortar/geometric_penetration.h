@@ -10,14 +10,14 @@
 
 namespace Signorini
 {
-  /// How far the deformed surfaces are apart pointwise, not in the weighted sense of the constraint
+  /// How far the deformed true surfaces are apart pointwise, not in the weighted sense of the constraint
   /// (lengths).
   struct GeometricPenetration
   {
-    /// Least (Phi(x) - x)·n(x), and least of that after deformation; infinite where nothing is covered.
+    /// Least initial_gap()·n(x), and least of that after deformation; infinite where nothing is covered.
     double min_initial_gap, min_gap;
 
-    /// Largest n(x)·(u_non(x) - u_mor(Phi(x))) - (Phi(x) - x)·n(x): negative if the surfaces are apart.
+    /// Largest n(x)·(u_non(x) - u_mor(Phi(x))) - initial_gap()·n(x): negative if the surfaces are apart.
     double max_penetration() const
     {
       return -min_gap;
@@ -29,7 +29,7 @@ namespace Signorini
   /// the surface that is covered at all is PairCoupling::covered_area / PairCoupling::area.
   /// @param overlay of this rank's own faces
   /// @param displacement_nonmortar displacement_mortar per vertex of each surface (hanging ones too)
-  /// @param prescribed_gap replaces (Phi(x) - x)·n(x) if not empty
+  /// @param prescribed_gap replaces initial_gap()·n(x) if not empty
   GeometricPenetration sample_geometric_penetration(const ContactSurface               &nonmortar,
                                                     const ContactSurface               &mortar,
                                                     const std::vector<OverlayTriangle> &overlay,

@@ -6,6 +6,7 @@
 
 #include <signorini/mesh/contact_surface.h>
 #include <signorini/mortar/face_map.h>
+#include <signorini/surface/overlay.h>
 
 #include <vector>
 
@@ -16,6 +17,13 @@ namespace Signorini
   std::array<double, 3> compose(const std::array<std::array<double, 3>, 3> &corners,
                                 const std::array<double, 3>                &weights);
 
+  /// From a point of the true nonmortar surface to its image on the true mortar surface (length):
+  /// Phi(x) + offset_mor - x - offset_non, where x and Phi(x) lie on the facets (method.md, section 9).
+  /// @param weights of the point in the overlay triangle
+  Vector3 initial_gap(const ContactSurface &nonmortar, const ContactSurface &mortar,
+                      const OverlayTriangle &cell, const std::array<double, 3> &weights,
+                      const dealii::Point<3> &x, const dealii::Point<3> &image);
+
   /// Fields on a contact surface at points of its triangles. Nodal fields are evaluated at the true reference
   /// point of the face. The surface must outlive the object.
   class SurfaceValues
@@ -23,7 +31,7 @@ namespace Signorini
   public:
     explicit SurfaceValues(const ContactSurface &surface);
 
-    /// The point with given barycentric coordinates.
+    /// The point with given barycentric coordinates, on the facet.
     dealii::Point<3> point(const unsigned int triangle, const std::array<double, 3> &weights) const;
 
     /// The unit normal there, linear on triangles; zero where there is none.

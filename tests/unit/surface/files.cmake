@@ -6,5 +6,6 @@ signorini_add_unit_tests(surface RANKS "1;3"
   parts.cc
   phi.cc
   random_pairs.cc
+  smooth_surface.cc
   surface_mesh.cc
 )

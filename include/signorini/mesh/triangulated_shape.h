@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_mesh_triangulated_shape_h
+#define signorini_mesh_triangulated_shape_h
+
+#include <signorini/mesh/boundary_shape.h>
+#include <signorini/surface/smooth_surface.h>
+#include <signorini/surface/surface_feet.h>
+
+namespace Signorini
+{
+  /// A triangulated surface, finer than the mesh: its facets are the shape.
+  class TriangulatedShape : public BoundaryShape
+  {
+  public:
+    TriangulatedShape(SurfaceMesh surface, std::string remark);
+
+    dealii::Point<3>     project(const dealii::Point<3> &p) const override;
+    dealii::Tensor<1, 3> normal(const dealii::Point<3> &p, const dealii::Tensor<1, 3> &facing) const override;
+
+    std::string note() const override
+    {
+      return remark;
+    }
+
+  private:
+    const SurfaceMesh mesh;
+    const SurfaceFeet feet;
+    const std::string remark;
+  };
+
+  /// What the start mesh of a body alone says about the shape of a part of its boundary: curved patches over
+  /// its triangles, by themselves where they are believed (SmoothSurface::Patch::is_smooth) or everywhere.
+  class SmoothShape : public BoundaryShape
+  {
+  public:
+    /// @param wanted the triangles of the part
+    /// @param everywhere patches also where the mesh does not show that it stands for a smooth surface
+    SmoothShape(SurfaceMesh boundary, const std::vector<bool> &wanted, const bool everywhere);
+
+    dealii::Point<3>     project(const dealii::Point<3> &p) const override;
+    dealii::Tensor<1, 3> normal(const dealii::Point<3> &p, const dealii::Tensor<1, 3> &facing) const override;
+    double               doubt(const dealii::Point<3> &p) const override;
+
+    /// Whether the part consists of plane pieces.
+    bool is_flat() const;
+
+  private:
+    bool is_curved(const unsigned int triangle) const
+    {
+      const SmoothSurface::Patch &patch = surface.patch(triangle);
+      return !patch.is_flat && (everywhere || patch.is_smooth);
+    }
+
+    const std::vector<unsigned int> part;
+    const SmoothSurface             surface;
+    const SurfaceFeet               feet;
+    const bool                      everywhere;
+  };
+} // namespace Signorini
+
+#endif

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_mesh_true_shape_h
+#define signorini_mesh_true_shape_h
+
+#include <signorini/algebra/types.h>
+#include <signorini/mesh/boundary_shape.h>
+#include <signorini/surface/surface_mesh.h>
+
+#include <limits>
+#include <map>
+#include <vector>
+
+namespace Signorini
+{
+  /// Shapes of the boundaries of a contact surface, by boundary id, and whether its gap is measured between
+  /// them or between facets.
+  struct SurfaceShapes
+  {
+    std::map<dealii::types::boundary_id, BoundaryShapePointer> by_boundary;
+    bool                                                       are_used = true;
+  };
+
+  /// Where the true surface lies over the facets of a contact surface: the offset from a point to its shape,
+  /// on each triangle the cubic that has the right values at ten points (error of fourth order; on the
+  /// triangles that a smooth shape was made from, none). Worked out for the triangles that are asked for.
+  class TrueShape
+  {
+  public:
+    static constexpr unsigned int no_shape = std::numeric_limits<unsigned int>::max();
+
+    /// The facets are the true surface.
+    TrueShape() = default;
+
+    /// @param shape_of_triangle index into shapes, or no_shape
+    /// @param is_used whether offset() hands the offsets out, or only doubt() knows them
+    TrueShape(std::vector<BoundaryShapePointer> shapes, std::vector<unsigned int> shape_of_triangle,
+              const bool is_used);
+
+    /// Whether offsets are not all zero for want of a shape.
+    bool has_offsets() const
+    {
+      return is_used && !shapes.empty();
+    }
+
+    /// From the point of a triangle with given barycentric coordinates to the true surface (length).
+    Vector3 offset(const SurfaceMesh &mesh, const unsigned int triangle,
+                   const std::array<double, 3> &weights) const;
+
+    /// By how much the true surface may lie elsewhere than offset() says, over a triangle (length): what the
+    /// shape does not know of itself; without offsets the height of the shape over the facet as well.
+    double doubt(const SurfaceMesh &mesh, const unsigned int triangle) const;
+
+  private:
+    static constexpr unsigned int n_terms = 10;
+    using Cubic                           = std::array<Vector3, n_terms>;
+
+    const Cubic &cubic(const SurfaceMesh &mesh, const unsigned int triangle) const;
+
+    std::vector<BoundaryShapePointer> shapes;
+    std::vector<unsigned int>         shape_of_triangle;
+    bool                              is_used = false;
+    /// Cubics made so far; of a triangle index_of_cubic, or no_shape.
+    mutable std::vector<Cubic>        cubics;
+    mutable std::vector<unsigned int> index_of_cubic;
+  };
+} // namespace Signorini
+
+#endif

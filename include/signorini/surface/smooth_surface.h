@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_surface_smooth_surface_h
+#define signorini_surface_smooth_surface_h
+
+#include <signorini/surface/surface_mesh.h>
+
+#include <vector>
+
+namespace Signorini
+{
+  /// When a triangulated surface is taken for a smooth one.
+  struct SmoothingRule
+  {
+    /// Edges whose triangles meet at a larger angle (degrees) are creases. A circle of twelve edges has 30,
+    /// chamfers have 45.
+    double crease_angle = 40.;
+    /// What the quadratic surfaces at the corners of a triangle may leave over, relative to the heights of
+    /// the neighbours (root mean squares), for the triangle to count as a piece of a smooth surface. Nothing
+    /// on spheres and cylinders, 0.001 to 0.05 on tori, cones and graphs with eight or more cells across;
+    /// with noise as large as the heights of facets 0.15 to 0.4, on the bones of a knee 0.11 (median).
+    double largest_residual = .1;
+    /// The same for the disagreement of the estimates of a height, relative to the height that the largest
+    /// curvature there gives: less than 0.2 on those, 0.3 and more with noise.
+    double largest_disagreement = .35;
+    /// Triangles that lie in one plane up to this share of their size are flat: noise of files with eight
+    /// digits is none.
+    double flat = 1e-6;
+  };
+
+  /// The smooth surface that a triangulated one stands for: a curved patch over each triangle, through its
+  /// vertices, from their normals:
+  ///
+  ///   offset(x) = 1/(1 + |N|) sum_a w_a ((x_a - x)·n_a) N/|N| ,  x = sum_a w_a x_a ,  N = sum_a w_a n_a ,
+  ///
+  /// exact on spheres and cylinders (where x - centre = R N, the sum is R (1 - |N|²) and the height R (1 -
+  /// |N|)), of fourth order on quadratic surfaces, nothing on flat ones, continuous across edges but at
+  /// creases. Normals come from a quadratic surface through each vertex, fitted to two rings of neighbours,
+  /// which is exact on spheres and cylinders, too. Creases, and the borders of flat parts, are borders of the
+  /// smooth pieces and keep a normal on either side.
+  class SmoothSurface
+  {
+  public:
+    struct Patch
+    {
+      /// Unit normals at the corners, those of this side of creases.
+      std::array<dealii::Tensor<1, 3>, 3> normals;
+      /// Largest height of the patch over the triangle (length).
+      double height = 0.;
+      /// By how much the estimates of the height disagree (length): those of the curvatures at either end of
+      /// an edge, found from different neighbourhoods, and that of the normals.
+      double doubt = 0.;
+      /// Whether the mesh itself shows that it stands for a smooth surface here.
+      bool is_smooth = false;
+      /// Whether the triangle belongs to a flat part, which stays as it is.
+      bool is_flat = false;
+    };
+
+    /// @param wanted the triangles that need patches; the others are neighbours only
+    SmoothSurface(SurfaceMesh mesh, const std::vector<bool> &wanted, const SmoothingRule &rule = {});
+
+    const SurfaceMesh &mesh() const
+    {
+      return surface;
+    }
+
+    const Patch &patch(const unsigned int triangle) const
+    {
+      return patches[triangle];
+    }
+
+    /// From the point with given barycentric coordinates to the curved patch (length), whether the triangle
+    /// is believed to be smooth or not.
+    dealii::Tensor<1, 3> offset(const unsigned int triangle, const std::array<double, 3> &weights) const;
+
+  private:
+    SurfaceMesh        surface;
+    std::vector<Patch> patches;
+  };
+} // namespace Signorini
+
+#endif

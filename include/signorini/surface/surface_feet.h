@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_surface_surface_feet_h
+#define signorini_surface_surface_feet_h
+
+#include <signorini/surface/box_tree.h>
+#include <signorini/surface/surface_mesh.h>
+
+#include <vector>
+
+namespace Signorini
+{
+  /// The points of a triangulated surface that belong to points near it: along its continuous normals, as in
+  /// the contact mapping (system (9) of the paper), so that neighbours stay neighbours; where no normal meets
+  /// a point, the nearest one.
+  class SurfaceFeet
+  {
+  public:
+    struct Foot
+    {
+      unsigned int triangle = SurfaceTopology::none;
+      /// Barycentric coordinates, in [0,1].
+      std::array<double, 3> weights = {};
+      dealii::Point<3>      point;
+    };
+
+    using CornerNormals = std::array<dealii::Tensor<1, 3>, 3>;
+
+    /// The surface must outlive the object.
+    /// @param triangles those that feet may lie in
+    /// @param normals unit normals at their corners
+    SurfaceFeet(const SurfaceMesh &mesh, std::vector<unsigned int> triangles,
+                std::vector<CornerNormals> normals);
+
+    Foot find(const dealii::Point<3> &p) const;
+
+    /// The normal of the surface at the foot of a point (unit length). Where several triangles are equally
+    /// near, at creases, that of the one that faces `facing` most.
+    dealii::Tensor<1, 3> normal(const dealii::Point<3> &p, const dealii::Tensor<1, 3> &facing) const;
+
+  private:
+    std::array<dealii::Point<3>, 3> corners(const unsigned int i) const;
+    Foot nearest(std::vector<unsigned int> &found, const dealii::Point<3> &p) const;
+
+    const SurfaceMesh         &mesh;
+    std::vector<unsigned int>  triangles;
+    std::vector<CornerNormals> normals;
+    BoxTree                    tree;
+  };
+} // namespace Signorini
+
+#endif

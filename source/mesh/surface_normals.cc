@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/mesh/surface_normals.h>
+
+namespace Signorini
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// The normals of shapes at the vertices of a surface. Neighbouring faces ask for the same ones: only at
+    /// creases does the answer depend on the face.
+    class ShapeNormals
+    {
+    public:
+      ShapeNormals(const ContactSurface &surface, const SurfaceShapes &shapes)
+        : surface(surface)
+        , shapes(shapes)
+        , known(surface.mesh.vertices.size())
+      {
+      }
+
+      const BoundaryShape *shape_of(const ContactSurface::Face &face) const
+      {
+        const auto it = shapes.by_boundary.find(face.boundary);
+        return shapes.are_used && it != shapes.by_boundary.end() ? it->second.get() : nullptr;
+      }
+
+      /// @param facing unit normal of the face at the vertex
+      Vector3 operator()(const BoundaryShape &shape, const unsigned int vertex, const Vector3 &facing)
+      {
+        Known &last = known[vertex];
+        if (last.shape != &shape || !(last.facing * facing > .9))
+          last = {&shape, facing, shape.normal(surface.mesh.vertices[vertex], facing)};
+        return last.normal;
+      }
+
+    private:
+      struct Known
+      {
+        const BoundaryShape *shape = nullptr;
+        Vector3              facing, normal;
+      };
+
+      const ContactSurface &surface;
+      const SurfaceShapes  &shapes;
+      std::vector<Known>    known;
+    };
+
+    void normalize(std::vector<Vector3> &normals)
+    {
+      for (Vector3 &normal : normals)
+        if (const double length = normal.norm(); length > 0.)
+          normal /= length;
+    }
+
+    /// Hanging vertices get the mean of their parents; vertices without faces take after the hanging ones
+    /// that depend on them.
+    void complete_normals(const ContactSurface &surface, std::vector<Vector3> &normals,
+                          const std::vector<bool> &has_shape)
+    {
+      std::vector<bool> is_without_faces;
+      for (const Vector3 &normal : normals)
+        is_without_faces.push_back(normal.norm() == 0.);
+      for (std::size_t v = 0; v < normals.size(); ++v)
+        if (!surface.hanging[v].empty() && !has_shape[v])
+          {
+            Vector3 mean;
+            for (const auto &[parent, weight] : surface.hanging[v])
+              mean += weight * normals[parent];
+            if (mean.norm() > 0.)
+              normals[v] = mean / mean.norm();
+          }
+      std::vector<Vector3> inherited(normals.size());
+      for (std::size_t v = 0; v < normals.size(); ++v)
+        for (const auto &[parent, weight] : surface.hanging[v])
+          if (is_without_faces[parent])
+            inherited[parent] += weight * normals[v];
+      for (std::size_t v = 0; v < normals.size(); ++v)
+        if (inherited[v].norm() > 0.)
+          normals[v] = inherited[v] / inherited[v].norm();
+    }
+  } // namespace
+
+
+
+  void set_normals(ContactSurface &surface, const SurfaceShapes &shapes)
+  {
+    const auto       &x       = surface.mesh.vertices;
+    auto             &normals = surface.mesh.vertex_normals;
+    ShapeNormals      shape_normals(surface, shapes);
+    std::vector<bool> has_shape(x.size(), false);
+    normals.assign(x.size(), Vector3());
+    for (const ContactSurface::Face &face : surface.faces)
+      {
+        const BoundaryShape *const shape = shape_normals.shape_of(face);
+        const unsigned int         n     = face.n_corners;
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            const unsigned int v = face.corners[i];
+            Vector3            normal =
+                corner_normal(x[v], x[face.corners[(i + 1) % n]], x[face.corners[(i + n - 1) % n]]);
+            if (const double weight = normal.norm(); shape != nullptr && weight > 0.)
+              {
+                normal       = weight * shape_normals(*shape, v, normal / weight);
+                has_shape[v] = true;
+              }
+            normals[v] += normal;
+          }
+      }
+    normalize(normals);
+    complete_normals(surface, normals, has_shape);
+
+    surface.normal_share.resize(normals.size());
+    for (std::size_t v = 0; v < normals.size(); ++v)
+      {
+        const Vector3 projected = project_free(surface.vertex_fixed[v], normals[v]);
+        surface.normal_share[v] = projected.norm();
+        if (surface.normal_share[v] > 1e-6)
+          normals[v] = projected / surface.normal_share[v];
+      }
+  }
+} // namespace Signorini

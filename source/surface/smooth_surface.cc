@@ -1,0 +1,427 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/surface/smooth_surface.h>
+
+#include <deal.II/base/numbers.h>
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace Signorini
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// A vertex as seen from one smooth piece: the corners of triangles there that no crease separates.
+    struct PieceVertex
+    {
+      unsigned int vertex = SurfaceTopology::none;
+      /// Triangles of the piece around the vertex.
+      std::vector<unsigned int> triangles;
+      /// Whether the triangles go all the way round.
+      bool is_closed = true;
+    };
+
+    /// The smooth pieces of a surface, vertex by vertex. Edges are numbered as in the topology.
+    class Pieces
+    {
+    public:
+      Pieces(const SurfaceTopology &topology, const std::vector<bool> &is_cut)
+        : of_corner(3 * topology.triangles.size())
+      {
+        std::iota(of_corner.begin(), of_corner.end(), 0u);
+        for (unsigned int e = 0; e < topology.edges.size(); ++e)
+          if (!is_cut[e])
+            for (const unsigned int v : topology.edges[e])
+              join(corner(topology, topology.edge_triangles[e][0], v),
+                   corner(topology, topology.edge_triangles[e][1], v));
+        std::vector<unsigned int> number(of_corner.size(), SurfaceTopology::none);
+        for (unsigned int c = 0; c < of_corner.size(); ++c)
+          {
+            const unsigned int r = root(c);
+            if (number[r] == SurfaceTopology::none)
+              {
+                number[r] = static_cast<unsigned int>(vertices.size());
+                vertices.emplace_back();
+                vertices.back().vertex = topology.triangles[c / 3][c % 3];
+              }
+            vertices[number[r]].triangles.push_back(c / 3);
+          }
+        std::vector<unsigned int> piece_vertex;
+        for (unsigned int c = 0; c < of_corner.size(); ++c)
+          piece_vertex.push_back(number[root(c)]);
+        of_corner = std::move(piece_vertex);
+        for (unsigned int t = 0; t < topology.triangles.size(); ++t)
+          for (unsigned int i = 0; i < 3; ++i)
+            if (is_cut[topology.triangle_edges[t][i]])
+              for (const unsigned int k : {i, (i + 1) % 3})
+                vertices[of_corner[3 * t + k]].is_closed = false;
+      }
+
+      /// The piece vertices in up to `n_rings` rings of triangles around one, without itself.
+      void neighbours(std::vector<unsigned int> &found, const unsigned int centre,
+                      const unsigned int n_rings) const
+      {
+        found            = {centre};
+        std::size_t next = 0;
+        for (unsigned int ring = 0; ring < n_rings; ++ring)
+          for (const std::size_t end = found.size(); next < end; ++next)
+            for (const unsigned int t : vertices[found[next]].triangles)
+              for (unsigned int i = 0; i < 3; ++i)
+                if (const unsigned int p = of_corner[3 * t + i];
+                    std::find(found.begin(), found.end(), p) == found.end())
+                  found.push_back(p);
+        found.erase(found.begin());
+      }
+
+      std::vector<PieceVertex> vertices;
+      /// Piece vertex of corner i of triangle t: of_corner[3 t + i].
+      std::vector<unsigned int> of_corner;
+
+    private:
+      static unsigned int corner(const SurfaceTopology &topology, const unsigned int t, const unsigned int v)
+      {
+        return 3 * t + topology.local_corner(t, v);
+      }
+
+      unsigned int root(unsigned int c)
+      {
+        while (of_corner[c] != c)
+          c = of_corner[c] = of_corner[of_corner[c]];
+        return c;
+      }
+
+      void join(const unsigned int a, const unsigned int b)
+      {
+        const unsigned int ra = root(a), rb = root(b);
+        of_corner[std::max(ra, rb)] = std::min(ra, rb);
+      }
+    };
+
+
+
+    /// A quadratic surface through a vertex: z = (c u² + 2 d u v + e v² + k z²) / 2 in a frame whose third
+    /// axis is the normal there. With the larger principal curvature for k these are spheres and cylinders,
+    /// exactly.
+    struct Quadric
+    {
+      Tensor<1, 3> u, v, normal;
+      double       c = 0., d = 0., e = 0.;
+      /// Root mean square of what the fit leaves over that of the heights of the neighbours.
+      double residual = 0.;
+
+      /// Second derivative along a vector.
+      double along(const Tensor<1, 3> &x) const
+      {
+        const double s = x * u, t = x * v;
+        return c * s * s + 2. * d * s * t + e * t * t;
+      }
+
+      /// The principal curvature of larger magnitude.
+      double largest_curvature() const
+      {
+        const double mean = .5 * (c + e), difference = std::hypot(.5 * (c - e), d);
+        return mean < 0. ? mean - difference : mean + difference;
+      }
+    };
+
+    void set_frame(Quadric &q, const Tensor<1, 3> &normal)
+    {
+      q.normal = normal / normal.norm();
+      Tensor<1, 3> axis;
+      unsigned int least = 0;
+      for (unsigned int k = 1; k < 3; ++k)
+        if (std::abs(q.normal[k]) < std::abs(q.normal[least]))
+          least = k;
+      axis[least] = 1.;
+      q.u         = cross_product_3d(q.normal, axis);
+      q.u /= q.u.norm();
+      q.v = cross_product_3d(q.normal, q.u);
+    }
+
+    /// Turns the frame to another normal by as little as possible: coefficients keep their meaning.
+    void turn_frame(Quadric &q, const Tensor<1, 3> &normal)
+    {
+      q.normal = normal / normal.norm();
+      q.u -= (q.u * q.normal) * q.normal;
+      q.u /= q.u.norm();
+      q.v = cross_product_3d(q.normal, q.u);
+    }
+
+    /// Fits a quadratic surface to the vectors from a vertex to its neighbours, with weights 1/distance², and
+    /// turns the frame to the normal found until it rests. Returns false if they do not determine one.
+    bool fit(Quadric &q, const std::vector<Tensor<1, 3>> &neighbours)
+    {
+      constexpr unsigned int n_steps = 20;
+      const Eigen::Index     n       = static_cast<Eigen::Index>(neighbours.size());
+      if (n < 5)
+        return false;
+      double size = 0.;
+      for (const auto &x : neighbours)
+        size = std::max(size, x.norm());
+      Eigen::Matrix<double, Eigen::Dynamic, 5> a(n, 5);
+      Eigen::VectorXd                          b(n);
+      double                                   curvature = 0., last = std::numeric_limits<double>::max();
+      for (unsigned int step = 0; step < n_steps; ++step)
+        {
+          for (Eigen::Index i = 0; i < n; ++i)
+            {
+              const Tensor<1, 3> x = neighbours[i] / size;
+              const double       s = x * q.u, t = x * q.v, z = x * q.normal;
+              const double       weight = 1. / x.norm_square();
+              a.row(i) << s, t, .5 * s * s, s * t, .5 * t * t;
+              a.row(i) *= weight;
+              b[i] = weight * (z - .5 * curvature * z * z);
+            }
+          Eigen::ColPivHouseholderQR<Eigen::Matrix<double, Eigen::Dynamic, 5>> qr(a);
+          qr.setThreshold(1e-4);
+          if (qr.rank() < 5)
+            return false;
+          const Eigen::Matrix<double, 5, 1> x = qr.solve(b);
+          q.c                                 = x[2];
+          q.d                                 = x[3];
+          q.e                                 = x[4];
+          // Where the surface is wild k may do harm: a hemisphere is as far as it can reach.
+          curvature            = std::max(-1., std::min(1., q.largest_curvature()));
+          const double turn    = std::hypot(x[0], x[1]);
+          const double heights = (b - a.leftCols<2>() * x.head<2>()).norm();
+          q.residual           = heights > 0. ? (b - a * x).norm() / heights : 0.;
+          turn_frame(q, q.normal - x[0] * q.u - x[1] * q.v);
+          if (turn < 1e-13 || (step > 2 && turn > .7 * last))
+            break;
+          last = turn;
+        }
+      q.c /= size;
+      q.d /= size;
+      q.e /= size;
+      return true;
+    }
+
+
+
+    /// Makes the patches of a surface.
+    class PatchMaker
+    {
+    public:
+      PatchMaker(const SurfaceMesh &mesh, const SmoothingRule &rule)
+        : mesh(mesh)
+        , rule(rule)
+        , topology(mesh.triangles, mesh.vertices.size())
+        , normals(mesh.triangles.size())
+        , is_cut(topology.edges.size())
+        , is_flat(mesh.triangles.size(), false)
+      {
+        for (unsigned int t = 0; t < mesh.triangles.size(); ++t)
+          {
+            const auto [a, b, c] = mesh.triangles[t];
+            normals[t] =
+                cross_product_3d(mesh.vertices[b] - mesh.vertices[a], mesh.vertices[c] - mesh.vertices[a]);
+            if (const double length = normals[t].norm(); length > 0.)
+              normals[t] /= length;
+          }
+        const double cosine = std::cos(rule.crease_angle * numbers::PI / 180.);
+        for (unsigned int e = 0; e < topology.edges.size(); ++e)
+          is_cut[e] =
+              topology.is_border(e) ||
+              normals[topology.edge_triangles[e][0]] * normals[topology.edge_triangles[e][1]] < cosine;
+      }
+
+      void make(std::vector<SmoothSurface::Patch> &patches, const std::vector<bool> &wanted)
+      {
+        cut_off_flat_parts();
+        const Pieces pieces(topology, is_cut);
+        enum State : unsigned char
+        {
+          unknown,
+          fitted,
+          failed
+        };
+        std::vector<Quadric> quadrics(pieces.vertices.size());
+        std::vector<State>   state(quadrics.size(), unknown);
+        patches.resize(mesh.triangles.size());
+        for (unsigned int t = 0; t < mesh.triangles.size(); ++t)
+          if (wanted[t])
+            {
+              std::array<const Quadric *, 3> corners;
+              bool                           all_fitted = !is_flat[t];
+              for (unsigned int i = 0; i < 3; ++i)
+                {
+                  const unsigned int p = pieces.of_corner[3 * t + i];
+                  if (state[p] == unknown)
+                    state[p] = is_flat[t] ? (set_frame(quadrics[p], normals[t]), fitted)
+                                          : (fit_vertex(quadrics[p], pieces, p) ? fitted : failed);
+                  corners[i] = &quadrics[p];
+                  all_fitted = all_fitted && state[p] == fitted;
+                }
+              finish(patches[t], t, corners, all_fitted);
+            }
+      }
+
+    private:
+      /// A vertex whose surroundings lie in one plane makes its triangles flat: those around an inner one,
+      /// all of two rings at a border (one cell of a cylinder alone is as flat as a strip along its axis).
+      void cut_off_flat_parts()
+      {
+        const Pieces              pieces(topology, is_cut);
+        std::vector<unsigned int> near;
+        for (unsigned int p = 0; p < pieces.vertices.size(); ++p)
+          {
+            const PieceVertex &centre = pieces.vertices[p];
+            pieces.neighbours(near, p, centre.is_closed ? 1 : 2);
+            const Tensor<1, 3> &n    = normals[centre.triangles[0]];
+            double              size = 0., height = 0.;
+            for (const unsigned int q : near)
+              {
+                const Tensor<1, 3> x =
+                    mesh.vertices[pieces.vertices[q].vertex] - mesh.vertices[centre.vertex];
+                size   = std::max(size, x.norm());
+                height = std::max(height, std::abs(x * n));
+              }
+            if (height <= rule.flat * size)
+              for (const unsigned int t : centre.triangles)
+                is_flat[t] = true;
+          }
+        grow_flat_parts();
+        for (unsigned int e = 0; e < topology.edges.size(); ++e)
+          if (!is_cut[e])
+            is_cut[e] = is_flat[topology.edge_triangles[e][0]] != is_flat[topology.edge_triangles[e][1]];
+      }
+
+      /// Triangles in the plane of a flat neighbour: at corners of a flat part all vertices may lie on its
+      /// border.
+      void grow_flat_parts()
+      {
+        std::vector<unsigned int> front;
+        for (unsigned int t = 0; t < is_flat.size(); ++t)
+          if (is_flat[t])
+            front.push_back(t);
+        while (!front.empty())
+          {
+            const unsigned int t = front.back();
+            front.pop_back();
+            for (unsigned int i = 0; i < 3; ++i)
+              if (const unsigned int e = topology.triangle_edges[t][i]; !is_cut[e])
+                {
+                  const auto        &sides = topology.edge_triangles[e];
+                  const unsigned int other = sides[0] == t ? sides[1] : sides[0];
+                  if (!is_flat[other] && normals[t] * normals[other] > 0. &&
+                      cross_product_3d(normals[t], normals[other]).norm() <= rule.flat)
+                    {
+                      is_flat[other] = true;
+                      front.push_back(other);
+                    }
+                }
+          }
+      }
+
+      bool fit_vertex(Quadric &quadric, const Pieces &pieces, const unsigned int p) const
+      {
+        // Max's weights: exact on spheres.
+        const PieceVertex &centre = pieces.vertices[p];
+        Tensor<1, 3>       mean;
+        for (const unsigned int t : centre.triangles)
+          {
+            const unsigned int i = topology.local_corner(t, centre.vertex);
+            const auto        &v = mesh.triangles[t];
+            mean += corner_normal(mesh.vertices[v[i]], mesh.vertices[v[(i + 1) % 3]],
+                                  mesh.vertices[v[(i + 2) % 3]]);
+          }
+        set_frame(quadric, mean.norm() > 0. ? mean : normals[centre.triangles[0]]);
+        std::vector<unsigned int> near;
+        std::vector<Tensor<1, 3>> points;
+        // A corner of the surface may need one more ring.
+        for (unsigned int n_rings = 2; n_rings <= 3; ++n_rings)
+          {
+            pieces.neighbours(near, p, n_rings);
+            points.clear();
+            for (const unsigned int q : near)
+              if (const Tensor<1, 3> x =
+                      mesh.vertices[pieces.vertices[q].vertex] - mesh.vertices[centre.vertex];
+                  x.norm() > 0.)
+                points.push_back(x);
+            Quadric found = quadric;
+            if (fit(found, points))
+              {
+                quadric = found;
+                return true;
+              }
+          }
+        return false;
+      }
+
+      void finish(SmoothSurface::Patch &patch, const unsigned int t,
+                  const std::array<const Quadric *, 3> &corners, const bool all_fitted) const
+      {
+        patch.is_flat = is_flat[t];
+        for (unsigned int i = 0; i < 3; ++i)
+          patch.normals[i] = patch.is_flat ? normals[t] : corners[i]->normal;
+        if (patch.is_flat)
+          return;
+        double curvature = 0., longest = 0., residual = 0.;
+        for (unsigned int i = 0; i < 3; ++i)
+          {
+            // Heights of the middle of an edge: from the normals at its ends and from either curvature.
+            const Quadric     &a = *corners[i], &b = *corners[(i + 1) % 3];
+            const Tensor<1, 3> edge =
+                mesh.vertices[mesh.triangles[t][(i + 1) % 3]] - mesh.vertices[mesh.triangles[t][i]];
+            const double by_normals = edge * (b.normal - a.normal) / 8., by_a = -a.along(edge) / 8.,
+                         by_b = -b.along(edge) / 8.;
+            patch.height      = std::max(patch.height, std::abs(by_normals));
+            patch.doubt =
+                std::max({patch.doubt, std::abs(by_a - by_b), std::abs(by_normals - .5 * (by_a + by_b))});
+            curvature = std::max(curvature, std::abs(a.largest_curvature()));
+            longest   = std::max(longest, edge.norm());
+            residual  = std::max(residual, a.residual);
+          }
+        const double typical = curvature * longest * longest / 8.;
+        patch.is_smooth      = all_fitted && residual <= rule.largest_residual &&
+                          patch.doubt <= rule.largest_disagreement * typical;
+        patch.doubt = std::max(patch.doubt, residual * typical);
+        if (!all_fitted)
+          patch.doubt = std::max(patch.doubt, patch.height);
+      }
+
+      const SurfaceMesh        &mesh;
+      const SmoothingRule      &rule;
+      const SurfaceTopology     topology;
+      std::vector<Tensor<1, 3>> normals;
+      /// Edges that separate smooth pieces; triangles of flat parts.
+      std::vector<bool> is_cut, is_flat;
+    };
+  } // namespace
+
+
+
+  SmoothSurface::SmoothSurface(SurfaceMesh mesh, const std::vector<bool> &wanted, const SmoothingRule &rule)
+    : surface(std::move(mesh))
+  {
+    PatchMaker(surface, rule).make(patches, wanted);
+  }
+
+
+
+  Tensor<1, 3> SmoothSurface::offset(const unsigned int triangle, const std::array<double, 3> &weights) const
+  {
+    const Patch &p = patches[triangle];
+    if (p.is_flat)
+      return Tensor<1, 3>();
+    const auto  &corners = surface.triangles[triangle];
+    Tensor<1, 3> x, normal;
+    for (unsigned int a = 0; a < 3; ++a)
+      {
+        x += weights[a] * surface.vertices[corners[a]];
+        normal += weights[a] * p.normals[a];
+      }
+    double height = 0.;
+    for (unsigned int a = 0; a < 3; ++a)
+      height += .5 * weights[a] * ((surface.vertices[corners[a]] - x) * p.normals[a]);
+    const double length = normal.norm();
+    return length > 0. ? 2. * height / (length * (1. + length)) * normal : Tensor<1, 3>();
+  }
+} // namespace Signorini

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include "surfaces.h"
+
+#include <signorini/surface/smooth_surface.h>
+
+namespace
+{
+  using namespace Signorini;
+  using dealii::Point;
+  using dealii::Tensor;
+
+  SurfaceMesh bent(const unsigned int n, const double jitter, const TestSurfaces::Shape &shape)
+  {
+    const auto  grid = TestSurfaces::flat_grid(n, n, jitter, 7);
+    SurfaceMesh mesh;
+    for (const auto &[s, t] : grid.vertices)
+      mesh.vertices.push_back(shape(s, t));
+    mesh.triangles = grid.triangles;
+    return mesh;
+  }
+
+  SmoothSurface smooth(const SurfaceMesh &mesh)
+  {
+    return SmoothSurface(mesh, std::vector<bool>(mesh.triangles.size(), true));
+  }
+
+  const std::array<double, 3> samples[] = {{{1. / 3., 1. / 3., 1. / 3.}},
+                                           {{.5, .5, 0.}},
+                                           {{0., .5, .5}},
+                                           {{.5, 0., .5}},
+                                           {{.6, .3, .1}}};
+
+  /// Largest distances of facets and of patches from a shape.
+  std::array<double, 2> heights(const SmoothSurface                           &surface,
+                                const std::function<double(const Point<3> &)> &distance)
+  {
+    std::array<double, 2> worst = {{0., 0.}};
+    for (unsigned int t = 0; t < surface.mesh().triangles.size(); ++t)
+      for (const auto &w : samples)
+        {
+          const Point<3> x = evaluate(surface.mesh(), t, w);
+          worst[0]         = std::max(worst[0], std::abs(distance(x)));
+          worst[1]         = std::max(worst[1], std::abs(distance(x + surface.offset(t, w))));
+        }
+    return worst;
+  }
+
+  unsigned int n_smooth(const SmoothSurface &surface)
+  {
+    unsigned int n = 0;
+    for (unsigned int t = 0; t < surface.mesh().triangles.size(); ++t)
+      n += surface.patch(t).is_smooth;
+    return n;
+  }
+
+  Point<3> on_sphere(const double s, const double t)
+  {
+    const Tensor<1, 3> d({s - .5, t - .5, 1.});
+    return Point<3>(d / d.norm());
+  }
+
+  Point<3> on_cylinder(const double s, const double t)
+  {
+    return {std::cos(s), std::sin(s), t};
+  }
+} // namespace
+
+
+
+TEST(SmoothSurface, IsExactOnSpheresAndCylinders)
+{
+  const auto sphere   = [](const Point<3> &x) { return x.norm() - 1.; };
+  const auto cylinder = [](const Point<3> &x) { return std::hypot(x[0], x[1]) - 1.; };
+  for (const unsigned int n : {5, 8, 16})
+    {
+      EXPECT_LT(heights(smooth(bent(n, .2, on_sphere)), sphere)[1], 1e-13);
+      EXPECT_LT(heights(smooth(bent(n, .2, on_cylinder)), cylinder)[1], 1e-13);
+    }
+}
+
+
+
+TEST(SmoothSurface, HasOrderThreeOnSmoothSurfaces)
+{
+  // A cubic graph, a cone and a torus.
+  const auto on_graph = [](const double s, const double t) {
+    return Point<3>(s, t, .3 * s * s * s - .2 * s * t * t);
+  };
+  const auto on_cone = [](const double s, const double t) {
+    return Point<3>((1. + t) * std::cos(s), (1. + t) * std::sin(s), -t);
+  };
+  const auto on_torus = [](const double s, const double t) {
+    return Point<3>((2. + std::cos(t)) * std::cos(.5 * s), (2. + std::cos(t)) * std::sin(.5 * s),
+                    std::sin(t));
+  };
+  const auto graph = [](const Point<3> &x) {
+    return x[2] - .3 * x[0] * x[0] * x[0] + .2 * x[0] * x[1] * x[1];
+  };
+  const auto cone  = [](const Point<3> &x) { return std::hypot(x[0], x[1]) - 1. + x[2]; };
+  const auto torus = [](const Point<3> &x) { return std::hypot(std::hypot(x[0], x[1]) - 2., x[2]) - 1.; };
+  using Distance   = std::function<double(const Point<3> &)>;
+  for (const double jitter : {0., .2})
+    for (const auto &[shape, distance] : std::initializer_list<std::pair<TestSurfaces::Shape, Distance>>{
+             {on_graph, graph}, {on_cone, cone}, {on_torus, torus}})
+      {
+        std::vector<std::array<double, 2>> h;
+        for (const unsigned int n : {8, 16, 32})
+          h.push_back(heights(smooth(bent(n, jitter, shape)), distance));
+        EXPECT_LT(h[2][1], .03 * h[2][0]);
+        EXPECT_GT(std::log2(h[0][1] / h[2][1]) / 2., 2.6) << h[0][1] << ' ' << h[1][1] << ' ' << h[2][1];
+      }
+}
+
+
+
+TEST(SmoothSurface, KnowsHowWellItKnows)
+{
+  for (const auto &shape : {TestSurfaces::Shape(on_sphere), TestSurfaces::Shape(on_cylinder)})
+    for (const unsigned int n : {6, 12, 24})
+      {
+        const SmoothSurface surface = smooth(bent(n, .2, shape));
+        EXPECT_EQ(n_smooth(surface), surface.mesh().triangles.size()) << n;
+      }
+  // Noise as large as the heights of the facets.
+  std::mt19937                           random(5);
+  std::uniform_real_distribution<double> noise(-1., 1.);
+  const unsigned int                     n     = 16;
+  const double                           h     = 1. / n;
+  const SmoothSurface                    rough = smooth(bent(n, .2, [&](const double s, const double t) {
+    return on_sphere(s, t) + .5 * h * h * noise(random) * Tensor<1, 3>(on_sphere(s, t));
+  }));
+  EXPECT_LT(n_smooth(rough), .25 * rough.mesh().triangles.size());
+  // The doubt is of the size of what is really wrong.
+  for (unsigned int t = 0; t < rough.mesh().triangles.size(); ++t)
+    EXPECT_LT(rough.patch(t).doubt, 3. * h * h);
+}
+
+
+
+TEST(SmoothSurface, FlatStaysFlatAndCreasesStaySharp)
+{
+  // A quarter of a cylinder that goes over into a plane without an angle, and a plane at a right angle to
+  // that.
+  const unsigned int  n = 12;
+  const double        r = .5, turn = r * dealii::numbers::PI / 2.;
+  const SmoothSurface roof   = smooth(bent(3 * n, 0., [&](const double s, const double t) {
+    const double way = 3. * s;
+    if (way <= 1.)
+      return Point<3>(r * std::sin(way * turn / r), t, r * std::cos(way * turn / r) - r);
+    if (way <= 2.)
+      return Point<3>(r, t, -r - (way - 1.));
+    return Point<3>(r + (way - 2.), t, -r - 1.);
+  }));
+  unsigned int        n_flat = 0;
+  for (unsigned int t = 0; t < roof.mesh().triangles.size(); ++t)
+    {
+      Point<3>   centre = evaluate(roof.mesh(), t, samples[0]);
+      const bool plane  = centre[2] < -r;
+      n_flat += roof.patch(t).is_flat;
+      EXPECT_EQ(roof.patch(t).is_flat, plane) << centre;
+      if (plane)
+        for (const auto &w : samples)
+          EXPECT_EQ(roof.offset(t, w).norm(), 0.);
+      else
+        {
+          EXPECT_TRUE(roof.patch(t).is_smooth) << centre;
+          for (const auto &w : samples)
+            {
+              const Point<3> x = evaluate(roof.mesh(), t, w) + roof.offset(t, w);
+              EXPECT_NEAR(std::hypot(x[0], x[2] + r), r, .02 * turn * turn / (n * n * 8. * r)) << centre;
+            }
+        }
+    }
+  EXPECT_EQ(n_flat, 2 * 2 * n * 3 * n);
+}
+
+
+
+TEST(SmoothSurface, DoesNotDependOnUnitsAndPlace)
+{
+  const auto surface = smooth(bent(10, .2, on_sphere));
+  for (const double scale : {1e-6, 1e6})
+    {
+      const auto other = smooth(bent(10, .2, [&](const double s, const double t) {
+        const Point<3> x = on_sphere(s, t);
+        return Point<3>(scale * x[1], scale * (x[2] + 3.), scale * x[0]);
+      }));
+      for (unsigned int t = 0; t < surface.mesh().triangles.size(); ++t)
+        {
+          EXPECT_EQ(surface.patch(t).is_smooth, other.patch(t).is_smooth);
+          EXPECT_NEAR(other.offset(t, samples[0]).norm() / scale, surface.offset(t, samples[0]).norm(),
+                      1e-10);
+        }
+    }
+}
