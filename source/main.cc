@@ -100,7 +100,8 @@ namespace
     return false;
   }
 
-  void run(const CommandLine &line)
+  /// Returns the exit code.
+  int run(const CommandLine &line)
   {
     const MPI_Comm             comm = MPI_COMM_WORLD;
     dealii::ConditionalOStream out(std::cout, dealii::Utilities::MPI::this_mpi_process(comm) == 0);
@@ -112,7 +113,7 @@ namespace
       {
         if (out.is_active())
           parameters.print(std::cout, true);
-        return;
+        return 0;
       }
     std::optional<OutputFolder> folder;
     if (!line.check)
@@ -121,7 +122,7 @@ namespace
     if (line.check)
       {
         problem.describe();
-        return;
+        return 0;
       }
     if (line.mesh_only)
       problem.build_meshes();
@@ -133,6 +134,7 @@ namespace
       out << "results in " << parameters.output_folder << std::endl;
     if (!problem.results.converged)
       throw InputError("the iteration did not converge; see the notes and convergence.csv in the results.");
+    return problem.results.certificate.objections.empty() ? 0 : 3;
   }
 } // namespace
 
@@ -179,8 +181,7 @@ main(int argc, char **argv)
         }
       if (line.file.empty())
         throw InputError("no parameter file given.\n" + std::string(usage));
-      run(line);
-      return 0;
+      return run(line);
     }
   catch (const InputError &e)
     {

@@ -24,7 +24,75 @@ namespace Signorini
         result[c] = Utilities::MPI::sum(v[c], comm);
       return result;
     }
+
+    Vector3 nodal(const Vector &field, const unsigned int i)
+    {
+      return Vector3(
+          {field.local_element(dim * i), field.local_element(dim * i + 1), field.local_element(dim * i + 2)});
+    }
+
+    /// What is left of the forces on one body, and of their moments about its centre of nodes.
+    class BodyBalance
+    {
+    public:
+      /// A nodal force before those that balance it are taken off.
+      void add_scale(const Point<3> &x, const Vector3 &force)
+      {
+        scale += force.norm();
+        n_nodes += 1.;
+        centre += Vector3(x);
+        square += x.square();
+      }
+
+      void add_rest(const Point<3> &x, const Vector3 &f)
+      {
+        force += f;
+        moment += cross_product_3d(Vector3(x), f);
+      }
+
+      void sum(const MPI_Comm comm)
+      {
+        force   = Signorini::sum(force, comm);
+        moment  = Signorini::sum(moment, comm);
+        centre  = Signorini::sum(centre, comm);
+        scale   = Utilities::MPI::sum(scale, comm);
+        n_nodes = Utilities::MPI::sum(n_nodes, comm);
+        square  = Utilities::MPI::sum(square, comm);
+        if (n_nodes > 0.)
+          centre /= n_nodes;
+      }
+
+      double relative_force() const
+      {
+        return scale > 0. ? force.norm() / scale : 0.;
+      }
+
+      double relative_moment() const
+      {
+        // Root mean square of the distances from the centre.
+        const double size =
+            n_nodes > 0. ? std::sqrt(std::max(0., square / n_nodes - centre.norm_square())) : 0.;
+        return scale * size > 0. ? (moment - cross_product_3d(centre, force)).norm() / (scale * size) : 0.;
+      }
+
+    private:
+      Vector3 force, moment, centre;
+      double  scale = 0., n_nodes = 0., square = 0.;
+    };
   } // namespace
+
+
+
+  std::vector<unsigned int> ContactProblem::bodies_of_nodes() const
+  {
+    const Discretization     &d = discretization;
+    std::vector<unsigned int> body(d.partition->n_owned(), numbers::invalid_unsigned_int);
+    for (const NodalSpace::Cell &cell : d.space->cells())
+      for (const NodeIndex node : d.space->nodes(cell))
+        if (d.partition->owns(node))
+          body[d.partition->to_local(node)] = bodies.body_of_material(cell.material);
+    return body;
+  }
 
 
 
@@ -47,6 +115,16 @@ namespace Signorini
         result.min_pressure  = std::numeric_limits<double>::max();
         result.max_pressure  = -result.min_pressure;
         std::vector<Vector3> traction(coupling.coupling.n_rows());
+        std::vector<double>  pressure(traction.size(), 0.);
+        std::vector<bool>    is_active(pair.nonmortar.mesh.vertices.size(), false);
+        for (std::size_t row = 0; row < d.coupling.n_rows(); ++row)
+          if (d.origin[row].first == p)
+            {
+              pressure[d.origin[row].second]                     = d.pressure[row];
+              is_active[coupling.vertices[d.origin[row].second]] = d.active[row] != 0;
+            }
+        const auto recovered = recover_pressure(pair.nonmortar, pair.moments, coupling, pressure);
+        double     load      = 0.;
         for (std::size_t row = 0; row < d.coupling.n_rows(); ++row)
           if (d.origin[row].first == p)
             {
@@ -55,14 +133,22 @@ namespace Signorini
               result.min_pressure = std::min(result.min_pressure, d.pressure[row]);
               result.max_pressure = std::max(result.max_pressure, d.pressure[row]);
               if (d.active[row])
-                result.contact_area += coupling.areas[i];
+                {
+                  result.contact_area += coupling.areas[i];
+                  load += coupling.areas[i] * d.pressure[row];
+                  result.centre += coupling.areas[i] * d.pressure[row] * Vector3(coupling.positions[i]);
+                }
               results.pressure.push_back({coupling.positions[i], coupling.areas[i], d.pressure[row],
-                                          d.opening[row], d.active[row] != 0});
+                                          recovered[coupling.vertices[i]],
+                                          coupling.mean_gap(i, d.opening[row]), d.active[row] != 0});
             }
+        if (load > 0.)
+          result.centre /= load;
         const ContactForces forces = compute_contact_forces(pair.nonmortar, pair.mortar, coupling, traction);
         result.force               = forces.nonmortar.force;
         result.force_on_mortar     = pair.obstacle ? -forces.nonmortar.force : forces.mortar.force;
         result.moment              = forces.nonmortar.moment;
+        measure_contact(result, p, is_active, load, forces);
 
         const auto displaced = vertex_values(pair.nonmortar, *d.partition, d.displacement);
         const auto penetration =
@@ -88,6 +174,11 @@ namespace Signorini
     Vector          residual = physical_residual(bodies, *d.space, *d.partition, loads, d.displacement);
     double          scale    = residual.l2_norm();
     // What is left once the contact forces are put on the other side.
+    const std::vector<unsigned int> body_of_node = bodies_of_nodes();
+    std::vector<BodyBalance>        balance(bodies.n_bodies());
+    for (unsigned int i = 0; i < d.partition->n_owned(); ++i)
+      if (body_of_node[i] != numbers::invalid_unsigned_int)
+        balance[body_of_node[i]].add_scale(d.space->position(d.partition->to_global(i)), nodal(residual, i));
     const auto subtract = [&](const NodeIndex node, const Vector3 &force) {
       if (d.partition->owns(node))
         for (unsigned int c = 0; c < dim; ++c)
@@ -107,69 +198,34 @@ namespace Signorini
         const std::size_t r = d.space->relevant().index_within_set(d.partition->to_global(i));
         if (d.space->hanging_nodes().is_constrained(d.partition->to_global(i)))
           continue;
+        Vector3 rest;
         for (unsigned int c = 0; c < dim; ++c)
           {
             const double f = residual.local_element(dim * i + c);
             if (d.dirichlet.condition[r][c] >= 0)
               reactions[d.dirichlet.condition[r][c]][c] += f;
             else
-              unbalanced += f * f;
+              {
+                unbalanced += f * f;
+                rest[c] = f;
+              }
           }
+        if (body_of_node[i] != numbers::invalid_unsigned_int)
+          balance[body_of_node[i]].add_rest(d.space->position(d.partition->to_global(i)), rest);
+      }
+    for (BodyBalance &b : balance)
+      {
+        b.sum(comm);
+        results.certificate.body_force_balance =
+            std::max(results.certificate.body_force_balance, b.relative_force());
+        results.certificate.body_moment_balance =
+            std::max(results.certificate.body_moment_balance, b.relative_moment());
       }
     results.certificate.equilibrium =
         scale > 0. ? std::sqrt(Utilities::MPI::sum(unbalanced, comm)) / scale : 0.;
     for (std::size_t i = 0; i < reactions.size(); ++i)
       results.boundaries.push_back(
           {bodies.body_name(loads.dirichlet[i].body), loads.dirichlet[i].boundary, sum(reactions[i], comm)});
-  }
-
-
-
-  void ContactProblem::certify()
-  {
-    Discretization &d       = discretization;
-    Certificate    &c       = results.certificate;
-    const double    u       = d.displacement.linfty_norm();
-    double          largest = 0., tension = 0., penetration = 0., product = 0.;
-    for (std::size_t row = 0; row < d.coupling.n_rows(); ++row)
-      {
-        if (d.tied[row])
-          continue;
-        // What is left of the pressure where nothing touches is rounding, and no scale.
-        if (d.active[row])
-          largest = std::max(largest, d.pressure[row]);
-        tension     = std::max(tension, -d.pressure[row]);
-        penetration = std::max(penetration, -d.opening[row]);
-        product     = std::max(product, std::abs(d.pressure[row] * d.opening[row]));
-      }
-    // Where nothing touches: the stress of such displacements over such a length.
-    double young = 0., size = 0.;
-    for (const BodyParameters &body : parameters.bodies)
-      young = std::max(young, body.young);
-    for (const PairCoupling &coupling : d.couplings)
-      for (const Point<3> &x : coupling.positions)
-        size = std::max(size, x.distance(coupling.positions[0]));
-    const double scale = largest > 0. ? largest : size > 0. ? young * u / size : 0.;
-    c.penetration      = u > 0. ? penetration / u : 0.;
-    c.tension          = scale > 0. ? tension / scale : 0.;
-    c.complementarity  = u > 0. && scale > 0. ? product / (scale * u) : 0.;
-    c.energy           = results.cycles.back().nonlinear.energy;
-    c.potential_energy = potential_energy(bodies, *d.space, *d.partition, loads, d.displacement);
-    results.cycles.back().potential_energy = c.potential_energy;
-    for (const PairResult &pair : results.pairs)
-      {
-        // An obstacle takes what the body gives.
-        if (pair.force.norm() > 0. && !d.pairs[&pair - results.pairs.data()].obstacle)
-          c.force_balance =
-              std::max(c.force_balance, (pair.force + pair.force_on_mortar).norm() / pair.force.norm());
-        if (u > 0. && pair_definitions[&pair - results.pairs.data()].parameters.contact != "tied")
-          c.geometric_penetration = std::max(c.geometric_penetration, pair.max_penetration / u);
-        std::size_t active = 0;
-        for (std::size_t row = 0; row < d.coupling.n_rows(); ++row)
-          active += d.active[row] && results.pairs[d.origin[row].first].name == pair.name;
-        if (active == 0)
-          note("pair " + pair.name + ": the surfaces are separated, there is no contact force.");
-      }
   }
 
 

@@ -64,7 +64,10 @@ namespace Signorini
       }
     for (unsigned int p = 0; p < d.pairs.size(); ++p)
       {
-        const auto &gaps = d.couplings[p].gaps;
+        const PairCoupling &coupling = d.couplings[p];
+        std::vector<double> gaps;
+        for (std::size_t row = 0; row < coupling.gaps.size(); ++row)
+          gaps.push_back(coupling.mean_gap(row, coupling.gaps[row]));
         out << "pair " << d.pairs[p].name << ": nonmortar " << d.pairs[p].nonmortar_name << ", mortar "
             << d.pairs[p].mortar_name << ", " << gaps.size() << " contact nodes, gap "
             << *std::min_element(gaps.begin(), gaps.end()) << " to "

@@ -4,6 +4,8 @@
 #include <signorini/algebra/input_error.h>
 #include <signorini/application/write_results.h>
 #include <signorini/mesh/surface_extraction.h>
+#include <signorini/mortar/contact_forces.h>
+#include <signorini/mortar/surface_values.h>
 #include <signorini/output/field_output.h>
 #include <signorini/output/summary.h>
 
@@ -61,22 +63,30 @@ namespace Signorini
       const std::size_t  n    = pair.nonmortar.mesh.vertices.size();
       OutputField        pressure{"pressure", 1, std::vector<double>(n, 0.)},
           gap{"gap", 1, std::vector<double>(n, 0.)}, active{"active", 1, std::vector<double>(n, 0.)},
+          recovered{"recovered pressure", 1, {}}, traction{"traction", 3, std::vector<double>(3 * n, 0.)},
           normal{"normal", 3, {}}, displacement{"displacement", 3, {}},
           image{"mortar_image", 3, std::vector<double>(3 * n, 0.)};
+      std::vector<double> row_pressure(d.couplings[p].coupling.n_rows(), 0.);
       for (std::size_t row = 0; row < d.coupling.n_rows(); ++row)
         if (d.origin[row].first == p)
           {
             const unsigned int v = d.couplings[p].vertices[d.origin[row].second];
             pressure.values[v]   = d.pressure[row];
-            gap.values[v]        = d.opening[row];
-            active.values[v]     = d.active[row];
+            for (unsigned int c = 0; c < dim; ++c)
+              traction.values[3 * v + c] = -d.traction[row][c];
+            row_pressure[d.origin[row].second] = d.pressure[row];
+            gap.values[v]    = d.couplings[p].mean_gap(d.origin[row].second, d.opening[row]);
+            active.values[v] = d.active[row];
           }
       for (std::size_t v = 0; v < n; ++v)
         for (const auto &[parent, weight] : pair.nonmortar.hanging[v])
           {
             pressure.values[v] += weight * pressure.values[parent];
             gap.values[v] += weight * gap.values[parent];
+            for (unsigned int c = 0; c < dim; ++c)
+              traction.values[3 * v + c] += weight * traction.values[3 * parent + c];
           }
+      recovered.values = recover_pressure(pair.nonmortar, pair.moments, d.couplings[p], row_pressure);
       // The vector from a vertex to its image, where the mapping reaches it.
       if (pair.obstacle)
         for (std::size_t v = 0; v < n; ++v)
@@ -93,10 +103,14 @@ namespace Signorini
           for (unsigned int i = 0; i < 3; ++i)
             if (cell.nonmortar[c][i] == 1.)
               {
-                const unsigned int v = pair.nonmortar.mesh.triangles[cell.nonmortar_triangle][i];
-                const auto         y = evaluate(pair.mortar.mesh, cell.mortar_triangle, cell.mortar[c]);
+                const unsigned int    v      = pair.nonmortar.mesh.triangles[cell.nonmortar_triangle][i];
+                std::array<double, 3> corner = {{0., 0., 0.}};
+                corner[c]                    = 1.;
+                const Vector3 way =
+                    initial_gap(pair.nonmortar, pair.mortar, cell, corner, pair.nonmortar.mesh.vertices[v],
+                                evaluate(pair.mortar.mesh, cell.mortar_triangle, cell.mortar[c]));
                 for (unsigned int k = 0; k < 3; ++k)
-                  image.values[3 * v + k] = y[k] - pair.nonmortar.mesh.vertices[v][k];
+                  image.values[3 * v + k] = way[k];
               }
       const auto u = vertex_values(pair.nonmortar, *d.partition, d.displacement);
       for (std::size_t v = 0; v < n; ++v)
@@ -107,7 +121,38 @@ namespace Signorini
               displacement.values.push_back(u[v][c]);
             }
         }
-      return {displacement, pressure, gap, active, normal, image};
+      return {displacement, pressure, recovered, traction, gap, active, normal, image};
+    }
+
+    /// Fields by vertex of the mortar surface of a pair.
+    std::vector<OutputField> mortar_fields(const Discretization &d, const unsigned int p)
+    {
+      const ContactPair   &pair = d.pairs[p];
+      std::vector<Vector3> row_traction(d.couplings[p].coupling.n_rows());
+      for (std::size_t row = 0; row < d.coupling.n_rows(); ++row)
+        if (d.origin[row].first == p)
+          row_traction[d.origin[row].second] = d.traction[row];
+      const auto  stress = mortar_stress(pair.mortar, d.couplings[p], row_traction);
+      const auto  u      = vertex_values(pair.mortar, *d.partition, d.displacement);
+      OutputField displacement{"displacement", 3, {}}, pressure{"pressure", 1, {}},
+          traction{"traction", 3, {}}, normal{"normal", 3, {}};
+      for (std::size_t v = 0; v < stress.size(); ++v)
+        {
+          const Vector3 &n = pair.mortar.mesh.vertex_normals[v];
+          pressure.values.push_back(-(stress[v] * n));
+          for (unsigned int c = 0; c < dim; ++c)
+            {
+              displacement.values.push_back(u[v][c]);
+              traction.values.push_back(stress[v][c]);
+              normal.values.push_back(n[c]);
+            }
+        }
+      return {displacement, pressure, traction, normal};
+    }
+
+    std::string file_name(const std::string &pair)
+    {
+      return Utilities::replace_in_string(pair, " ", "-");
     }
 
     template <typename F>
@@ -134,13 +179,17 @@ namespace Signorini
       write_bodies_of(problem, parameters, folder.path());
     if (parameters.write_surfaces || mesh_only)
       for (unsigned int p = 0; p < d.pairs.size(); ++p)
-        write_surface(folder.path(), "contact-" + Utilities::replace_in_string(d.pairs[p].name, " ", "-"),
-                      d.pairs[p].nonmortar, surface_fields(d, p), comm);
+        {
+          const std::string name = "contact-" + file_name(d.pairs[p].name);
+          write_surface(folder.path(), name, d.pairs[p].nonmortar, surface_fields(d, p), comm);
+          if (!d.pairs[p].obstacle)
+            write_surface(folder.path(), name + "-mortar", d.pairs[p].mortar, mortar_fields(d, p), comm);
+        }
 
     if (parameters.write_mapping || mesh_only)
       for (const ContactPair &pair : d.pairs)
         if (pair.mapping)
-          write_file(folder.path() + "mapping-" + Utilities::replace_in_string(pair.name, " ", "-") + "." +
+          write_file(folder.path() + "mapping-" + file_name(pair.name) + "." +
                          Utilities::int_to_string(Utilities::MPI::this_mpi_process(comm)) + ".vtu",
                      [&](std::ostream &o) {
                        write_overlay(o, pair.nonmortar.mesh, pair.mortar.mesh, pair.mapping->overlay());

@@ -92,11 +92,11 @@ namespace Signorini
 
 
 
-  Vector3 TrueShape::offset(const SurfaceMesh &mesh, const unsigned int triangle,
-                            const std::array<double, 3> &weights) const
+  Vector3 TrueShape::known_offset(const SurfaceMesh &mesh, const unsigned int triangle,
+                                  const std::array<double, 3> &weights) const
   {
     Vector3 sum;
-    if (!has_offsets() || shape_of_triangle[triangle] == no_shape)
+    if (shapes.empty() || shape_of_triangle[triangle] == no_shape)
       return sum;
     const Cubic &coefficients = cubic(mesh, triangle);
     const auto   m            = monomials(weights[1], weights[2]);
@@ -111,18 +111,10 @@ namespace Signorini
   {
     if (shapes.empty() || shape_of_triangle[triangle] == no_shape)
       return 0.;
-    const BoundaryShape &shape = *shapes[shape_of_triangle[triangle]];
-    const auto          &v     = mesh.triangles[triangle];
-    const Point<3>       x(
-              (mesh.vertices[v[0]] + Tensor<1, 3>(mesh.vertices[v[1]]) + Tensor<1, 3>(mesh.vertices[v[2]])) / 3.);
-    double height = 0.;
-    if (!is_used)
-      for (const auto &[s, t] : lattice())
-        {
-          const Point<3> y((1. - s - t) * mesh.vertices[v[0]] + s * mesh.vertices[v[1]] +
-                           t * mesh.vertices[v[2]]);
-          height = std::max(height, y.distance(shape.project(y)));
-        }
-    return height + shape.doubt(x);
+    const auto    &v = mesh.triangles[triangle];
+    const Point<3> centre((Tensor<1, 3>(mesh.vertices[v[0]]) + Tensor<1, 3>(mesh.vertices[v[1]]) +
+                           Tensor<1, 3>(mesh.vertices[v[2]])) /
+                          3.);
+    return shapes[shape_of_triangle[triangle]]->doubt(centre);
   }
 } // namespace Signorini

@@ -6,6 +6,7 @@
 #include <deal.II/base/exceptions.h>
 
 #include <algorithm>
+#include <unordered_map>
 
 namespace Signorini
 {
@@ -70,5 +71,71 @@ namespace Signorini
     finish(result.nonmortar);
     finish(result.mortar);
     return result;
+  }
+
+
+
+  std::vector<double> recover_pressure(const ContactSurface           &nonmortar,
+                                       const std::vector<FaceMoments> &moments, const PairCoupling &pair,
+                                       const std::vector<double> &pressure)
+  {
+    const std::size_t   n = nonmortar.mesh.vertices.size();
+    std::vector<double> nodal(n, 0.), sum(n, 0.), weight(n, 0.);
+    std::vector<bool>   has_pressure(n, false);
+    for (std::size_t row = 0; row < pressure.size(); ++row)
+      {
+        nodal[pair.vertices[row]]        = pressure[row];
+        has_pressure[pair.vertices[row]] = true;
+      }
+    for (std::size_t v = 0; v < n; ++v)
+      for (const auto &[parent, share] : nonmortar.hanging[v])
+        {
+          nodal[v] += share * nodal[parent];
+          has_pressure[v] = true;
+        }
+    for (const FaceMoments &m : moments)
+      if (m.covered > 0.)
+        {
+          const ContactSurface::Face &face = nonmortar.faces[m.face];
+          for (unsigned int a = 0; a < face.n_corners; ++a)
+            for (unsigned int b = 0; b < face.n_corners; ++b)
+              if (has_pressure[face.corners[b]])
+                {
+                  sum[face.corners[a]] += m.mass[4 * a + b] * nodal[face.corners[b]];
+                  weight[face.corners[a]] += m.mass[4 * a + b];
+                }
+        }
+    for (std::size_t v = 0; v < n; ++v)
+      sum[v] = weight[v] > 0. ? sum[v] / weight[v] : 0.;
+    return sum;
+  }
+
+
+
+  std::vector<Vector3> mortar_stress(const ContactSurface &mortar, const PairCoupling &pair,
+                                     const std::vector<Vector3> &traction)
+  {
+    const std::size_t                           n = mortar.mesh.vertices.size();
+    std::unordered_map<NodeIndex, unsigned int> vertex;
+    for (unsigned int v = 0; v < n; ++v)
+      if (mortar.hanging[v].empty())
+        vertex[mortar.vertex_node[v]] = v;
+    std::vector<Vector3> stress(n);
+    std::vector<double>  area(n, 0.);
+    for (std::size_t row = 0; row < traction.size(); ++row)
+      for (const auto *entry = pair.coupling.begin(row); entry != pair.coupling.end(row); ++entry)
+        if (const auto it = vertex.find(entry->node); it != vertex.end())
+          {
+            const double weight = entry->weight * pair.coupling.weight[row];
+            stress[it->second] += weight * traction[row];
+            area[it->second] += weight;
+          }
+    const double largest = n == 0 ? 0. : *std::max_element(area.begin(), area.end());
+    for (std::size_t v = 0; v < n; ++v)
+      stress[v] = area[v] > 1e-6 * largest ? stress[v] / area[v] : Vector3();
+    for (std::size_t v = 0; v < n; ++v)
+      for (const auto &[parent, share] : mortar.hanging[v])
+        stress[v] += share * stress[parent];
+    return stress;
   }
 } // namespace Signorini

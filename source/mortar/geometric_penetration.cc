@@ -6,6 +6,7 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
 #include <limits>
 
 namespace Signorini
@@ -47,5 +48,73 @@ namespace Signorini
           min_gap     = std::min(min_gap, initial - n * relative);
         }
     return {Utilities::MPI::min(min_initial, communicator), Utilities::MPI::min(min_gap, communicator)};
+  }
+
+
+
+  namespace
+  {
+    bool has_active_corner(const ContactSurface &surface, const unsigned int triangle,
+                           const std::vector<bool> &is_active)
+    {
+      const auto &corners = surface.faces[surface.triangle_face[triangle]].corners;
+      return std::any_of(corners.begin(), corners.end(), [&](const unsigned int v) { return is_active[v]; });
+    }
+
+    Vector3 unused_offset(const ContactSurface &surface, const unsigned int triangle,
+                          const std::array<double, 3> &weights)
+    {
+      return surface.true_shape.unused_offset(surface.mesh, triangle, weights);
+    }
+
+    double doubt_of(const ContactSurface &surface, const unsigned int triangle)
+    {
+      return surface.true_shape.doubt(surface.mesh, triangle);
+    }
+  } // namespace
+
+
+
+  double sample_gap_doubt(const ContactSurface &nonmortar, const ContactSurface &mortar,
+                          const std::vector<OverlayTriangle> &overlay, const std::vector<bool> &is_active,
+                          const MPI_Comm communicator)
+  {
+    const SurfaceValues non(nonmortar);
+    double              largest = 0.;
+    for (const OverlayTriangle &cell : overlay)
+      if (has_active_corner(nonmortar, cell.nonmortar_triangle, is_active))
+        {
+          double unused = 0.;
+          for (const std::array<double, 3> &sample : samples)
+            {
+              const auto w = compose(cell.nonmortar, sample);
+              unused       = std::max(unused, std::abs((unused_offset(mortar, cell.mortar_triangle,
+                                                                      compose(cell.mortar, sample)) -
+                                                  unused_offset(nonmortar, cell.nonmortar_triangle, w)) *
+                                                       non.normal(cell.nonmortar_triangle, w)));
+            }
+          largest = std::max(largest, unused + doubt_of(nonmortar, cell.nonmortar_triangle) +
+                                          doubt_of(mortar, cell.mortar_triangle));
+        }
+    return Utilities::MPI::max(largest, communicator);
+  }
+
+
+
+  double sample_gap_doubt(const ContactSurface &nonmortar, const std::vector<bool> &is_active,
+                          const MPI_Comm communicator)
+  {
+    const unsigned int rank    = Utilities::MPI::this_mpi_process(communicator);
+    double             largest = 0.;
+    for (unsigned int t = 0; t < nonmortar.mesh.triangles.size(); ++t)
+      if (nonmortar.faces[nonmortar.triangle_face[t]].owner == rank &&
+          has_active_corner(nonmortar, t, is_active))
+        {
+          double unused = 0.;
+          for (const std::array<double, 3> &sample : samples)
+            unused = std::max(unused, unused_offset(nonmortar, t, sample).norm());
+          largest = std::max(largest, unused + doubt_of(nonmortar, t));
+        }
+    return Utilities::MPI::max(largest, communicator);
   }
 } // namespace Signorini

@@ -116,6 +116,10 @@ namespace Signorini
       json.vector("force", pair.force);
       json.vector("force_on_mortar", pair.force_on_mortar);
       json.vector("moment", pair.moment);
+      json.vector("centre_of_pressure", Vector3(pair.centre));
+      json.number("approach", pair.approach);
+      json.number("gap_doubt", pair.gap_doubt);
+      json.number("moment_balance", pair.moment_balance);
       json.number("min_pressure", pair.min_pressure);
       json.number("max_pressure", pair.max_pressure);
       json.number("contact_area", pair.contact_area);
@@ -149,12 +153,21 @@ namespace Signorini
     void write_certificate(JsonWriter &json, const Certificate &c)
     {
       json.begin('{', "certificate");
+      json.boolean("contact_conditions_hold", c.objections.empty());
+      json.begin('[', "objections");
+      for (const std::string &text : c.objections)
+        json.text("", text);
+      json.end(']');
       json.number("penetration", c.penetration);
       json.number("geometric_penetration", c.geometric_penetration);
+      json.number("gap_doubt", c.gap_doubt);
       json.number("tension", c.tension);
       json.number("complementarity", c.complementarity);
       json.number("equilibrium", c.equilibrium);
       json.number("force_balance", c.force_balance);
+      json.number("moment_balance", c.moment_balance);
+      json.number("body_force_balance", c.body_force_balance);
+      json.number("body_moment_balance", c.body_moment_balance);
       json.number("energy", c.energy);
       json.number("potential_energy", c.potential_energy);
       json.end('}');
@@ -287,10 +300,10 @@ namespace Signorini
 
   void write_pressure(std::ostream &out, const Results &results)
   {
-    out << "x,y,z,area,pressure,gap,active\n" << std::setprecision(17);
+    out << "x,y,z,area,pressure,recovered_pressure,gap,active\n" << std::setprecision(17);
     for (const PressureRow &row : results.pressure)
       out << row.position[0] << ',' << row.position[1] << ',' << row.position[2] << ',' << row.area << ','
-          << row.pressure << ',' << row.gap << ',' << row.active << '\n';
+          << row.pressure << ',' << row.recovered_pressure << ',' << row.gap << ',' << row.active << '\n';
   }
 
 
@@ -301,17 +314,27 @@ namespace Signorini
     out << std::setprecision(3) << "certificate\n"
         << "  penetration      " << c.penetration << "   (algebraic, largest / largest displacement)\n"
         << "  geometric        " << c.geometric_penetration
-        << "   (sampled on all overlay cells, / largest displacement)\n"
+        << "   (of the true surfaces, sampled on all overlay cells, / approach)\n"
+        << "  doubt of the gap " << c.gap_doubt
+        << "   (what is not known of the surfaces in contact / approach)\n"
         << "  tension          " << c.tension << "   (largest / largest pressure)\n"
         << "  complementarity  " << c.complementarity
         << "   (largest |pressure * gap| / (largest pressure * displacement))\n"
         << "  equilibrium      " << c.equilibrium
         << "   (residual with contact forces / norm of the nodal forces)\n"
         << "  force balance    " << c.force_balance << "   (sum of the forces on both bodies / force)\n"
+        << "  moment balance   " << c.moment_balance
+        << "   (sum of the moments on both bodies / force * width)\n"
+        << "  bodies           " << std::max(c.body_force_balance, c.body_moment_balance)
+        << "   (what is left of forces and moments on a body)\n"
         << "  energy           " << std::setprecision(10) << c.energy << '\n';
     for (const PairResult &p : results.pairs)
       out << std::setprecision(6) << "pair " << p.name << ": force on " << p.nonmortar << " (" << p.force[0]
           << ", " << p.force[1] << ", " << p.force[2] << "), largest pressure " << p.max_pressure
-          << ", contact area " << p.contact_area << '\n';
+          << ", contact area " << p.contact_area << ", approach " << p.approach << '\n';
+    if (c.objections.empty())
+      out << "contact conditions hold: yes\n";
+    for (const std::string &text : c.objections)
+      out << "contact conditions hold: NO: " << text << '\n';
   }
 } // namespace Signorini

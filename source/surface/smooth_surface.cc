@@ -116,18 +116,18 @@ namespace Signorini
       /// Root mean square of what the fit leaves over that of the heights of the neighbours.
       double residual = 0.;
 
-      /// Second derivative along a vector.
-      double along(const Tensor<1, 3> &x) const
-      {
-        const double s = x * u, t = x * v;
-        return c * s * s + 2. * d * s * t + e * t * t;
-      }
-
       /// The principal curvature of larger magnitude.
       double largest_curvature() const
       {
         const double mean = .5 * (c + e), difference = std::hypot(.5 * (c - e), d);
         return mean < 0. ? mean - difference : mean + difference;
+      }
+
+      /// The quadratic form of a vector from the vertex.
+      double along(const Tensor<1, 3> &x) const
+      {
+        const double s = x * u, t = x * v, z = x * normal;
+        return c * s * s + 2. * d * s * t + e * t * t + largest_curvature() * z * z;
       }
     };
 

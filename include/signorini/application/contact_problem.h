@@ -9,7 +9,7 @@
 #include <signorini/discretization/level_hierarchy.h>
 #include <signorini/discretization/rigid_support.h>
 #include <signorini/mesh/refinement.h>
-#include <signorini/mortar/pair_coupling.h>
+#include <signorini/mortar/contact_forces.h>
 #include <signorini/mortar/rigid_obstacle.h>
 #include <signorini/output/progress.h>
 #include <signorini/output/results.h>
@@ -161,12 +161,18 @@ namespace Signorini
     std::vector<bool>   mark(const unsigned int cycle, const std::vector<double> &indicator);
     void                finish();
     void                certify();
-    void                collect_pairs();
-    void                collect_reactions();
-    void                collect_probes();
-    void                compare_with_exact(CycleResult &cycle);
-    void                note(const std::string &text);
-    void                note_movement();
+    void                object();
+    /// @param load integral of the pressure
+    void measure_contact(PairResult &result, const unsigned int p, const std::vector<bool> &is_active,
+                         const double load, const ContactForces &forces) const;
+    /// Of the owned nodes.
+    std::vector<unsigned int> bodies_of_nodes() const;
+    void                      collect_pairs();
+    void                      collect_reactions();
+    void                      collect_probes();
+    void                      compare_with_exact(CycleResult &cycle);
+    void                      note(const std::string &text);
+    void                      note_movement();
     /// A line on the terminal of rank 0.
     void print(const std::string &line);
 

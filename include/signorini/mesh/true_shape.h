@@ -44,18 +44,30 @@ namespace Signorini
       return is_used && !shapes.empty();
     }
 
-    /// From the point of a triangle with given barycentric coordinates to the true surface (length).
+    /// From the point of a triangle with given barycentric coordinates to the true surface (length), as far
+    /// as it is used.
     Vector3 offset(const SurfaceMesh &mesh, const unsigned int triangle,
-                   const std::array<double, 3> &weights) const;
+                   const std::array<double, 3> &weights) const
+    {
+      return is_used ? known_offset(mesh, triangle, weights) : Vector3();
+    }
 
-    /// By how much the true surface may lie elsewhere than offset() says, over a triangle (length): what the
-    /// shape does not know of itself; without offsets the height of the shape over the facet as well.
+    /// The part of it that is known but not used: facets stand for the surface because a user wants it.
+    Vector3 unused_offset(const SurfaceMesh &mesh, const unsigned int triangle,
+                          const std::array<double, 3> &weights) const
+    {
+      return is_used ? Vector3() : known_offset(mesh, triangle, weights);
+    }
+
+    /// By how much the shape itself may be wrong over a triangle (length).
     double doubt(const SurfaceMesh &mesh, const unsigned int triangle) const;
 
   private:
     static constexpr unsigned int n_terms = 10;
     using Cubic                           = std::array<Vector3, n_terms>;
 
+    Vector3      known_offset(const SurfaceMesh &mesh, const unsigned int triangle,
+                              const std::array<double, 3> &weights) const;
     const Cubic &cubic(const SurfaceMesh &mesh, const unsigned int triangle) const;
 
     std::vector<BoundaryShapePointer> shapes;

@@ -37,6 +37,20 @@ namespace Signorini
   /// pair
   ContactForces compute_contact_forces(const ContactSurface &nonmortar, const ContactSurface &mortar,
                                        const PairCoupling &pair, const std::vector<Vector3> &traction);
+
+  /// A smoother contact pressure than the multipliers, by vertex of the nonmortar surface: the means
+  /// int phi_v lambda_h / int phi_v over the covered part, with lambda_h = sum lambda_p phi_p. The total
+  /// force and constants stay, what jumps from node to node goes. Vertices without a multiplier do not count;
+  /// without any near them the mean is zero.
+  /// @param pressure per row of the pair
+  std::vector<double> recover_pressure(const ContactSurface           &nonmortar,
+                                       const std::vector<FaceMoments> &moments, const PairCoupling &pair,
+                                       const std::vector<double> &pressure);
+
+  /// The contact stress on the mortar side, by vertex of its surface: sum_p M_pq lambda_p n_p / sum_p M_pq
+  /// (force per area), zero where nothing is covered.
+  std::vector<Vector3> mortar_stress(const ContactSurface &mortar, const PairCoupling &pair,
+                                     const std::vector<Vector3> &traction);
 } // namespace Signorini
 
 #endif

@@ -37,6 +37,18 @@ namespace Signorini
                                                     const std::vector<Vector3> &displacement_mortar,
                                                     const GapFunction          &prescribed_gap,
                                                     const MPI_Comm              communicator);
+
+  /// Collective. By how much the gap may be wrong where bodies touch (length): what the shapes of both sides
+  /// do not know of themselves, and the heights over facets that a user wants to stand for the surface. The
+  /// largest of seven points of every overlay triangle of faces with an active corner.
+  /// @param is_active per vertex of the nonmortar surface
+  double sample_gap_doubt(const ContactSurface &nonmortar, const ContactSurface &mortar,
+                          const std::vector<OverlayTriangle> &overlay, const std::vector<bool> &is_active,
+                          const MPI_Comm communicator);
+
+  /// The same for a rigid partner: of the nonmortar surface alone.
+  double sample_gap_doubt(const ContactSurface &nonmortar, const std::vector<bool> &is_active,
+                          const MPI_Comm communicator);
 } // namespace Signorini
 
 #endif

@@ -64,6 +64,14 @@ namespace Signorini
     /// Nodes of the columns that belong to the nonmortar surface (the set R), sorted.
     std::vector<NodeIndex> r_nodes;
 
+    /// The mean gap in reach of a row that belongs to a value g_p or to an opening g_p - n·û_p (lengths):
+    /// beside nodes in R int psi_p is not D_pp. The value itself where int psi_p is too small to divide by.
+    double mean_gap(const std::size_t row, const double value) const
+    {
+      const double weight = coupling.weight[row];
+      return areas[row] > .1 * weight ? value * weight / areas[row] : value;
+    }
+
     std::vector<DroppedNode> dropped;
     /// Areas: of the nonmortar surface, of its covered part, and of the covered part without any multiplier.
     double area = 0., covered_area = 0., lost_area = 0.;

@@ -49,11 +49,21 @@ namespace Signorini
   struct PairResult
   {
     std::string name, nonmortar, mortar;
-    Vector3     force, force_on_mortar, moment;
-    double      min_pressure = 0., max_pressure = 0., contact_area = 0., coverage = 0., min_gap = 0.,
-           max_penetration          = 0.;
-    double      initial_penetration = 0., lost_area = 0.;
-    std::size_t dropped_nodes = 0;
+    /// Force on either side; moment of the first about the origin; its centre of pressure.
+    Vector3          force, force_on_mortar, moment;
+    dealii::Point<3> centre;
+    double           min_pressure = 0., max_pressure = 0., contact_area = 0., coverage = 0., min_gap = 0.,
+           max_penetration     = 0.;
+    double initial_penetration = 0., lost_area = 0.;
+    /// What contact does (length): by how much bodies approach each other that touch on the contact area A
+    /// with this force, 4/3 ∫p / (√A E*), 1/E* = sum of (1 - ν²)/E, as in Hertz' contact. Zero without
+    /// contact.
+    double approach = 0.;
+    /// By how much the gap may be wrong where bodies touch (length).
+    double gap_doubt = 0.;
+    /// |moment on nonmortar + moment on mortar| / (|force| √A).
+    double      moment_balance = 0.;
+    std::size_t dropped_nodes  = 0;
   };
 
   struct BoundaryResult
@@ -69,14 +79,30 @@ namespace Signorini
     Vector3          displacement;
   };
 
+  /// When a result is certified. Set so that every example and every test with a right result passes, and the
+  /// wrong ones of `application/wrong_results` do not.
+  struct CertificateRule
+  {
+    /// Of the solver: far above what converged runs leave (1e-16 to 1e-9).
+    double penetration = 1e-7, tension = 1e-6, equilibrium = 1e-5, balance = 1e-5;
+    /// Of the discretization, relative to the approach. A pressure is wrong by about this share at single
+    /// nodes.
+    double gap_doubt             = .1;
+    double geometric_penetration = .25;
+    /// Directions that contradict each other.
+    double moment_balance = .05;
+  };
+
   /// Each number relative to the scale that is stated beside it.
   struct Certificate
   {
     /// Largest n·û - g over the contact nodes / largest displacement.
     double penetration = 0.;
-    /// The same sampled at points of all overlay cells (consistency error of the discretization, not of the
-    /// solver).
+    /// Largest penetration of the true surfaces, sampled at points of all overlay cells / approach of the
+    /// pair (consistency error of the discretization, not of the solver).
     double geometric_penetration = 0.;
+    /// Largest PairResult::gap_doubt / approach of the pair.
+    double gap_doubt = 0.;
     /// Largest tension / largest pressure.
     double tension = 0.;
     /// Largest pressure times opening / (largest pressure times largest displacement).
@@ -85,6 +111,13 @@ namespace Signorini
     double equilibrium = 0.;
     /// |force on nonmortar + force on mortar| / |force|.
     double force_balance = 0.;
+    /// Largest PairResult::moment_balance.
+    double moment_balance = 0.;
+    /// Largest |sum of loads, reactions and contact forces| of a body / sum of their norms, and the same of
+    /// their moments about its centre / (that sum times its size).
+    double body_force_balance = 0., body_moment_balance = 0.;
+    /// Why the contact conditions do not hold, with what to try; empty if they do.
+    std::vector<std::string> objections;
     /// ½vᵀÂv - b̂ᵀv.
     double energy = 0.;
     /// ½uᵀAu - fᵀu, lifts included.
@@ -95,8 +128,9 @@ namespace Signorini
   struct PressureRow
   {
     dealii::Point<3> position;
-    double           area, pressure, gap;
-    bool             active;
+    /// area: integral of the node's dual function; area times pressure sums up to the force.
+    double area, pressure, recovered_pressure, gap;
+    bool   active;
   };
 
   /// The contact mapping of a pair, over all ranks.

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+// The certificate: whether the contact conditions hold, of the solver and of the true bodies.
+
+#include <signorini/application/contact_problem.h>
+#include <signorini/mortar/geometric_penetration.h>
+
+#include <iomanip>
+#include <sstream>
+
+namespace Signorini
+{
+  using namespace dealii;
+
+  namespace
+  {
+    std::string text_of(const double x)
+    {
+      std::ostringstream text;
+      text << std::setprecision(3) << x;
+      return text.str();
+    }
+  } // namespace
+
+
+
+  void ContactProblem::measure_contact(PairResult &result, const unsigned int p,
+                                       const std::vector<bool> &is_active, const double load,
+                                       const ContactForces &forces) const
+  {
+    const ContactPair &pair = discretization.pairs[p];
+    if (!(result.contact_area > 0.) || pair_definitions[p].parameters.contact == "tied")
+      return;
+    const auto compliance = [&](const unsigned int body) {
+      const Material &m = bodies.material_of_body(body);
+      return (1. - m.poisson * m.poisson) / m.young;
+    };
+    // As in Hertz' contact, from the mean pressure: single peaks of a wrong one must not hide it.
+    const double width = std::sqrt(result.contact_area);
+    result.approach    = 4. / 3. * load / width *
+                      (compliance(pair.nonmortar_body) + (pair.obstacle ? 0. : compliance(pair.mortar_body)));
+    if (!pair.prescribed_gap)
+      result.gap_doubt = pair.obstacle ? sample_gap_doubt(pair.nonmortar, is_active, comm)
+                                       : sample_gap_doubt(pair.nonmortar, pair.mortar,
+                                                          pair.mapping->overlay(), is_active, comm);
+    // With a prescribed gap the surfaces need not lie where they touch.
+    if (!pair.obstacle && !pair.prescribed_gap && result.force.norm() > 0.)
+      result.moment_balance =
+          (forces.nonmortar.moment + forces.mortar.moment).norm() / (result.force.norm() * width);
+  }
+
+
+
+  void ContactProblem::certify()
+  {
+    Discretization &d       = discretization;
+    Certificate    &c       = results.certificate;
+    const double    u       = d.displacement.linfty_norm();
+    double          largest = 0., tension = 0., penetration = 0., product = 0.;
+    for (std::size_t row = 0; row < d.coupling.n_rows(); ++row)
+      {
+        if (d.tied[row])
+          continue;
+        // What is left of the pressure where nothing touches is rounding, and no scale.
+        if (d.active[row])
+          largest = std::max(largest, d.pressure[row]);
+        tension     = std::max(tension, -d.pressure[row]);
+        penetration = std::max(penetration, -d.opening[row]);
+        product     = std::max(product, std::abs(d.pressure[row] * d.opening[row]));
+      }
+    // Where nothing touches: the stress of such displacements over such a length.
+    double young = 0., size = 0.;
+    for (const BodyParameters &body : parameters.bodies)
+      young = std::max(young, body.young);
+    for (const PairCoupling &coupling : d.couplings)
+      for (const Point<3> &x : coupling.positions)
+        size = std::max(size, x.distance(coupling.positions[0]));
+    const double scale = largest > 0. ? largest : size > 0. ? young * u / size : 0.;
+    c.penetration      = u > 0. ? penetration / u : 0.;
+    c.tension          = scale > 0. ? tension / scale : 0.;
+    c.complementarity  = u > 0. && scale > 0. ? product / (scale * u) : 0.;
+    c.energy           = results.cycles.back().nonlinear.energy;
+    c.potential_energy = potential_energy(bodies, *d.space, *d.partition, loads, d.displacement);
+    results.cycles.back().potential_energy = c.potential_energy;
+    for (const PairResult &pair : results.pairs)
+      {
+        // An obstacle takes what the body gives.
+        if (pair.force.norm() > 0. && !d.pairs[&pair - results.pairs.data()].obstacle)
+          c.force_balance =
+              std::max(c.force_balance, (pair.force + pair.force_on_mortar).norm() / pair.force.norm());
+        if (pair.approach > 0.)
+          {
+            c.geometric_penetration = std::max(c.geometric_penetration, pair.max_penetration / pair.approach);
+            c.gap_doubt             = std::max(c.gap_doubt, pair.gap_doubt / pair.approach);
+          }
+        c.moment_balance   = std::max(c.moment_balance, pair.moment_balance);
+        std::size_t active = 0;
+        for (std::size_t row = 0; row < d.coupling.n_rows(); ++row)
+          active += d.active[row] && results.pairs[d.origin[row].first].name == pair.name;
+        if (active == 0)
+          note("pair " + pair.name + ": the surfaces are separated, there is no contact force.");
+      }
+    object();
+  }
+
+
+
+  void ContactProblem::object()
+  {
+    const CertificateRule rule;
+    Certificate          &c      = results.certificate;
+    const auto            object = [&](const std::string &text) { c.objections.push_back(text); };
+    if (!results.converged)
+      object("the iteration did not converge; see convergence.csv");
+    if (c.penetration > rule.penetration || c.tension > rule.tension || c.equilibrium > rule.equilibrium)
+      object("the solver left " + text_of(std::max({c.penetration, c.tension, c.equilibrium})) +
+             " of penetration, tension or forces; try a smaller Solver/Tolerance");
+    if (std::max({c.force_balance, c.body_force_balance, c.body_moment_balance}) > rule.balance)
+      object("forces or moments on a body do not balance; please report this");
+    for (unsigned int p = 0; p < results.pairs.size(); ++p)
+      {
+        const PairResult &pair = results.pairs[p];
+        const std::string name = "pair " + pair.name + ": ";
+        if (!(pair.approach > 0.))
+          continue;
+        if (pair.gap_doubt > rule.gap_doubt * pair.approach)
+          object(name + "the gap may be wrong by " + text_of(pair.gap_doubt) + ", " +
+                 text_of(pair.gap_doubt / pair.approach) +
+                 " of what contact does there, for the facets of the " +
+                 "mesh stand for the surface; give Boundary shapes, a finer mesh, or Surface = " +
+                 (pair_definitions[p].parameters.surface == "automatic" ? "smooth" : "automatic"));
+        if (pair.max_penetration > rule.geometric_penetration * pair.approach)
+          object(name + "between the nodes the true surfaces penetrate by " + text_of(pair.max_penetration) +
+                 ", " + text_of(pair.max_penetration / pair.approach) +
+                 " of what contact does there; refine the contact surfaces");
+        if (pair.moment_balance > rule.moment_balance)
+          object(name + "the moments of the contact forces on both sides differ by " +
+                 text_of(pair.moment_balance) + " of force times width; refine, or give Boundary shapes");
+      }
+  }
+} // namespace Signorini
