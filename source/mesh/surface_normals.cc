@@ -94,19 +94,21 @@ namespace Signorini
     normals.assign(x.size(), Vector3());
     for (const ContactSurface::Face &face : surface.faces)
       {
-        const BoundaryShape *const shape = shape_normals.shape_of(face);
-        const unsigned int         n     = face.n_corners;
-        for (unsigned int i = 0; i < n; ++i)
+        // Half the product of the diagonals, whatever way the face is cut into triangles.
+        const Vector3              area   = .5 * cross_product_3d(x[face.corners[2]] - x[face.corners[0]],
+                                                                  x[face.corners[3]] - x[face.corners[1]]);
+        const double               weight = area.norm();
+        const BoundaryShape *const shape  = shape_normals.shape_of(face);
+        for (unsigned int i = 0; i < face.n_corners; ++i)
           {
             const unsigned int v = face.corners[i];
-            Vector3            normal =
-                corner_normal(x[v], x[face.corners[(i + 1) % n]], x[face.corners[(i + n - 1) % n]]);
-            if (const double weight = normal.norm(); shape != nullptr && weight > 0.)
+            if (shape != nullptr && weight > 0.)
               {
-                normal       = weight * shape_normals(*shape, v, normal / weight);
+                normals[v] += weight * shape_normals(*shape, v, area / weight);
                 has_shape[v] = true;
               }
-            normals[v] += normal;
+            else
+              normals[v] += area;
           }
       }
     normalize(normals);

@@ -18,6 +18,16 @@ namespace Signorini
 
   namespace
   {
+    /// What a corner x of a triangle adds to the normal at x: the direction of the sum over the triangles
+    /// around a vertex is exact on a sphere (Max: Weights for computing vertex normals from facet normals,
+    /// 1999).
+    Tensor<1, 3> corner_normal(const Point<3> &x, const Point<3> &next, const Point<3> &previous)
+    {
+      const Tensor<1, 3> a = next - x, b = previous - x;
+      const double       lengths = a.norm() * b.norm();
+      return lengths > 0. ? cross_product_3d(a, b) / lengths / lengths : Tensor<1, 3>();
+    }
+
     /// A vertex as seen from one smooth piece: the corners of triangles there that no crease separates.
     struct PieceVertex
     {
@@ -322,7 +332,6 @@ namespace Signorini
 
       bool fit_vertex(Quadric &quadric, const Pieces &pieces, const unsigned int p) const
       {
-        // Max's weights: exact on spheres.
         const PieceVertex &centre = pieces.vertices[p];
         Tensor<1, 3>       mean;
         for (const unsigned int t : centre.triangles)

@@ -9,22 +9,17 @@ namespace Signorini
 {
   using namespace dealii;
 
-  Tensor<1, 3> corner_normal(const Point<3> &x, const Point<3> &next, const Point<3> &previous)
-  {
-    const Tensor<1, 3> a = next - x, b = previous - x;
-    const double       lengths = a.norm() * b.norm();
-    return lengths > 0. ? cross_product_3d(a, b) / lengths / lengths : Tensor<1, 3>();
-  }
-
-
-
   void SurfaceMesh::compute_vertex_normals()
   {
     vertex_normals.assign(vertices.size(), Tensor<1, 3>());
     for (const auto &t : triangles)
-      for (unsigned int i = 0; i < 3; ++i)
-        vertex_normals[t[i]] +=
-            corner_normal(vertices[t[i]], vertices[t[(i + 1) % 3]], vertices[t[(i + 2) % 3]]);
+      {
+        // Twice the area times the unit normal: the weighting by area comes for free.
+        const Tensor<1, 3> normal =
+            cross_product_3d(vertices[t[1]] - vertices[t[0]], vertices[t[2]] - vertices[t[0]]);
+        for (const unsigned int v : t)
+          vertex_normals[v] += normal;
+      }
     for (Tensor<1, 3> &normal : vertex_normals)
       if (const double length = normal.norm(); length > 0.)
         normal /= length;

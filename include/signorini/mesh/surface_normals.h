@@ -10,8 +10,8 @@ namespace Signorini
 {
   /// Sets the vertex normals of a contact surface. The one rule: every face gives its normal at each of its
   /// corners, that of its shape where there is one (a curved patch of the start mesh is a shape), else its
-  /// own; they are added with the weights of corner_normal(). Hanging vertices without a shape have the mean
-  /// of their parents. In the end normals are projected onto the free directions of the vertex.
+  /// own; they are added with the areas of the faces. Hanging vertices without a shape have the mean of their
+  /// parents. In the end normals are projected onto the free directions of the vertex.
   void set_normals(ContactSurface &surface, const SurfaceShapes &shapes);
 } // namespace Signorini
 

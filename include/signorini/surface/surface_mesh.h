@@ -21,17 +21,9 @@ namespace Signorini
     /// then compute_vertex_normals() fills it.
     std::vector<dealii::Tensor<1, 3>> vertex_normals;
 
-    /// Vertex normals as normalised sums of corner_normal() over the adjacent triangles.
+    /// Vertex normals as normalised, area weighted sum of the normals of the adjacent triangles.
     void compute_vertex_normals();
   };
-
-  /// What a corner x of a plane face adds to the normal at x: the normal there over the lengths of both
-  /// edges, (next - x) x (previous - x) / (|next - x|² |previous - x|²), pointing to where the corners run
-  /// counterclockwise (1/length²). The direction of the sum is exact for vertices on a sphere, however the
-  /// faces around lie (Max: Weights for computing vertex normals from facet normals, 1999). Zero for a
-  /// degenerate corner.
-  dealii::Tensor<1, 3> corner_normal(const dealii::Point<3> &x, const dealii::Point<3> &next,
-                                     const dealii::Point<3> &previous);
 
   /// Triangles, edges and vertices of a triangulated surface and who is next to whom. Plain arrays, sized
   /// once.
