@@ -481,6 +481,8 @@ def errors(p):
                  ([prm, '--set', 'Pair interface/First=upper: lid'], 'Pair interface/First: body upper has no boundary "lid"'),
                  ([prm, '--set', 'Body upper/Dirichlet=top: (0, 0, bla(x))'], 'bla'),
                  ([prm, '--set', 'Body upper/Dirichlet=top: (1/(x-1), 0, 0)'], 'finite'),
+                 ([prm, '--set', 'Solver/Level 0=algebraic monotone'], '"algebraic shortened"'),
+                 ([prm, '--set', 'Solver/Level 0=cholsky'], 'only algebraic shortened, amg, automatic, cholesky'),
                  ([prm, '--set', 'Solver/Method=multigrid cg'], 'Pair interface/Contact: the solvers multigrid'),
                  ([prm, '--set', 'Body upper/Tractions=lid: (0, 0, 1)'], 'Body upper/Tractions: body upper has no boundary'),
                  ([prm, '--wrong'], '--wrong')]
