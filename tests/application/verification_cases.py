@@ -1,8 +1,12 @@
 """Problems with closed solutions: orders of convergence in displacement, energy, pressure, contact radius and force."""
+import base64
 import csv
 import math
 import os
+import re
+import struct
 import tempfile
+import zlib
 
 from geometry_cases import solve_dense
 from harness import TOP, certificate, check, near
@@ -11,14 +15,32 @@ from harness import TOP, certificate, check, near
 SHELLS = os.path.join(TOP, 'tests', 'application', 'shells.prm')
 
 
-def solve_with_pressure(p, prm, *settings):
-    """The summary, and pressure.csv as rows of numbers."""
+def solve_with_pressure(p, prm, *settings, keep=None):
+    """The summary, and pressure.csv as rows of numbers; the results stay in the folder `keep`."""
     with tempfile.TemporaryDirectory() as folder:
-        out = os.path.join(folder, 'out')
+        out = keep or os.path.join(folder, 'out')
         s = p.solve(prm, 'Solver/Compare linear multigrid=false', *settings, keep=out)
         with open(os.path.join(out, 'pressure.csv')) as f:
             rows = [{k: float(v) for k, v in row.items()} for row in csv.DictReader(f)]
     return s, rows
+
+
+def read_points(path, names):
+    """Points and point data of one component from a .vtu file as deal.II writes it (blocks of zlib in base64)."""
+    with open(path) as f:
+        text = f.read()
+
+    def numbers(pattern):
+        encoded = re.search(r'<DataArray[^>]*' + pattern + r'[^>]*>\s*([A-Za-z0-9+/=\s]*?)\s*</DataArray>', text).group(1)
+        n_blocks = struct.unpack('<I', base64.b64decode(encoded[:8])[:4])[0]
+        head = 4 * ((4 * (3 + n_blocks) + 2) // 3)
+        sizes = struct.unpack(f'<{n_blocks}I', base64.b64decode(encoded[:head])[12:12 + 4 * n_blocks])
+        packed, data = base64.b64decode(encoded[head:]), b''
+        for i in range(n_blocks):
+            data += zlib.decompress(packed[sum(sizes[:i]):sum(sizes[:i + 1])])
+        return struct.unpack(f'<{len(data) // 4}f', data)
+    points = numbers('NumberOfComponents="3"')
+    return list(zip(points[::3], points[1::3], points[2::3])), [numbers(f'Name="{name}"') for name in names]
 
 
 def exact_errors(cycle):
@@ -181,49 +203,56 @@ def shell_displacement(coefficients, poisson):
     return f'(x*{side}, y*{side}, z*({radial}+3*{tangential}*(x^2+y^2)/(x^2+y^2+z^2))/{r})'
 
 
+def write_hexahedra(path, cells, size, name_of):
+    """A mesh file (gmsh 2.2). cells: eight points each; name_of: of a boundary face, from its four points."""
+    numbers, points, hexahedra, faces, names = {}, [], [], {}, {}
+    for corners in cells:
+        cell = []
+        for point in corners:
+            key = tuple(round(c / size * 1e9) for c in point)
+            if key not in numbers:
+                points.append(point)
+                numbers[key] = len(points)
+            cell.append(numbers[key])
+        hexahedra.append(cell)
+        for face in ((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)):
+            f = [cell[v] for v in face]
+            key = tuple(sorted(f))
+            faces[key] = None if key in faces else f
+    quads = [(names.setdefault(name_of([points[v - 1] for v in f]), len(names) + 1), f) for f in faces.values() if f]
+    lines = [f'3 2 {n} {n} ' + ' '.join(map(str, f)) for n, f in quads] + ['5 2 99 99 ' + ' '.join(map(str, cell)) for cell in hexahedra]
+    with open(path, 'w') as f:
+        f.write(f'$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n{len(names) + 1}\n')
+        f.writelines(f'2 {n} "{name}"\n' for name, n in names.items())
+        f.write(f'3 99 "body"\n$EndPhysicalNames\n$Nodes\n{len(points)}\n')
+        f.writelines('%d %.17g %.17g %.17g\n' % (i + 1, *point) for i, point in enumerate(points))
+        f.write(f'$EndNodes\n$Elements\n{len(lines)}\n' + ''.join(f'{i + 1} {line}\n' for i, line in enumerate(lines)) + '$EndElements\n')
+
+
+def flat_axes(face, axes, size):
+    """The axes of those on whose plane through the origin a face lies."""
+    return [c for c in axes if max(abs(x[c]) for x in face) < 1e-9 * size]
+
+
 def write_shell(path, inner, outer, n, layers, whole):
     """Hexahedra of a spherical shell, or of its octant x, y, z >= 0: n x n cells on each of the three faces of the octant's cube."""
-    nodes, cells, faces, names = {}, [], {}, {'inner': 1, 'outer': 2}
+    def corner(axis, sign, s, t, layer):
+        direction = [0., 0., 0.]
+        direction[axis], direction[(axis + 1) % 3], direction[(axis + 2) % 3] = sign, s, t
+        r = (inner + (outer - inner) * layer / layers) / math.sqrt(1 + s * s + t * t)
+        return tuple(r * c for c in direction)
 
-    def node(direction, layer):
-        size = math.sqrt(sum(c * c for c in direction))
-        r = inner + (outer - inner) * layer / layers
-        point = tuple(r * c / size for c in direction)
-        return nodes.setdefault(tuple(round(c / outer * 1e9) for c in point), (len(nodes) + 1, point))[0]
-
-    steps = [math.tan(math.pi / 4 * i / n) for i in range(-n if whole else 0, n + 1)]
+    def name_of(face):
+        flat = flat_axes(face, range(3), outer)
+        return f'symmetry {"xyz"[flat[0]]}' if flat else 'inner' if max(math.hypot(*x[:2], x[2]) for x in face) < .5 * (inner + outer) else 'outer'
+    steps, cells = [math.tan(math.pi / 4 * i / n) for i in range(-n if whole else 0, n + 1)], []
     for axis in range(3):
         for sign in (1, -1) if whole else (1,):
             for s0, s1 in zip(steps, steps[1:]):
                 for t0, t1 in zip(steps, steps[1:]):
-                    corners = []
-                    for s, t in ((s0, t0), (s1, t0), (s1, t1), (s0, t1)):
-                        direction = [0., 0., 0.]
-                        direction[axis], direction[(axis + 1) % 3], direction[(axis + 2) % 3] = sign, s, t
-                        corners.append(direction)
-                    if sign < 0:
-                        corners.reverse()
-                    for layer in range(layers):
-                        cell = [node(d, layer + k) for k in (0, 1) for d in corners]
-                        cells.append(cell)
-                        for face in ((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)):
-                            f = [cell[v] for v in face]
-                            faces[tuple(sorted(f))] = None if tuple(sorted(f)) in faces else f
-    points = [point for _, point in sorted(nodes.values())]
-    quads = []
-    for f in filter(None, faces.values()):
-        q = [points[v - 1] for v in f]
-        radii = [math.sqrt(sum(c * c for c in x)) for x in q]
-        flat = [c for c in range(3) if max(abs(x[c]) for x in q) < 1e-9 * outer]
-        name = f'symmetry {"xyz"[flat[0]]}' if flat else 'inner' if max(radii) < (inner + outer) / 2 else 'outer'
-        quads.append((names.setdefault(name, len(names) + 1), f))
-    lines = [f'3 2 {t} {t} ' + ' '.join(map(str, f)) for t, f in quads] + ['5 2 9 9 ' + ' '.join(map(str, cell)) for cell in cells]
-    with open(path, 'w') as f:
-        f.write('$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n%d\n' % (len(names) + 1))
-        f.writelines(f'2 {t} "{name}"\n' for name, t in names.items())
-        f.write(f'3 9 "shell"\n$EndPhysicalNames\n$Nodes\n{len(points)}\n')
-        f.writelines('%d %.17g %.17g %.17g\n' % (i + 1, *point) for i, point in enumerate(points))
-        f.write(f'$EndNodes\n$Elements\n{len(lines)}\n' + ''.join(f'{i + 1} {line}\n' for i, line in enumerate(lines)) + '$EndElements\n')
+                    square = ((s0, t0), (s1, t0), (s1, t1), (s0, t1))[::sign]
+                    cells += [[corner(axis, sign, s, t, layer + k) for k in (0, 1) for s, t in square] for layer in range(layers)]
+    write_hexahedra(path, cells, outer, name_of)
 
 
 # Where the gap comes from: prescribed (the bodies fit exactly), or measured between the bodies.
@@ -307,3 +336,204 @@ def shells_tetrahedra(p):
 def shells_turned(p):
     """Whole shells, the inner mesh turned in the outer one."""
     check_shells(p, 'turned', ['Body inner/Rotation axis=1, 2, 3', 'Body inner/Rotation angle=25'], PRESCRIBED_GAP, 1., (3, 6), True)
+
+
+# Axisymmetric indenters f(r) on a half-space (Sneddon). With g(x) = x int_0^x f'(r) (x^2 - r^2)^(-1/2) dr the depth is g(a), the force
+# 2 E* int_0^a (g(a) - g) dx, the pressure (E* / pi) int_r^a g'(x) (x^2 - r^2)^(-1/2) dx.
+YOUNG, POISSON = 1000., .3
+CONTACT_MODULUS = YOUNG / (1 - POISSON ** 2)
+
+
+def integral(f, low, high, n=400):
+    """Midpoints, after a substitution that takes square roots away at both ends."""
+    middle, half = .5 * (low + high), .5 * (high - low)
+    angles = [math.pi * (i + .5) / n for i in range(n)]
+    return sum(f(middle - half * math.cos(t)) * half * math.sin(t) for t in angles) * math.pi / n
+
+
+class Indenter:
+    """shape: f as an expression in x and y; g and its derivative, both zero up to `flat`; a: contact radius; apex: the pressure is
+    looked at from this radius on."""
+
+    def __init__(self, name, shape, g, slope, a, flat=0., apex=0.):
+        self.name, self.shape, self.slope, self.a, self.flat, self.apex = name, shape, slope, a, flat, apex
+        self.depth = g(a)
+        self.force = 2 * CONTACT_MODULUS * (a * self.depth - integral(g, flat, a))
+        # The mean of the squared radius.
+        self.square = 2 * math.pi * integral(lambda r: self.pressure(r) * r ** 3, 0., a) / self.force
+
+    def pressure(self, r):
+        """x^2 = r^2 + u^2."""
+        if r >= self.a:
+            return 0.
+        low, high = math.sqrt(max(0., self.flat ** 2 - r * r)), math.sqrt(self.a ** 2 - r * r)
+        return CONTACT_MODULUS / math.pi * integral(lambda u: self.slope(math.hypot(r, u)) / math.hypot(r, u), low, high)
+
+
+INDENTERS = {
+    # Its pressure has a logarithm at the apex.
+    'cone': lambda: Indenter('cone', '0.05*sqrt(x^2+y^2)', lambda x: .025 * math.pi * x, lambda x: .025 * math.pi, .2, apex=.05),
+    'quartic': lambda: Indenter('quartic', '(x^2+y^2)^2', lambda x: 8 / 3 * x ** 4, lambda x: 32 / 3 * x ** 3, .2),
+    # A flat of radius 0.1 with a rounded edge of radius 0.5.
+    'rounded punch': lambda: Indenter('rounded punch', 'max(sqrt(x^2+y^2)-0.1, 0)^2', lambda x: 2 * x * (math.sqrt(x * x - .01) - .1 * math.acos(.1 / x)),
+                                      lambda x: 2 * (2 * math.sqrt(x * x - .01) - .1 * math.acos(.1 / x)), .13, flat=.1),
+    # Hertz, R = 1.
+    'paraboloid': lambda: Indenter('paraboloid', '(x^2+y^2)/2', lambda x: x * x, lambda x: 2 * x, .2)}
+
+
+def indentation_settings(indenter, size, refined):
+    """A quarter of a block 0 < x, y < size, -size < z < 0; the displacement far away is that of the force at the origin (Boussinesq)."""
+    r, depth = 'sqrt(x^2+y^2+z^2)', '(-z)'
+    factor = f'{indenter.force * (1 + POISSON) / (2 * math.pi * YOUNG)!r}'
+    side = f'({depth}/{r}^3-{1 - 2 * POISSON!r}/({r}*({r}+{depth})))'
+    far = f'({factor}*x*{side}, {factor}*y*{side}, -{factor}*({depth}^2/{r}^3+{2 * (1 - POISSON)!r}/{r}))'
+    values = {'Lower corner': f'0, 0, {-size}', 'Upper corner': f'{size}, {size}, 0', 'Divisions': '4, 4, 4', 'Young modulus': YOUNG, 'Poisson ratio': POISSON,
+              'Dirichlet': f'right: {far}; back: {far}; bottom: {far}; left: (0, *, *); front: (*, 0, *)'}
+    regions = '; '.join(f'ball: (0, 0, 0), {s * size}, {level}' for level, s in ((1, .5), (2, .25), (3, .19)))
+    return [f'Body cube/{key}={value}' for key, value in values.items()] + [
+        'Pair bottom/First=cube: top', f'Pair bottom/Obstacle=function: {indenter.shape} - {indenter.depth!r} - z', 'Pair bottom/Gap=weighted',
+        'Refinement/Global cycles=0', f'Refinement/Regions={regions}', f'Refinement/Final global cycles={refined}']
+
+
+def stress_below(folder, indenter):
+    """On the axis, from the recovered stress: rows of depth / a, sigma_z and the largest shear stress over the pressure in the centre."""
+    points, fields = read_points(os.path.join(folder, 'bodies.0.vtu'), ('stress_x', 'stress_z'))
+    scale = indenter.pressure(0.)
+    axis = {round(-z / indenter.a, 6): (z_stress / scale, (x_stress - z_stress) / 2 / scale)
+            for (x, y, z), x_stress, z_stress in zip(points, *fields) if math.hypot(x, y) < 1e-9}
+    return sorted((depth, *values) for depth, values in axis.items())
+
+
+def indentation(p, name, kind=(), cycles=(0, 1, 2), look=None):
+    """Orders of force, radius and pressure; look: is called with the folder of the last result and the indenter."""
+    indenter, errors = INDENTERS[name](), []
+    size = 8 * indenter.a
+    for refined in cycles:
+        with tempfile.TemporaryDirectory() as folder:
+            s, rows = solve_with_pressure(p, 'obstacle/paraboloid.prm', *indentation_settings(indenter, size, refined), *kind, keep=os.path.join(folder, 'out'))
+            if look and refined == cycles[-1]:
+                look(os.path.join(folder, 'out'), indenter)
+        certificate(s)
+        weights = [r['area'] * r['pressure'] for r in rows]
+        square = sum(w * (r['x'] ** 2 + r['y'] ** 2) for w, r in zip(weights, rows)) / sum(weights)
+        profile = pressure_error([r for r in rows if math.hypot(r['x'], r['y']) >= indenter.apex], lambda x, y, z: indenter.pressure(math.hypot(x, y)))
+        errors.append({'force': abs(4 * abs(s['pairs'][0]['force'][2]) / indenter.force - 1), 'radius': abs(math.sqrt(square / indenter.square) - 1),
+                       'pressure': profile})
+        closed, h = max(math.hypot(r['x'], r['y']) for r in rows if r['active']), size / 32 / 2 ** refined
+        print(f'{name}: {s["cycles"][-1]["dofs"]} unknowns, h {h / indenter.a:.4f} a, closed to {closed / indenter.a:.4f} a')
+        check(abs(closed - indenter.a) <= h, f'{name}: closed to {closed}, expected {indenter.a}, h = {h}')
+    # What is far away costs 0.1 %.
+    check_orders(name, errors, {'force': 1.8, 'radius': 1.1, 'pressure': 1.})
+    check(errors[-1]['force'] < 4e-3 and errors[-1]['radius'] < 4e-3, f'{name}: force and radius {errors[-1]}')
+
+
+def indenter_cone(p):
+    indentation(p, 'cone')
+
+
+def indenter_quartic(p):
+    """The largest pressure is not in the centre."""
+    indentation(p, 'quartic')
+
+
+def indenter_tetrahedra(p):
+    indentation(p, 'quartic', tetrahedra_in('cube'))
+
+
+def indenter_punch(p):
+    indentation(p, 'rounded punch')
+
+
+def stress_below_hertz(p):
+    """nu = 0.3: sigma_z = -p0 / (1 + z^2 / a^2) on the axis, the largest shear stress 0.31002 p0 at 0.4809 a."""
+    def look(folder, indenter):
+        rows = stress_below(folder, indenter)
+        for depth, stress, shear in rows:
+            if .1 < depth < 2.:
+                near(stress, -1 / (1 + depth ** 2), .03, f'sigma_z at the depth {depth} a')
+        i = max(range(len(rows)), key=lambda k: rows[k][2])
+        (x0, _, y0), (x1, _, y1), (x2, _, y2) = rows[i - 1:i + 2]
+        # The vertex of the parabola through three points at equal distances.
+        step = .5 * (y0 - y2) / (y0 - 2 * y1 + y2)
+        depth, shear = x1 + step * (x2 - x1), y1 - .25 * (y0 - y2) * step
+        print(f'largest shear stress {shear:.4f} p0 at the depth {depth:.4f} a')
+        near(shear, .3100205, .02, 'largest shear stress')
+        near(depth, .4809, .05, 'its depth')
+    indentation(p, 'paraboloid', look=look)
+
+
+# A ring (the shaft) pressed into another one (the hub), plane strain: radii, (E, nu) of both, interference (radial).
+RINGS, RING_MATERIALS, INTERFERENCE, HEIGHT = (25., 50., 100.), ((210000., .3), (70000., .33)), .05, 6.
+
+
+def ring_solution():
+    """u_r = A r + B / r in both, and the pressure."""
+    a, b, c = RINGS
+    (l1, m1), (l2, m2) = (lame_constants(*m) for m in RING_MATERIALS)
+    # sigma_rr = 2 (lame + mu) A - 2 mu B / r^2; the hub's surface ends up outside of the shaft's by the interference.
+    x = solve_dense([[2 * (l1 + m1), -2 * m1 / a ** 2, 0, 0], [0, 0, 2 * (l2 + m2), -2 * m2 / c ** 2],
+                     [2 * (l1 + m1), -2 * m1 / b ** 2, -2 * (l2 + m2), 2 * m2 / b ** 2], [-b, -1 / b, b, 1 / b]], [0, 0, 0, INTERFERENCE])
+    return x, -(2 * (l1 + m1) * x[0] - 2 * m1 * x[1] / b ** 2)
+
+
+def write_ring(path, inner, outer, n, layers, slices):
+    """Hexahedra of a quarter of a ring."""
+    def corner(i, k, j):
+        r, t = inner * (outer / inner) ** (k / layers), math.pi / 2 * i / n
+        return r * math.cos(t), r * math.sin(t), HEIGHT * j / slices
+
+    def name_of(face):
+        flat = flat_axes(face, range(3), outer)
+        if flat:
+            return ('x0', 'y0', 'bottom')[flat[0]]
+        return 'top' if min(x[2] for x in face) > HEIGHT * (1 - 1e-9) else 'inside' if max(math.hypot(*x[:2]) for x in face) < math.sqrt(inner * outer) else 'outside'
+    write_hexahedra(path, [[corner(i + a, k + b, j + c) for c in (0, 1) for b, a in ((0, 0), (1, 0), (1, 1), (0, 1))]
+                           for i in range(n) for k in range(layers) for j in range(slices)], outer, name_of)
+
+
+def ring_errors(p, name, settings, sizes, oversize=0.):
+    """Errors on meshes with `size` cells on the shaft's quarter of the circle, 4/3 of that on the hub's. oversize: of the shaft's
+    radius, where the interference is to come from the bodies themselves."""
+    (a1, b1, a2, b2), pressure = ring_solution()
+    errors = []
+    for size in sizes:
+        with tempfile.TemporaryDirectory() as folder:
+            common = ['Refinement/Global cycles=0', 'Pair contact/Nonmortar=second']
+            for body, (low, high), (young, poisson), n, (a, b) in zip(('inner', 'outer'), ((RINGS[0], RINGS[1] + oversize), RINGS[1:]), RING_MATERIALS,
+                                                                     (size, size * 4 // 3), ((a1, b1), (a2, b2))):
+                mesh = os.path.join(folder, f'{body}.msh')
+                write_ring(mesh, low, high, n, n // 2, n // 6 if body == 'inner' else n // 4)
+                field = f'({a!r}+{b!r}/(x^2+y^2))'
+                values = {'Mesh': mesh, 'Young modulus': young, 'Poisson ratio': poisson, 'Pressures': '', 'Exact displacement': f'(x*{field}, y*{field}, 0)',
+                          'Dirichlet': 'x0: (0, *, *); y0: (*, 0, *); bottom: (*, *, 0); top: (*, *, 0)'}
+                common += [f'Body {body}/{key}={value}' for key, value in values.items()]
+            s, rows = solve_with_pressure(p, SHELLS, *common, 'Pair contact/First=inner: outside', 'Pair contact/Second=outer: inside', *settings)
+        certificate(s)
+        l2, energy = exact_errors(s['cycles'][-1])
+        errors.append({'L2': l2, 'energy': energy, 'pressure': pressure_error(rows, lambda x, y, z: pressure),
+                       'inner': max(abs(r['pressure'] / pressure - 1) for r in rows
+                                    if .2 * HEIGHT < r['z'] < .8 * HEIGHT and .1 < math.atan2(r['y'], r['x']) < 1.47),
+                       'force': max(abs(abs(f) / (pressure * RINGS[1] * HEIGHT) - 1) for f in s['pairs'][0]['force'][:2])})
+        print(f'{name}: {s["cycles"][-1]["dofs"]} unknowns, {len(rows)} nodes, {s["mappings"][0]["cells"]} overlay cells, pressure {pressure:.5f}: ' +
+              ', '.join(f'{k} {v:.2e}' for k, v in errors[-1].items()))
+    return errors
+
+
+def check_press_fit(p, name, settings, gap, oversize=0.):
+    errors = ring_errors(p, name, settings + gap, (12, 24), oversize)
+    check_orders(name, errors, {'L2': 1.9, 'energy': .95, 'pressure': 1.})
+    check(errors[-1]['force'] < .005, f'{name}: error of the force {errors[-1]["force"]}')
+    check(errors[-1]['inner'] < .05, f'{name}: error of a nodal pressure away from the ends {errors[-1]["inner"]}')
+
+
+PRESCRIBED_INTERFERENCE = [f'Pair contact/Initial gap={-INTERFERENCE}']
+
+
+def press_fit(p):
+    check_press_fit(p, 'hexahedra', [], PRESCRIBED_INTERFERENCE)
+    check_press_fit(p, 'tetrahedra inside', tetrahedra_in('inner'), PRESCRIBED_INTERFERENCE)
+
+
+def press_fit_tetrahedra(p):
+    check_press_fit(p, 'tetrahedra', tetrahedra_in('inner', 'outer'), PRESCRIBED_INTERFERENCE)
+    check_press_fit(p, 'tetrahedra outside', tetrahedra_in('outer'), PRESCRIBED_INTERFERENCE)
