@@ -12,7 +12,7 @@ from geometry_cases import solve_dense
 from harness import TOP, certificate, check, near
 
 
-SHELLS = os.path.join(TOP, 'tests', 'application', 'shells.prm')
+SHELLS, CORNER = (os.path.join(TOP, 'tests', 'application', name) for name in ('shells.prm', 'corner.prm'))
 
 
 def solve_with_pressure(p, prm, *settings, keep=None):
@@ -537,3 +537,42 @@ def press_fit(p):
 def press_fit_tetrahedra(p):
     check_press_fit(p, 'tetrahedra', tetrahedra_in('inner', 'outer'), PRESCRIBED_INTERFERENCE)
     check_press_fit(p, 'tetrahedra outside', tetrahedra_in('outer'), PRESCRIBED_INTERFERENCE)
+
+
+def crosspoint_settings(materials):
+    """For tests/application/corner.prm: u = -e (sin x cos y cos z, 0, cos x cos y sin z) has no shear stress and no normal displacement on the planes
+    x = 0 and z = 0, and the same pressure in bodies of all materials if e is chosen for it. They slide on each other."""
+    settings, strain = [], 1e-3
+    sides = {'block': ('right', 'front', 'back', 'top'), 'floor': ('left', 'right', 'front', 'back', 'bottom'), 'wall': ('left', 'bottom', 'front', 'back', 'top')}
+    first, second = lame_constants(*materials['block'])
+    for body, (young, poisson) in materials.items():
+        lame, mu = lame_constants(young, poisson)
+        e = strain * (first + second) / (lame + mu)
+        exact = f'({-e!r}*sin(x)*cos(y)*cos(z), 0, {-e!r}*cos(x)*cos(y)*sin(z))'
+        volume = -e * (2 * lame + 5 * mu)
+        values = {'Young modulus': young, 'Poisson ratio': poisson, 'Exact displacement': exact, 'Dirichlet': '; '.join(f'{b}: {exact}' for b in sides[body]),
+                  'Volume force': f'({volume!r}*sin(x)*cos(y)*cos(z), {-2 * e * (lame + mu)!r}*cos(x)*sin(y)*cos(z), {volume!r}*cos(x)*cos(y)*sin(z))'}
+        settings += [f'Body {body}/{key}={value}' for key, value in values.items()]
+    return settings, 2 * strain * (first + second)
+
+
+def check_crosspoint(p, name, kind, sides):
+    """Nodes that belong to two pairs, in the edge in which three bodies meet."""
+    settings, scale = crosspoint_settings({'block': (1000., .3), 'floor': (3000., .2), 'wall': (2000., .35)})
+    errors = []
+    for cycle in (0, 1, 2):
+        s, rows = solve_with_pressure(p, CORNER, *settings, *kind, f'Refinement/Global cycles={cycle}',
+                                      *(f'Pair {pair}/Nonmortar={side}' for pair, side in zip(('below', 'beside'), sides)))
+        certificate(s)
+        l2, energy = exact_errors(s['cycles'][-1])
+        errors.append({'L2': l2, 'energy': energy, 'pressure': pressure_error(rows, lambda x, y, z: scale * math.cos(x) * math.cos(y) * math.cos(z)),
+                       'force': max(abs(abs(q['force'][c]) / (scale * math.sin(1.) ** 2) - 1) for q, c in zip(s['pairs'], (2, 0)))})
+    print(f'{name}: {s["cycles"][-1]["dofs"]} unknowns, {sum(abs(r["x"]) + abs(r["z"]) < 1e-9 for r in rows)} nodes of the edge have a multiplier')
+    check_orders(name, errors, {'L2': 1.9, 'energy': .95, 'pressure': 1., 'force': 1.})
+
+
+def crosspoint(p):
+    check_crosspoint(p, 'nonmortar in both', [], ('first', 'first'))
+    check_crosspoint(p, 'mortar in both', [], ('second', 'second'))
+    check_crosspoint(p, 'one of each', [], ('first', 'second'))
+    check_crosspoint(p, 'tetrahedra in the corner', tetrahedra_in('block'), ('first', 'first'))
