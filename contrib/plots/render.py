@@ -2,25 +2,32 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Signorini authors
 """Renders the results in a folder: mesh.png (the adaptive mesh, bodies a little apart), displacement.png (isolines of
-the size of the displacement on the deformed bodies) and pressure.png (contact pressure on the nonmortar surfaces).
+the size of the displacement on the deformed bodies), pressure.png (contact pressure on the nonmortar surfaces) and, if
+asked for, isosurfaces.png (surfaces of equal stress or displacement inside of the bodies).
 
 usage: render.py FOLDER [--view X,Y,Z] [--up X,Y,Z] [--deform FACTOR] [--clip X,Y,Z] [--focus X,Y,Z,RADIUS]
-                        [--lift DISTANCE] [--pressure-view X,Y,Z]
+                        [--lift DISTANCE] [--pressure-view X,Y,Z] [--isosurfaces FIELD] [--levels N]
 
   --view      direction from the model to the eye (default 1,-2,0.6)
   --deform    how much the displacement is exaggerated (default 1)
   --clip      normal of a plane through the middle (or the focus) that cuts the bodies open, seen from its side
   --focus     middle and radius of what the pictures of the bodies show (default all)
   --lift      moves the first body up by this length in mesh.png
+  --isosurfaces  of a field in bodies.pvtu: von_Mises, stress_z, ..., or displacement for its size. Values are halved from surface to
+              surface, beginning with half of the largest; of a displacement they are at equal distances in each body. A plane
+              --clip cuts the surfaces open
+  --levels    number of isosurfaces (default 7)
 
-Needs VTK for Python (Debian: python3-vtk9) and, without a display, xvfb: xvfb-run -a render.py FOLDER
+Needs VTK and numpy for Python (Debian: python3-vtk9) and, without a display, xvfb: xvfb-run -a render.py FOLDER
 """
 import argparse
 import glob
 import os
 import sys
 
+import numpy
 import vtk
+from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
 
 
 def vector(text):
@@ -153,6 +160,76 @@ def levels(grid, n):
     return values
 
 
+def halved(grid, field, n):
+    """Half of the value of largest size, a quarter of it, and so on."""
+    low, high = grid.GetPointData().GetArray(field).GetRange()
+    return [(high if high >= -low else low) * .5 ** (i + 1) for i in range(n)]
+
+
+def open_half(data, normal, middle):
+    """What lies behind a plane, cut smoothly."""
+    plane = vtk.vtkPlane()
+    plane.SetNormal(*[-n for n in normal])
+    plane.SetOrigin(*middle)
+    cut = vtk.vtkClipPolyData()
+    cut.SetInputData(data)
+    cut.SetClipFunction(plane)
+    cut.Update()
+    return cut.GetOutput()
+
+
+def joined(grid):
+    """The same with points that the cells of a body share, which the file does not have."""
+    points = vtk_to_numpy(grid.GetPoints().GetData())
+    body = vtk_to_numpy(grid.GetPointData().GetArray('body'))
+    _, kept, number = numpy.unique(numpy.column_stack([points, body]), axis=0, return_index=True, return_inverse=True)
+    cells = vtk.vtkCellArray()
+    cells.SetData(grid.GetCells().GetOffsetsArray(),
+                  numpy_to_vtkIdTypeArray(number.ravel()[vtk_to_numpy(grid.GetCells().GetConnectivityArray())].astype(numpy.int64), deep=True))
+    result = vtk.vtkUnstructuredGrid()
+    result.SetPoints(vtk.vtkPoints())
+    result.GetPoints().SetData(numpy_to_vtk(points[kept], deep=True))
+    result.SetCells(grid.GetCellTypesArray(), cells)
+    for i in range(grid.GetPointData().GetNumberOfArrays()):
+        values = grid.GetPointData().GetArray(i)
+        array = numpy_to_vtk(vtk_to_numpy(values)[kept], deep=True)
+        array.SetName(values.GetName())
+        result.GetPointData().AddArray(array)
+    return result
+
+
+def isosurfaces(grid, field, n, normal, middle):
+    """Actors: the surfaces (the first one is what a bar is for), and the hull of the bodies, which can be seen through."""
+    grid = joined(grid)
+    values = sorted(levels(grid, n) if field == 'size' else halved(grid, field, n))
+    grid.GetPointData().SetActiveScalars(field)
+    contour = vtk.vtkContourFilter()
+    contour.SetInputData(grid)
+    contour.SetNumberOfContours(0)
+    for i, value in enumerate(values):
+        contour.SetValue(i, value)
+    contour.Update()
+    surfaces, hull = smooth(contour.GetOutput()), surface_of(grid)
+    if normal:
+        surfaces, hull = (open_half(data, normal, middle) for data in (surfaces, hull))
+    shown = actor(surfaces, scalars=field, limits=(values[0], values[-1]))
+    if field != 'size' and values[0] > 0.:
+        table = vtk.vtkLookupTable()
+        table.SetScaleToLog10()
+        table.SetTableRange(values[0], values[-1])
+        table.SetHueRange(.62, 0.)
+        table.Build()
+        shown.GetMapper().SetLookupTable(table)
+    shade = actor(hull, colour=(.6, .65, .7))
+    shade.GetProperty().SetOpacity(.12)
+    edges = vtk.vtkFeatureEdges()
+    edges.SetInputData(hull)
+    edges.SetFeatureAngle(40.)
+    edges.ColoringOff()
+    edges.Update()
+    return shown, shade, actor(edges.GetOutput(), colour=(.3, .3, .3))
+
+
 class Picture:
     def __init__(self, arguments, view):
         self.renderer = vtk.vtkRenderer()
@@ -230,6 +307,8 @@ def main():
     parser.add_argument('--focus')
     parser.add_argument('--lift', type=float, default=0.)
     parser.add_argument('--pressure-view', default='0.3,-0.8,1')
+    parser.add_argument('--isosurfaces')
+    parser.add_argument('--levels', type=int, default=7)
     arguments = parser.parse_args()
     view = vector(arguments.view)
     focus = vector(arguments.focus) if arguments.focus else None
@@ -263,6 +342,16 @@ def main():
     picture.add(coloured, lines)
     picture.bar(coloured, '|u|')
     picture.write(os.path.join(arguments.folder, 'displacement.png'), focus)
+
+    if arguments.isosurfaces:
+        field = 'size' if arguments.isosurfaces == 'displacement' else arguments.isosurfaces
+        if not grid.GetPointData().HasArray(field):
+            sys.exit(f'render.py: bodies.pvtu has no field "{field}".')
+        picture = Picture(arguments, view)
+        surfaces, *hull = isosurfaces(grid, field, arguments.levels, vector(arguments.clip) if arguments.clip else None, middle)
+        picture.add(surfaces, *hull)
+        picture.bar(surfaces, arguments.isosurfaces.replace('_', ' '))
+        picture.write(os.path.join(arguments.folder, 'isosurfaces.png'), focus)
 
     picture = Picture(arguments, vector(arguments.pressure_view))
     surfaces = [smooth(surface_of(warped(read(path), arguments.deform)))

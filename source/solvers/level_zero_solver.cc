@@ -23,7 +23,7 @@ namespace Signorini
 
   bool LevelZero::uses_amg(const NodeIndex n_nodes) const
   {
-    return method == LevelZeroMethod::amg || method == LevelZeroMethod::algebraic_monotone ||
+    return method == LevelZeroMethod::amg || method == LevelZeroMethod::algebraic_shortened ||
            (method == LevelZeroMethod::automatic && n_nodes > largest_for_cholesky);
   }
 
@@ -32,7 +32,7 @@ namespace Signorini
   void LevelZeroSolver::setup(const NodeBlockMatrix &new_matrix, const LevelZero &level_zero)
   {
     matrix  = &new_matrix;
-    n_steps = level_zero.method == LevelZeroMethod::algebraic_monotone ? level_zero.n_steps : 0;
+    n_steps = level_zero.method == LevelZeroMethod::algebraic_shortened ? level_zero.n_steps : 0;
     if (!level_zero.free_motions.empty())
       {
         make_definite(new_matrix, level_zero.free_motions);

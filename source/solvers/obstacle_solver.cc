@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/algebra/input_error.h>
 #include <signorini/solvers/active_set_amg.h>
 #include <signorini/solvers/gauss_seidel_iteration.h>
 #include <signorini/solvers/linear_multigrid.h>
@@ -34,6 +35,25 @@ namespace Signorini
           {"multigrid cg", SolverMethod::multigrid_cg}};
       return names;
     }
+
+    LevelZeroMethod level_zero_method(const std::string &name)
+    {
+      static const std::map<std::string, LevelZeroMethod> names = {
+          {"automatic", LevelZeroMethod::automatic},
+          {"cholesky", LevelZeroMethod::cholesky},
+          {"amg", LevelZeroMethod::amg},
+          {"algebraic shortened", LevelZeroMethod::algebraic_shortened}};
+      if (const auto it = names.find(name); it != names.end())
+        return it->second;
+      std::string known;
+      for (const auto &entry : names)
+        known += (known.empty() ? "" : ", ") + entry.first;
+      throw InputError(
+          "Solver/Level 0: there is no \"" + name + "\", only " + known + "." +
+          (name == "algebraic monotone"
+               ? " What had this name is \"algebraic shortened\": it has no obstacles on its aggregates."
+               : ""));
+    }
   } // namespace
 
 
@@ -54,17 +74,13 @@ namespace Signorini
         "preconditioner of conjugate gradients, for bodies without contact and tied pairs.");
     prm.add_action("Method", [this](const std::string &value) { method = method_names().at(value); });
     prm.declare_entry(
-        "Level 0", "automatic", Patterns::Selection("automatic|cholesky|amg|algebraic monotone"),
-        "Solver of the coarsest level: sparse Cholesky, algebraic multigrid (Trilinos ML with "
-        "rigid motions) to three digits, automatic, Cholesky while the level is small, or "
-        "algebraic monotone, steps of an algebraic variant of the method itself (as in the paper).");
-    prm.add_action("Level 0", [this](const std::string &value) {
-      level_zero = value == "cholesky"             ? LevelZeroMethod::cholesky
-                   : value == "amg"                ? LevelZeroMethod::amg
-                   : value == "algebraic monotone" ? LevelZeroMethod::algebraic_monotone
-                                                   : LevelZeroMethod::automatic;
-    });
-    prm.add_parameter("Level 0 steps", level_zero_steps, "Number of steps of algebraic monotone.",
+        "Level 0", "automatic", Patterns::Anything(),
+        "Solver of the coarsest level. automatic: Cholesky while the level is small, else amg. cholesky: "
+        "sparse factors. amg: algebraic multigrid (Trilinos ML with rigid motions) to three digits. "
+        "algebraic shortened: a few steps of algebraic multigrid, each shortened as a whole to what the "
+        "obstacles of the level admit.");
+    prm.add_action("Level 0", [this](const std::string &value) { level_zero = level_zero_method(value); });
+    prm.add_parameter("Level 0 steps", level_zero_steps, "Number of steps of algebraic shortened.",
                       Patterns::Integer(1));
     prm.add_parameter("Pre-smoothing steps", smoothing.n_pre,
                       "Gauss-Seidel sweeps before the coarse correction.");

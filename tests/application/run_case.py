@@ -12,6 +12,7 @@ import sys
 import tempfile
 
 import geometry_cases
+import verification_cases
 from harness import FAILURES, TOP, Program, certificate, check, constant_pressure, iterations, near
 
 
@@ -480,6 +481,8 @@ def errors(p):
                  ([prm, '--set', 'Pair interface/First=upper: lid'], 'Pair interface/First: body upper has no boundary "lid"'),
                  ([prm, '--set', 'Body upper/Dirichlet=top: (0, 0, bla(x))'], 'bla'),
                  ([prm, '--set', 'Body upper/Dirichlet=top: (1/(x-1), 0, 0)'], 'finite'),
+                 ([prm, '--set', 'Solver/Level 0=algebraic monotone'], '"algebraic shortened"'),
+                 ([prm, '--set', 'Solver/Level 0=cholsky'], 'only algebraic shortened, amg, automatic, cholesky'),
                  ([prm, '--set', 'Solver/Method=multigrid cg'], 'Pair interface/Contact: the solvers multigrid'),
                  ([prm, '--set', 'Body upper/Tractions=lid: (0, 0, 1)'], 'Body upper/Tractions: body upper has no boundary'),
                  ([prm, '--wrong'], '--wrong')]
@@ -556,7 +559,7 @@ def surface_map(p):
 
 
 if __name__ == '__main__':
-    case = globals().get(sys.argv[2]) or getattr(geometry_cases, sys.argv[2])
+    case = next(getattr(m, sys.argv[2]) for m in (sys.modules[__name__], geometry_cases, verification_cases) if hasattr(m, sys.argv[2]))
     case(Program(sys.argv[1], int(sys.argv[3])))
     for failure in FAILURES:
         print('FAILED:', failure)

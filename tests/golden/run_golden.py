@@ -17,7 +17,9 @@ RUNS = {'patch_test': ('patch_test/patch_test.prm', ()),
         'cubes_plain': ('cubes/cubes.prm', ('Solver/Method=truncated newton multigrid',)),
         'hertz': ('hertz/hertz.prm', ('Refinement/Final global cycles=1',)),
         'hertz_plain': ('hertz/hertz.prm', ('Refinement/Final global cycles=1', 'Solver/Method=truncated newton multigrid')),
-        'paper': ('hertz/paper.prm', ('Refinement/Global cycles=0',))}
+        'paper': ('hertz/paper.prm', ('Refinement/Global cycles=0',)),
+        # The first three meshes of the paper's first example, as many contact nodes as there.
+        'paper_contact': ('hertz/paper-contact.prm', ('Refinement/Adaptive cycles=2',))}
 
 
 def run(program, name):

@@ -16,17 +16,17 @@ namespace Signorini
     automatic,
     cholesky,
     amg,
-    /// Steps of an algebraic variant of the method itself (the paper's choice): V-cycles of algebraic
-    /// multigrid on the truncated matrix. With coarse obstacles a step goes as far as they let it, with
-    /// projected sweeps behind it.
-    algebraic_monotone
+    /// V-cycles of algebraic multigrid on the truncated matrix, without conjugate gradients. With coarse
+    /// obstacles the step is shortened as a whole to what they admit, with projected sweeps behind it: the
+    /// aggregates themselves have no obstacles.
+    algebraic_shortened
   };
 
   /// What level 0 of a hierarchy needs besides its matrix.
   struct LevelZero
   {
     LevelZeroMethod method = LevelZeroMethod::automatic;
-    /// Number of V-cycles of algebraic_monotone.
+    /// Number of V-cycles of algebraic_shortened.
     unsigned int n_steps = 1;
     /// Vectors of little energy on level 0 (rigid motions), for amg; may be empty.
     std::vector<Vector> near_kernel;
