@@ -12,6 +12,7 @@ signorini_add_layer(mesh
   refinement.cc
   surface_extraction.cc
   surface_file.cc
+  symmetry_planes.cc
   tetrahedral_forest.cc
   volume_mesh.cc
 )

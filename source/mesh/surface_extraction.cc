@@ -3,6 +3,7 @@
 
 #include <signorini/algebra/replicated_data.h>
 #include <signorini/mesh/surface_extraction.h>
+#include <signorini/mesh/symmetry_planes.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -194,7 +195,7 @@ namespace Signorini
     /// whatever way a face is cut into triangles), those of triangles over the squares of both edges at the
     /// vertex, which is exact on spheres (Max: Weights for computing vertex normals from facet normals, 1999;
     /// triangles around a vertex of a tetrahedral mesh lie too irregularly for plain areas); hanging vertices
-    /// get the mean of their parents; then projected onto the free directions.
+    /// get the mean of their parents.
     void set_normals(ContactSurface &surface)
     {
       auto &normals = surface.mesh.vertex_normals;
@@ -237,14 +238,6 @@ namespace Signorini
       for (std::size_t v = 0; v < normals.size(); ++v)
         if (inherited[v].norm() > 0.)
           normals[v] = inherited[v] / inherited[v].norm();
-      surface.normal_share.resize(normals.size());
-      for (std::size_t v = 0; v < normals.size(); ++v)
-        {
-          const Vector3 projected = project_free(surface.vertex_fixed[v], normals[v]);
-          surface.normal_share[v] = projected.norm();
-          if (surface.normal_share[v] > 1e-6)
-            normals[v] = projected / surface.normal_share[v];
-        }
     }
   } // namespace
 
@@ -323,6 +316,7 @@ namespace Signorini
       }
     surface.hanging.resize(surface.vertex_node.size());
     set_normals(surface);
+    project_onto_symmetry_planes(surface);
     return surface;
   }
 

@@ -123,7 +123,8 @@ namespace Signorini
             {
               if (surface.vertex_fixed[v] == all_fixed)
                 drop(v, DroppedNode::fixed);
-              else if (surface.normal_share[v] < .5)
+              else if (project_free(surface.vertex_fixed[v], surface.mesh.vertex_normals[v]).norm() <
+                       rule.smallest_free_normal)
                 drop(v, DroppedNode::normal_fixed);
               else if (excluded.count(surface.vertex_node[v]) > 0)
                 drop(v, DroppedNode::other_pair);
