@@ -28,8 +28,7 @@ namespace Signorini
       {
         FixedMask result = 0;
         for (unsigned int c = 0; c < dim; ++c)
-          if ((fixed[vertex] & (1u << c)) && ends_at_plane(vertex, c) &&
-              std::abs(mesh.vertex_normals[vertex][c]) <= difference_of_facets(vertex, c))
+          if ((fixed[vertex] & (1u << c)) && ends_at_plane(vertex, c) && is_curved_across(vertex, c))
             result |= static_cast<FixedMask>(1u << c);
         return result;
       }
@@ -54,28 +53,35 @@ namespace Signorini
         return any;
       }
 
-      /// The largest difference of component c between normals of facets around a vertex and those around
-      /// their corners.
-      double difference_of_facets(const unsigned int vertex, const unsigned int c)
+      /// Whether the facets around a vertex and those around their corners differ in component c by as much as
+      /// the normal of the vertex has of it. Where all of them touch the plane there is nothing to compare with:
+      /// then whether they differ at all.
+      bool is_curved_across(const unsigned int vertex, const unsigned int c)
       {
         near.clear();
         for (unsigned int f = topology.fan_start[vertex]; f < topology.fan_start[vertex + 1]; ++f)
           for (const unsigned int corner : topology.triangles[topology.fan[f]])
             near.insert(near.end(), topology.fan.begin() + topology.fan_start[corner],
                         topology.fan.begin() + topology.fan_start[corner + 1]);
-        double least = 1., largest = -1.;
+        const Tensor<1, 3> &normal = mesh.vertex_normals[vertex];
+        double              least = 1., largest = -1.;
+        bool                all_touch = true;
         for (const unsigned int t : near)
           {
             const auto        &x      = mesh.triangles[t];
             const Tensor<1, 3> area   = cross_product_3d(mesh.vertices[x[1]] - mesh.vertices[x[0]],
                                                          mesh.vertices[x[2]] - mesh.vertices[x[0]]);
             const double       length = area.norm();
-            if (length == 0. || area * mesh.vertex_normals[vertex] < rule.crease * length)
+            if (length == 0. || area * normal < rule.crease * length)
               continue;
-            least   = std::min(least, area[c] / length);
-            largest = std::max(largest, area[c] / length);
+            least     = std::min(least, area[c] / length);
+            largest   = std::max(largest, area[c] / length);
+            all_touch = all_touch && std::any_of(x.begin(), x.end(), [&](const unsigned int corner) {
+                          const double distance = mesh.vertices[corner][c] - mesh.vertices[vertex][c];
+                          return distance * distance <= rule.planarity * rule.planarity * length;
+                        });
           }
-        return largest - least;
+        return largest - least >= (all_touch ? rule.flatness : std::abs(normal[c]));
       }
 
       const SurfaceMesh            &mesh;

@@ -16,6 +16,8 @@ namespace Signorini
     double planarity = 1e-6;
     /// Facets whose normals have a smaller product with the normal of the vertex lie beyond a crease.
     double crease = .5;
+    /// Facets whose normals differ by less are coplanar: files have eight digits and more.
+    double flatness = 1e-6;
   };
 
   /// Projects the normals of a surface, however they were computed, onto the symmetry planes that it ends at:
@@ -25,9 +27,9 @@ namespace Signorini
   ///
   /// A prescribed component c alone says nothing about the direction of the surface, so a normal n keeps it unless
   /// border edges with this component prescribed meet at the vertex, all of them in the plane x_c = const, and n_c
-  /// is no more than what c differs by between the facets near the vertex (two rings). On a flat surface
-  /// facets do not differ, and an inclined one stays inclined; near a symmetry plane of a smooth surface they
-  /// differ by at least twice n_c.
+  /// is no more than what c differs by between the facets near the vertex (two rings; all touch the plane where
+  /// the surface is one cell wide: then it must not be flat). On a flat surface facets do not differ, and an
+  /// inclined one stays inclined; near a symmetry plane of a smooth surface they differ by at least twice n_c.
   void project_onto_symmetry_planes(ContactSurface &surface, const SymmetryPlaneRule &rule = {});
 } // namespace Signorini
 
