@@ -17,9 +17,10 @@ namespace Signorini
   class RowProjection
   {
   public:
-    /// Below this |m| a node cannot carry a multiplier, and A_p is E_p: there a displacement of the other side
-    /// by d moves the node by d/|m| along the surface.
-    static constexpr double smallest_share = .1;
+    /// Below this |m| a node cannot carry a multiplier, and A_p is E_p: a displacement of the other side by d
+    /// would move the node by d/|m| along the surface. (Nodes that may go without one do so much earlier,
+    /// DroppingRule::smallest_free_normal.)
+    static constexpr double smallest_share = .01;
 
     /// The identity, at a node without a normal.
     RowProjection() = default;
