@@ -108,8 +108,7 @@ namespace Signorini
     for (std::size_t p = 0; p < d.coupling.n_rows(); ++p)
       {
         const RowProjection &projection = d.projections[p];
-        d.pressure[p] =
-            (forces[p] * projection.direction()) / (d.coupling.weight[p] * projection.share());
+        d.pressure[p] = (forces[p] * projection.direction()) / (d.coupling.weight[p] * projection.share());
         d.traction[p] = d.pressure[p] * projection.normal();
         d.opening[p]  = projection.share() * (bounds[p] - projection.direction() * values[p]);
         d.active[p]   = active_rows[p][0] != 0. && d.pressure[p] > 0.;
@@ -129,6 +128,7 @@ namespace Signorini
           result.nodes.push_back(partition.to_local(d.coupling.rows[p]));
           result.normals.push_back(d.projections[p].direction());
           result.bounds.push_back(bounds[p]);
+          result.shares.push_back(d.projections[p].share());
         }
     return result;
   }
@@ -143,8 +143,11 @@ namespace Signorini
     const SolverMethod method = parameters.solver.method;
     if (!needs_levels(method))
       return std::make_unique<MultigridHierarchy>(std::move(system.matrix), std::move(system.fixed));
-    HierarchyOptions options{method == SolverMethod::monotone_multigrid, parameters.solver.level_zero,
-                             discretization.free_motions, &bodies, discretization.tied,
+    HierarchyOptions options{method == SolverMethod::monotone_multigrid,
+                             parameters.solver.level_zero,
+                             discretization.free_motions,
+                             &bodies,
+                             discretization.tied,
                              parameters.solver.level_zero_steps};
     for (const ContactPair &pair : discretization.pairs)
       options.has_stiff_nonmortar =
@@ -160,8 +163,8 @@ namespace Signorini
         options.problem = &problem;
         options.start   = start;
       }
-    return std::make_unique<MultigridHierarchy>(
-        build_hierarchy(std::move(system), levels, discretization.coupling, discretization.projections, options));
+    return std::make_unique<MultigridHierarchy>(build_hierarchy(
+        std::move(system), levels, discretization.coupling, discretization.projections, options));
   }
 
 
@@ -171,7 +174,8 @@ namespace Signorini
     Discretization &d = discretization;
     Timer           time;
     progress.show("assembling");
-    LinearSystem system = assemble_elasticity(bodies, *d.space, loads, d.dirichlet, d.coupling, d.projections);
+    LinearSystem system =
+        assemble_elasticity(bodies, *d.space, loads, d.dirichlet, d.coupling, d.projections);
     tie_unknowns(system);
     ObstacleProblem problem;
     problem.rhs = std::move(system.rhs);
@@ -286,9 +290,13 @@ namespace Signorini
     cycle.times["linear_assembly"] += time.wall_time();
 
     time.restart();
-    MultigridHierarchy hierarchy = build_hierarchy(
-        std::move(system), levels, none, no_rows,
-        {false, parameters.solver.level_zero, d.free_motions, &bodies, {}, parameters.solver.level_zero_steps});
+    MultigridHierarchy hierarchy = build_hierarchy(std::move(system), levels, none, no_rows,
+                                                   {false,
+                                                    parameters.solver.level_zero,
+                                                    d.free_motions,
+                                                    &bodies,
+                                                    {},
+                                                    parameters.solver.level_zero_steps});
     // Both linear solves need it.
     hierarchy.coarse_solver();
     cycle.times["linear_hierarchy"] += time.wall_time();

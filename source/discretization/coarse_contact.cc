@@ -20,9 +20,8 @@ namespace Signorini
   std::vector<RowProjection> coarsen_projections(const std::vector<RowProjection> &projections,
                                                  const InterfaceCoupling          &fine,
                                                  const std::vector<NodeIndex>     &nodes,
-                                                 const NodeRows                   &node_rows,
-                                                 const InterfaceCoupling          &coarse,
-                                                 const std::vector<FixedMask>     &coarse_masks)
+                                                 const NodeRows &node_rows, const InterfaceCoupling &coarse,
+                                                 const std::vector<FixedMask> &coarse_masks)
   {
     std::vector<Vector3> sums(coarse.n_rows());
     for (std::size_t p = 0; p < fine.n_rows(); ++p)

@@ -356,8 +356,7 @@ namespace Signorini
             terms[v].clear();
             for (const auto &term : buffer[v])
               {
-                const std::size_t i =
-                    std::lower_bound(nodes.begin(), nodes.end(), term.node) - nodes.begin();
+                const std::size_t i = std::lower_bound(nodes.begin(), nodes.end(), term.node) - nodes.begin();
                 terms[v].push_back({i, term.weight, term.projection == nullptr, Block()});
                 if (term.projection != nullptr)
                   terms[v].back().block = term.weight * term.projection->block();

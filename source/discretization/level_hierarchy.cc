@@ -293,6 +293,7 @@ namespace Signorini
           {
             result.nodes.push_back(partition.to_local(coupling.rows[p]));
             result.normals.push_back(projections[p].direction());
+            result.shares.push_back(projections[p].share());
           }
       return result;
     }
@@ -360,16 +361,15 @@ namespace Signorini
         // may be rough.)
         if (!options.coarse_obstacles)
           drop_small_weights(coarse);
-        const IndexSet     &owned = spaces.space(l - 1).owned();
-        const NodePartition coarse_partition(owned, IndexSet(owned.size()), partition.communicator());
+        const IndexSet            &owned = spaces.space(l - 1).owned();
+        const NodePartition        coarse_partition(owned, IndexSet(owned.size()), partition.communicator());
         std::vector<RowProjection> coarse_projections =
             coarsen_projections(fine_projections, fine, nodes, node_rows, coarse,
                                 replicate_masks(coarse_partition, spaces.fixed(l - 1), coarse.rows));
-        const auto block_rows =
-            transformed_rows(partition, rows,
-                             {fine, fine_projections, nodes, node_rows, coarse, coarse_projections,
-                              options.coarse_obstacles,
-                              l + 1 == spaces.n_levels() ? options.tied : none_tied});
+        const auto    block_rows = transformed_rows(partition, rows,
+                                                    {fine, fine_projections, nodes, node_rows, coarse,
+                                                     coarse_projections, options.coarse_obstacles,
+                                                  l + 1 == spaces.n_levels() ? options.tied : none_tied});
         NodalTransfer transfer;
         transfer.reinit(std::move(rows), block_rows, partition.n_owned());
         hierarchy.add_coarser_level(std::move(transfer), owned, spaces.fixed(l - 1));
@@ -400,7 +400,8 @@ namespace Signorini
         orthonormalize(level_zero.free_motions);
       }
     if (level_zero.uses_amg(partition.n_global()))
-      level_zero.near_kernel = rigid_motions(spaces.space(0), partition, spaces.fixed(0), fine, fine_projections);
+      level_zero.near_kernel =
+          rigid_motions(spaces.space(0), partition, spaces.fixed(0), fine, fine_projections);
     hierarchy.finish(std::move(level_zero));
     return hierarchy;
   }

@@ -64,7 +64,7 @@ namespace Signorini
         if (p >= 0 && !contact.tied.empty() && contact.tied[p])
           return {local, {}, {}, {}};
         if (p >= 0 && contact.relative_only)
-          return make_turned(local, contact.fine_projections[p].direction());
+          return make_turned(local, contact.fine_projections[p]);
         sums.clear();
         add(rows, local, 1., RowProjection());
         if (p >= 0)
@@ -87,16 +87,17 @@ namespace Signorini
         return coarse_nodes.may_contain(node) ? contact.coarse.find(node) : -1;
       }
 
-      NodalTransfer::BlockRow make_turned(const unsigned int local, const Vector3 &normal) const
+      NodalTransfer::BlockRow make_turned(const unsigned int local, const RowProjection &fine) const
       {
         NodalTransfer::BlockRow result{local, {}, {}, {}};
         for (std::size_t k = rows.start[local]; k < rows.start[local + 1]; ++k)
           {
-            const Vector3 &from =
-                contact.coarse_projections[contact.coarse.find(rows.columns[k])].direction();
+            const RowProjection &coarse = contact.coarse_projections[contact.coarse.find(rows.columns[k])];
+            const Vector3       &to     = fine.normal(),
+                          &from         = coarse.normal().norm_square() > 0. ? coarse.normal() : to;
+            const Block turn            = rotation(from, to);
             result.columns.push_back(rows.columns[k]);
-            result.blocks.push_back(rows.weights[k] *
-                                    rotation(from.norm_square() > 0. ? from : normal, normal));
+            result.blocks.push_back(rows.weights[k] * (fine.is_identity() ? turn : fine.block() * turn));
           }
         return result;
       }
@@ -142,8 +143,9 @@ namespace Signorini
       NodalTransfer::BlockRow row_of_sums(const unsigned int local) const
       {
         NodalTransfer::BlockRow result{local, {}, {}, {}};
-        const bool              is_scalar = std::all_of(
-            sums.begin(), sums.end(), [](const auto &entry) { return is_multiple_of_identity(entry.second); });
+        const bool              is_scalar = std::all_of(sums.begin(), sums.end(), [](const auto &entry) {
+          return is_multiple_of_identity(entry.second);
+        });
         result.columns.reserve(sums.size());
         for (const auto &[column, block] : sums)
           {
@@ -158,10 +160,10 @@ namespace Signorini
         return result;
       }
 
-      const NodeRows              &rows;
-      const ContactOfLevels       &contact;
-      const NodeFilter             fine_nodes, coarse_nodes;
-      std::map<NodeIndex, Block>   sums;
+      const NodeRows            &rows;
+      const ContactOfLevels     &contact;
+      const NodeFilter           fine_nodes, coarse_nodes;
+      std::map<NodeIndex, Block> sums;
     };
   } // namespace
 

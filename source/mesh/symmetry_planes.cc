@@ -53,9 +53,9 @@ namespace Signorini
         return any;
       }
 
-      /// Whether the facets around a vertex and those around their corners differ in component c by as much as
-      /// the normal of the vertex has of it. Where all of them touch the plane there is nothing to compare with:
-      /// then whether they differ at all.
+      /// Whether the facets around a vertex and those around their corners differ in component c by as much
+      /// as the normal of the vertex has of it. Where all of them touch the plane there is nothing to compare
+      /// with: then whether they differ at all.
       bool is_curved_across(const unsigned int vertex, const unsigned int c)
       {
         near.clear();
@@ -110,9 +110,9 @@ namespace Signorini
     if (std::none_of(fixed.begin(), fixed.end(), is_partly_fixed))
       return;
 
-    SymmetryPlanes                          planes(surface, fixed, rule);
+    SymmetryPlanes                                 planes(surface, fixed, rule);
     std::vector<std::pair<std::size_t, FixedMask>> projected;
-    std::vector<bool>                       is_projected(fixed.size(), false);
+    std::vector<bool>                              is_projected(fixed.size(), false);
     for (unsigned int v = 0; v < fixed.size(); ++v)
       if (surface.hanging[v].empty() && is_partly_fixed(fixed[v]))
         if (const FixedMask components = planes.components(v); components != 0)

@@ -222,8 +222,8 @@ namespace Signorini
                 (reason[v] == DroppedNode::normal_fixed && free_normal(v) >= RowProjection::smallest_share));
       }
 
-      /// Of the vertices that were dropped for their thin cover, or a nearly fixed normal, brings the best covered
-      /// one back.
+      /// Of the vertices that were dropped for their thin cover, or a nearly fixed normal, brings the best
+      /// covered one back.
       template <typename List>
       bool return_best(const List &candidates)
       {

@@ -15,8 +15,8 @@
 
 namespace Signorini
 {
-  /// u = u_D + T v with T = I + A S, and back (method.md, sections 4 and 10). v is the unknown of the obstacle
-  /// problem: relative displacement at nodes with a multiplier, zero in fixed components.
+  /// u = u_D + T v with T = I + A S, and back (method.md, sections 4 and 10). v is the unknown of the
+  /// obstacle problem: relative displacement at nodes with a multiplier, zero in fixed components.
   class BasisTransformation
   {
   public:
@@ -41,10 +41,10 @@ namespace Signorini
     void interpolate_hanging_nodes(Vector &u) const;
 
   private:
-    const NodalSpace             &space;
-    const NodePartition          &partition;
-    const DirichletData          &dirichlet;
-    const InterfaceCoupling      &coupling;
+    const NodalSpace                 &space;
+    const NodePartition              &partition;
+    const DirichletData              &dirichlet;
+    const InterfaceCoupling          &coupling;
     const std::vector<RowProjection> &projections;
     /// Rows of the coupling that this rank owns: position, local node.
     std::vector<std::pair<std::size_t, unsigned int>> owned_rows;

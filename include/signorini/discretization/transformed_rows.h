@@ -19,8 +19,8 @@ namespace Signorini
     /// One per row of the coupling.
     const std::vector<RowProjection> &fine_projections;
     /// Sorted nodes of rows and columns of the fine coupling, and their interpolation rows.
-    const std::vector<NodeIndex> &nodes;
-    const NodeRows               &node_rows;
+    const std::vector<NodeIndex>     &nodes;
+    const NodeRows                   &node_rows;
     const InterfaceCoupling          &coarse;
     const std::vector<RowProjection> &coarse_projections;
     /// Whether coarse obstacles are wanted: see transformed_rows().
@@ -31,7 +31,7 @@ namespace Signorini
 
   /// The rows of P̂ = (I - A S) P (I + A_c S_c) that differ from those of P, for the local nodes of the fine
   /// level (method.md, section 5). With relative_only the rows of contact nodes have relative displacements
-  /// only, turned from the coarse normals (in free directions) to the fine one: what coarse obstacles need.
+  /// only, turned from the coarse normals to the fine one, n·v = sum w n_c·v_c: what coarse obstacles need.
   /// @param rows the rows of P of the local nodes
   std::vector<NodalTransfer::BlockRow> transformed_rows(const NodePartition &partition, const NodeRows &rows,
                                                         const ContactOfLevels &contact);

@@ -38,10 +38,10 @@ namespace Signorini
   private:
     void add_conforming(const NodeIndex node, const double weight, std::vector<Term> &terms) const;
 
-    const NodalSpace             &space;
-    const InterfaceCoupling      &coupling;
+    const NodalSpace                 &space;
+    const InterfaceCoupling          &coupling;
     const std::vector<RowProjection> &projections;
-    std::vector<bool>             special;
+    std::vector<bool>                 special;
   };
 } // namespace Signorini
 
