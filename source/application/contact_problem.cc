@@ -86,7 +86,7 @@ namespace Signorini
 
 
   void ContactProblem::evaluate_contact(const Vector &v, const ObstacleProblem &problem,
-                                        const NodeBlockMatrix &matrix, const std::vector<double> &gaps,
+                                        const NodeBlockMatrix &matrix, const std::vector<double> &bounds,
                                         const std::vector<unsigned char> &active)
   {
     Discretization &d = discretization;
@@ -107,9 +107,10 @@ namespace Signorini
     d.active.resize(d.coupling.n_rows());
     for (std::size_t p = 0; p < d.coupling.n_rows(); ++p)
       {
-        d.pressure[p] = (forces[p] * d.normals[p]) / d.coupling.weight[p];
-        d.traction[p] = d.pressure[p] * d.normals[p];
-        d.opening[p]  = gaps[p] - d.normals[p] * values[p];
+        const RowProjection &projection = d.projections[p];
+        d.pressure[p] = (forces[p] * projection.direction()) / (d.coupling.weight[p] * projection.share());
+        d.traction[p] = d.pressure[p] * projection.normal();
+        d.opening[p]  = projection.share() * (bounds[p] - projection.direction() * values[p]);
         d.active[p]   = active_rows[p][0] != 0. && d.pressure[p] > 0.;
       }
   }
@@ -117,7 +118,7 @@ namespace Signorini
 
 
   HalfSpaces ContactProblem::make_half_spaces(const NodePartition       &partition,
-                                              const std::vector<double> &gaps) const
+                                              const std::vector<double> &bounds) const
   {
     HalfSpaces            result;
     const Discretization &d = discretization;
@@ -125,8 +126,9 @@ namespace Signorini
       if (!d.tied[p] && partition.owns(d.coupling.rows[p]))
         {
           result.nodes.push_back(partition.to_local(d.coupling.rows[p]));
-          result.normals.push_back(d.normals[p]);
-          result.bounds.push_back(gaps[p]);
+          result.normals.push_back(d.projections[p].direction());
+          result.bounds.push_back(bounds[p]);
+          result.shares.push_back(d.projections[p].share());
         }
     return result;
   }
@@ -141,15 +143,17 @@ namespace Signorini
     const SolverMethod method = parameters.solver.method;
     if (!needs_levels(method))
       return std::make_unique<MultigridHierarchy>(std::move(system.matrix), std::move(system.fixed));
-    HierarchyOptions options{{},      parameters.solver.level_zero, discretization.free_motions,
-                             &bodies, discretization.tied,          parameters.solver.level_zero_steps};
+    HierarchyOptions options{method == SolverMethod::monotone_multigrid,
+                             parameters.solver.level_zero,
+                             discretization.free_motions,
+                             &bodies,
+                             discretization.tied,
+                             parameters.solver.level_zero_steps};
     for (const ContactPair &pair : discretization.pairs)
       options.has_stiff_nonmortar =
           options.has_stiff_nonmortar ||
           (pair.mortar_body != numbers::invalid_unsigned_int &&
            parameters.bodies[pair.nonmortar_body].young > parameters.bodies[pair.mortar_body].young);
-    if (method == SolverMethod::monotone_multigrid)
-      options.contact_normals = discretization.normals;
     // Corrections of a slow interface, for a stiff nonmortar side, are linear ones on the coarser levels,
     // which are no obstacle problems then; and what is measured for them must not depend on the start. Free
     // bodies are not where the start is.
@@ -159,8 +163,8 @@ namespace Signorini
         options.problem = &problem;
         options.start   = start;
       }
-    return std::make_unique<MultigridHierarchy>(
-        build_hierarchy(std::move(system), levels, discretization.coupling, options));
+    return std::make_unique<MultigridHierarchy>(build_hierarchy(
+        std::move(system), levels, discretization.coupling, discretization.projections, options));
   }
 
 
@@ -170,7 +174,8 @@ namespace Signorini
     Discretization &d = discretization;
     Timer           time;
     progress.show("assembling");
-    LinearSystem system = assemble_elasticity(bodies, *d.space, loads, d.dirichlet, d.coupling, d.row_masks);
+    LinearSystem system =
+        assemble_elasticity(bodies, *d.space, loads, d.dirichlet, d.coupling, d.projections);
     tie_unknowns(system);
     ObstacleProblem problem;
     problem.rhs = std::move(system.rhs);
@@ -184,9 +189,9 @@ namespace Signorini
     cycle.times["levels"] += time.wall_time();
 
     time.restart();
-    const std::vector<double> gaps      = d.transformation->reduce_gaps(d.gaps, d.normals);
+    const std::vector<double> bounds    = d.transformation->reduce_gaps(d.gaps);
     const NodePartition       partition = system.matrix.partition();
-    problem.half_spaces                 = make_half_spaces(partition, gaps);
+    problem.half_spaces                 = make_half_spaces(partition, bounds);
     Vector v, start;
     partition.reinit(v);
     const bool has_start       = d.displacement.size() == 3 * d.space->n_nodes();
@@ -204,7 +209,7 @@ namespace Signorini
     time.restart();
     if (parameters.solver.method == SolverMethod::active_set_amg)
       problem.near_kernel =
-          rigid_motions(*d.space, matrix.partition(), hierarchy->finest().fixed, d.coupling);
+          rigid_motions(*d.space, matrix.partition(), hierarchy->finest().fixed, d.coupling, d.projections);
     const auto monitor = [&](const unsigned int iteration, const double correction,
                              const unsigned int active) {
       if (parameters.verbosity > 1)
@@ -236,7 +241,7 @@ namespace Signorini
     else if (cycle.nonlinear.stagnated)
       note("cycle " + std::to_string(cycle.cycle) + ": " + cycle.nonlinear.note + ".");
 
-    evaluate_contact(v, problem, matrix, gaps, solver->active());
+    evaluate_contact(v, problem, matrix, bounds, solver->active());
     cycle.contact_nodes = d.coupling.n_rows();
     cycle.active_nodes  = std::accumulate(d.active.begin(), d.active.end(), std::size_t(0));
     d.displacement      = d.transformation->to_displacement(v, matrix.partition());
@@ -258,11 +263,11 @@ namespace Signorini
 
   void ContactProblem::solve_linear(CycleResult &cycle, const LevelSpaces &levels, const Vector &start)
   {
-    Discretization              &d = discretization;
-    Timer                        time;
-    const InterfaceCoupling      none;
-    const std::vector<FixedMask> no_masks;
-    LinearSystem    system = assemble_elasticity(bodies, *d.space, loads, d.dirichlet, none, no_masks);
+    Discretization                  &d = discretization;
+    Timer                            time;
+    const InterfaceCoupling          none;
+    const std::vector<RowProjection> no_rows;
+    LinearSystem    system = assemble_elasticity(bodies, *d.space, loads, d.dirichlet, none, no_rows);
     ObstacleProblem problem;
     problem.rhs = std::move(system.rhs);
     // The contact stresses as loads: -D λ n on the nonmortar side, +Mᵀ λ n on the mortar side.
@@ -280,20 +285,24 @@ namespace Signorini
         const Vector3 force = d.coupling.weight[p] * d.traction[p];
         add(d.coupling.rows[p], -force);
         for (const auto *entry = d.coupling.begin(p); entry != d.coupling.end(p); ++entry)
-          add(entry->node, entry->weight * project_free(d.row_masks[p], force));
+          add(entry->node, entry->weight * force);
       }
     cycle.times["linear_assembly"] += time.wall_time();
 
     time.restart();
-    MultigridHierarchy hierarchy = build_hierarchy(
-        std::move(system), levels, none,
-        {{}, parameters.solver.level_zero, d.free_motions, &bodies, {}, parameters.solver.level_zero_steps});
+    MultigridHierarchy hierarchy = build_hierarchy(std::move(system), levels, none, no_rows,
+                                                   {false,
+                                                    parameters.solver.level_zero,
+                                                    d.free_motions,
+                                                    &bodies,
+                                                    {},
+                                                    parameters.solver.level_zero_steps});
     // Both linear solves need it.
     hierarchy.coarse_solver();
     cycle.times["linear_hierarchy"] += time.wall_time();
 
     const NodeBlockMatrix    &matrix = hierarchy.finest().matrix;
-    const BasisTransformation plain(*d.space, *d.partition, d.dirichlet, none, no_masks);
+    const BasisTransformation plain(*d.space, *d.partition, d.dirichlet, none, no_rows);
     Vector                    v, solution, product;
     problem.semidefinite = !d.free_motions.empty();
     const auto solve     = [&](const SolverMethod method, const char *const name) {

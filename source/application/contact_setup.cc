@@ -260,20 +260,20 @@ namespace Signorini
           }
       }
     d.origin = join_couplings(d.coupling, d.couplings, names);
-    d.row_masks.clear();
-    d.normals.clear();
+    d.projections.clear();
     d.gaps.clear();
     d.tied.clear();
     for (const auto &[p, row] : d.origin)
       {
+        const PairCoupling &c = d.couplings[p];
         d.tied.push_back(pair_definitions[p].parameters.contact == "tied");
-        d.row_masks.push_back(d.couplings[p].fixed[row]);
-        d.normals.push_back(d.couplings[p].normals[row]);
+        d.projections.push_back(d.tied.back() ? RowProjection::tied(c.fixed[row], c.normals[row])
+                                              : RowProjection(c.fixed[row], c.normals[row]));
         d.gaps.push_back(d.couplings[p].gaps[row]);
       }
     tie_lift();
     d.transformation =
-        std::make_unique<BasisTransformation>(*d.space, *d.partition, d.dirichlet, d.coupling, d.row_masks);
+        std::make_unique<BasisTransformation>(*d.space, *d.partition, d.dirichlet, d.coupling, d.projections);
     cycle.times["mortar"] += time.wall_time();
   }
 } // namespace Signorini

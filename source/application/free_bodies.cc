@@ -77,7 +77,7 @@ namespace Signorini
     const auto                fields = motions_of_unknowns(partition, *d.transformation);
     const std::size_t         n = fields.size(), n_rows = d.coupling.n_rows();
     std::vector<double>       rows(n * n_rows), work(n);
-    const std::vector<double> gaps = d.transformation->reduce_gaps(d.gaps, d.normals);
+    const std::vector<double> bounds = d.transformation->reduce_gaps(d.gaps);
     // The work of the loads on a motion, zero to the rounding of their sums.
     const double scale = problem.rhs.l1_norm();
     for (std::size_t m = 0; m < n; ++m)
@@ -86,9 +86,9 @@ namespace Signorini
         work[m]           = std::abs(work[m]) > 1e-10 * scale ? work[m] : 0.;
         const auto values = replicate_values(partition, fields[m], d.coupling.rows);
         for (std::size_t p = 0; p < n_rows; ++p)
-          rows[n * p + m] = d.normals[p] * values[p];
+          rows[n * p + m] = d.projections[p].direction() * values[p];
       }
-    const RigidBalance balance = balance_rigid_motions(rows, gaps, work);
+    const RigidBalance balance = balance_rigid_motions(rows, bounds, work);
     if (!balance.is_held)
       throw InputError("The loads press no body into contact that could hold it: " +
                        describe_motion(d.free_motions, balance.flight, bodies) +

@@ -72,7 +72,7 @@ namespace Signorini
             sum += entry->weight *
                    values[std::lower_bound(columns.begin(), columns.end(), entry->node) - columns.begin()];
           d.dirichlet.value[d.space->relevant().index_within_set(d.coupling.rows[p])] +=
-              project_free(d.row_masks[p], sum);
+              d.projections[p].apply(sum);
         }
   }
 
@@ -105,8 +105,8 @@ namespace Signorini
     for (std::size_t p = 0; p < d.coupling.n_rows(); ++p)
       if (d.tied[p])
         {
-          d.traction[p] = project_free(d.row_masks[p], -forces[p] / d.coupling.weight[p]);
-          d.pressure[p] = d.traction[p] * d.normals[p];
+          d.traction[p] = d.projections[p].apply(-forces[p] / d.coupling.weight[p]);
+          d.pressure[p] = d.traction[p] * d.projections[p].direction();
           d.opening[p]  = 0.;
           d.active[p]   = 1;
         }

@@ -10,12 +10,12 @@ namespace Signorini
 
   BasisTransformation::BasisTransformation(const NodalSpace &space, const NodePartition &space_partition,
                                            const DirichletData &dirichlet, const InterfaceCoupling &coupling,
-                                           const std::vector<FixedMask> &row_masks)
+                                           const std::vector<RowProjection> &projections)
     : space(space)
     , partition(space_partition)
     , dirichlet(dirichlet)
     , coupling(coupling)
-    , row_masks(row_masks)
+    , projections(projections)
   {
     for (std::size_t p = 0; p < coupling.n_rows(); ++p)
       if (partition.owns(coupling.rows[p]))
@@ -67,7 +67,7 @@ namespace Signorini
             for (unsigned int c = 0; c < dim; ++c)
               shift[c] += entry->weight * v.local_element(dim * q + c);
           }
-        shift = project_free(row_masks[p], shift);
+        shift = projections[p].apply(shift);
         for (unsigned int c = 0; c < dim; ++c)
           u.local_element(dim * local + c) += shift[c];
       }
@@ -98,7 +98,7 @@ namespace Signorini
           shift += entry->weight *
                    columns[std::lower_bound(column_nodes.begin(), column_nodes.end(), entry->node) -
                            column_nodes.begin()];
-        shift = project_free(row_masks[p], shift);
+        shift = projections[p].apply(shift);
         for (unsigned int c = 0; c < dim; ++c)
           w.local_element(dim * local + c) -= shift[c];
       }
@@ -107,8 +107,7 @@ namespace Signorini
 
 
 
-  std::vector<double> BasisTransformation::reduce_gaps(const std::vector<double>  &gaps,
-                                                       const std::vector<Vector3> &normals) const
+  std::vector<double> BasisTransformation::reduce_gaps(const std::vector<double> &gaps) const
   {
     Vector lift;
     partition.reinit(lift);
@@ -120,7 +119,7 @@ namespace Signorini
       }
     const std::vector<Vector3> own     = replicate_values(partition, lift, coupling.rows);
     const std::vector<Vector3> columns = replicate_values(partition, lift, column_nodes);
-    std::vector<double>        reduced(gaps);
+    std::vector<double>        reduced(gaps.size());
     for (std::size_t p = 0; p < coupling.n_rows(); ++p)
       {
         Vector3 relative = own[p];
@@ -128,7 +127,7 @@ namespace Signorini
           relative -= entry->weight *
                       columns[std::lower_bound(column_nodes.begin(), column_nodes.end(), entry->node) -
                               column_nodes.begin()];
-        reduced[p] -= normals[p] * relative;
+        reduced[p] = (gaps[p] - projections[p].normal() * relative) / projections[p].share();
       }
     return reduced;
   }

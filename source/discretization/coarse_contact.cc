@@ -17,23 +17,25 @@ namespace Signorini
 
 
 
-  std::vector<Vector3> coarsen_normals(const std::vector<Vector3> &normals, const InterfaceCoupling &fine,
-                                       const std::vector<NodeIndex> &nodes, const NodeRows &node_rows,
-                                       const InterfaceCoupling      &coarse,
-                                       const std::vector<FixedMask> &coarse_masks)
+  std::vector<RowProjection> coarsen_projections(const std::vector<RowProjection> &projections,
+                                                 const InterfaceCoupling          &fine,
+                                                 const std::vector<NodeIndex>     &nodes,
+                                                 const NodeRows &node_rows, const InterfaceCoupling &coarse,
+                                                 const std::vector<FixedMask> &coarse_masks)
   {
-    std::vector<Vector3> result(coarse.n_rows());
+    std::vector<Vector3> sums(coarse.n_rows());
     for (std::size_t p = 0; p < fine.n_rows(); ++p)
       {
         const std::size_t row = index_of(fine.rows[p], nodes);
         for (std::size_t k = node_rows.start[row]; k < node_rows.start[row + 1]; ++k)
-          result[coarse.find(node_rows.columns[k])] += (node_rows.weights[k] * fine.weight[p]) * normals[p];
+          sums[coarse.find(node_rows.columns[k])] +=
+              (node_rows.weights[k] * fine.weight[p]) * projections[p].normal();
       }
-    for (std::size_t q = 0; q < result.size(); ++q)
+    std::vector<RowProjection> result;
+    for (std::size_t q = 0; q < sums.size(); ++q)
       {
-        const Vector3 free   = project_free(coarse_masks[q], result[q]);
-        const double  length = free.norm();
-        result[q]            = length > 1e-6 * result[q].norm() ? free / length : Vector3();
+        const double length = sums[q].norm();
+        result.emplace_back(coarse_masks[q], length > 0. ? sums[q] / length : Vector3());
       }
     return result;
   }
@@ -63,8 +65,8 @@ namespace Signorini
 
   RowHalfSpaces inject_half_spaces(const RowHalfSpaces &half_spaces, const InterfaceCoupling &fine,
                                    const std::vector<NodeIndex> &nodes, const NodeRows &node_rows,
-                                   const InterfaceCoupling      &coarse,
-                                   const std::vector<FixedMask> &coarse_masks)
+                                   const InterfaceCoupling          &coarse,
+                                   const std::vector<RowProjection> &coarse_projections)
   {
     RowHalfSpaces result;
     result.normals.resize(coarse.n_rows());
@@ -75,7 +77,7 @@ namespace Signorini
         if (node_rows.start[row + 1] != node_rows.start[row] + 1)
           continue;
         const std::size_t q      = coarse.find(node_rows.columns[node_rows.start[row]]);
-        const Vector3     free   = project_free(coarse_masks[q], half_spaces.normals[p]);
+        const Vector3     free   = project_free(coarse_projections[q].fixed(), half_spaces.normals[p]);
         const double      length = free.norm();
         if (length > 1e-6)
           {

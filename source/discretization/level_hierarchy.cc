@@ -259,7 +259,7 @@ namespace Signorini
 
     /// v = T⁻¹ u, zero in fixed components, in place.
     void make_relative(Vector &u, const NodePartition &partition, const std::vector<FixedMask> &fixed,
-                       const InterfaceCoupling &coupling)
+                       const InterfaceCoupling &coupling, const std::vector<RowProjection> &projections)
     {
       const std::vector<NodeIndex> nodes  = interface_nodes(coupling);
       const std::vector<Vector3>   values = replicate_values(partition, u, nodes);
@@ -269,20 +269,41 @@ namespace Signorini
           for (unsigned int c = 0; c < dim; ++c)
             value[c] = u.local_element(dim * i + c);
           if (const std::ptrdiff_t p = coupling.find(partition.to_global(i)); p >= 0)
-            for (const auto *entry = coupling.begin(p); entry != coupling.end(p); ++entry)
-              value -= entry->weight *
-                       values[std::lower_bound(nodes.begin(), nodes.end(), entry->node) - nodes.begin()];
+            {
+              for (const auto *entry = coupling.begin(p); entry != coupling.end(p); ++entry)
+                value -= entry->weight *
+                         values[std::lower_bound(nodes.begin(), nodes.end(), entry->node) - nodes.begin()];
+              value = projections[p].apply(value);
+            }
           value = project_free(fixed[i], value);
           for (unsigned int c = 0; c < dim; ++c)
             u.local_element(dim * i + c) = value[c];
         }
+    }
+
+
+
+    /// The contact nodes that a rank owns, with the directions of their half-spaces; no bounds.
+    HalfSpaces contact_nodes(const InterfaceCoupling &coupling, const std::vector<RowProjection> &projections,
+                             const NodePartition &partition)
+    {
+      HalfSpaces result;
+      for (std::size_t p = 0; p < coupling.n_rows(); ++p)
+        if (partition.owns(coupling.rows[p]) && projections[p].direction().norm_square() > 0.)
+          {
+            result.nodes.push_back(partition.to_local(coupling.rows[p]));
+            result.normals.push_back(projections[p].direction());
+            result.shares.push_back(projections[p].share());
+          }
+      return result;
     }
   } // namespace
 
 
 
   std::vector<Vector> rigid_motions(const NodalSpace &space, const NodePartition &partition,
-                                    const std::vector<FixedMask> &fixed, const InterfaceCoupling &coupling)
+                                    const std::vector<FixedMask> &fixed, const InterfaceCoupling &coupling,
+                                    const std::vector<RowProjection> &projections)
   {
     Point<3> centre;
     for (unsigned int i = 0; i < partition.n_owned(); ++i)
@@ -302,7 +323,7 @@ namespace Signorini
             for (unsigned int c = 0; c < dim; ++c)
               motions[m].local_element(dim * i + c) = u[c];
           }
-        make_relative(motions[m], partition, fixed, coupling);
+        make_relative(motions[m], partition, fixed, coupling, projections);
       }
     return motions;
   }
@@ -310,12 +331,14 @@ namespace Signorini
 
 
   MultigridHierarchy build_hierarchy(LinearSystem &&system, const LevelSpaces &spaces,
-                                     const InterfaceCoupling &coupling, const HierarchyOptions &options)
+                                     const InterfaceCoupling          &coupling,
+                                     const std::vector<RowProjection> &projections,
+                                     const HierarchyOptions           &options)
   {
-    MultigridHierarchy   hierarchy(std::move(system.matrix), std::move(system.fixed));
-    InterfaceCoupling    fine    = coupling;
-    std::vector<Vector3> normals = options.contact_normals;
-    RowHalfSpaces        half_spaces;
+    MultigridHierarchy         hierarchy(std::move(system.matrix), std::move(system.fixed));
+    InterfaceCoupling          fine             = coupling;
+    std::vector<RowProjection> fine_projections = projections;
+    RowHalfSpaces              half_spaces;
     if (options.problem != nullptr && options.start == nullptr)
       half_spaces = replicate_half_spaces(options.problem->half_spaces, hierarchy.finest().matrix.partition(),
                                           coupling.rows);
@@ -336,58 +359,49 @@ namespace Signorini
         InterfaceCoupling coarse    = coarsen_coupling(fine, nodes, node_rows);
         // Coarse obstacles bound the relative displacements themselves, not just a basis. (Those for a start
         // may be rough.)
-        if (normals.empty())
+        if (!options.coarse_obstacles)
           drop_small_weights(coarse);
-        const IndexSet     &owned = spaces.space(l - 1).owned();
-        const NodePartition coarse_partition(owned, IndexSet(owned.size()), partition.communicator());
-        const auto          fine_masks = replicate_masks(partition, spaces.fixed(l), fine.rows);
-        const auto coarse_masks        = replicate_masks(coarse_partition, spaces.fixed(l - 1), coarse.rows);
-        std::vector<Vector3> coarse_normals;
-        if (!normals.empty())
-          coarse_normals = coarsen_normals(normals, fine, nodes, node_rows, coarse, coarse_masks);
-        const auto block_rows =
-            transformed_rows(partition, rows,
-                             {fine, fine_masks, nodes, node_rows, coarse, coarse_masks, normals,
-                              coarse_normals, l + 1 == spaces.n_levels() ? options.tied : none_tied});
+        const IndexSet            &owned = spaces.space(l - 1).owned();
+        const NodePartition        coarse_partition(owned, IndexSet(owned.size()), partition.communicator());
+        std::vector<RowProjection> coarse_projections =
+            coarsen_projections(fine_projections, fine, nodes, node_rows, coarse,
+                                replicate_masks(coarse_partition, spaces.fixed(l - 1), coarse.rows));
+        const auto    block_rows = transformed_rows(partition, rows,
+                                                    {fine, fine_projections, nodes, node_rows, coarse,
+                                                     coarse_projections, options.coarse_obstacles,
+                                                  l + 1 == spaces.n_levels() ? options.tied : none_tied});
         NodalTransfer transfer;
         transfer.reinit(std::move(rows), block_rows, partition.n_owned());
         hierarchy.add_coarser_level(std::move(transfer), owned, spaces.fixed(l - 1));
         MultigridLevel &level = hierarchy.coarsest();
-        for (std::size_t q = 0; q < coarse_normals.size(); ++q)
-          if (level.matrix.partition().owns(coarse.rows[q]) && coarse_normals[q].norm_square() > 0.)
-            {
-              level.contact.nodes.push_back(level.matrix.partition().to_local(coarse.rows[q]));
-              level.contact.normals.push_back(coarse_normals[q]);
-            }
+        if (options.coarse_obstacles)
+          level.contact = contact_nodes(coarse, coarse_projections, level.matrix.partition());
         if (!half_spaces.normals.empty())
           {
-            half_spaces       = inject_half_spaces(half_spaces, fine, nodes, node_rows, coarse, coarse_masks);
+            half_spaces = inject_half_spaces(half_spaces, fine, nodes, node_rows, coarse, coarse_projections);
             level.half_spaces = own_half_spaces(half_spaces, coarse.rows, level.matrix.partition());
           }
-        fine    = std::move(coarse);
-        normals = std::move(coarse_normals);
+        fine             = std::move(coarse);
+        fine_projections = std::move(coarse_projections);
       }
     LevelZero level_zero;
     level_zero.method  = options.level_zero;
     level_zero.n_steps = options.level_zero_steps;
     // A hierarchy of one level: its copy has the same contact nodes.
     const NodePartition &partition = hierarchy.coarsest().matrix.partition();
-    for (std::size_t p = 0; p < normals.size(); ++p)
-      if (partition.owns(fine.rows[p]))
-        {
-          level_zero.contact.nodes.push_back(partition.to_local(fine.rows[p]));
-          level_zero.contact.normals.push_back(normals[p]);
-        }
+    if (options.coarse_obstacles)
+      level_zero.contact = contact_nodes(fine, fine_projections, partition);
     if (!options.free_motions.empty())
       {
         level_zero.free_motions =
             motion_fields(options.free_motions, *options.bodies, spaces.space(0), partition);
         for (Vector &motion : level_zero.free_motions)
-          make_relative(motion, partition, spaces.fixed(0), fine);
+          make_relative(motion, partition, spaces.fixed(0), fine, fine_projections);
         orthonormalize(level_zero.free_motions);
       }
     if (level_zero.uses_amg(partition.n_global()))
-      level_zero.near_kernel = rigid_motions(spaces.space(0), partition, spaces.fixed(0), fine);
+      level_zero.near_kernel =
+          rigid_motions(spaces.space(0), partition, spaces.fixed(0), fine, fine_projections);
     hierarchy.finish(std::move(level_zero));
     return hierarchy;
   }

@@ -63,15 +63,15 @@ namespace Signorini
         const std::ptrdiff_t p = find_fine(node);
         if (p >= 0 && !contact.tied.empty() && contact.tied[p])
           return {local, {}, {}, {}};
-        if (p >= 0 && !contact.normals.empty())
-          return make_turned(local, contact.normals[p]);
+        if (p >= 0 && contact.relative_only)
+          return make_turned(local, contact.fine_projections[p]);
         sums.clear();
-        add(rows, local, 1., 0);
+        add(rows, local, 1., RowProjection());
         if (p >= 0)
           for (const auto *entry = contact.fine.begin(p); entry != contact.fine.end(p); ++entry)
             {
               const auto q = std::lower_bound(contact.nodes.begin(), contact.nodes.end(), entry->node);
-              add(contact.node_rows, q - contact.nodes.begin(), -entry->weight, contact.fine_masks[p]);
+              add(contact.node_rows, q - contact.nodes.begin(), -entry->weight, contact.fine_projections[p]);
             }
         return row_of_sums(local);
       }
@@ -87,69 +87,83 @@ namespace Signorini
         return coarse_nodes.may_contain(node) ? contact.coarse.find(node) : -1;
       }
 
-      NodalTransfer::BlockRow make_turned(const unsigned int local, const Vector3 &normal) const
+      NodalTransfer::BlockRow make_turned(const unsigned int local, const RowProjection &fine) const
       {
         NodalTransfer::BlockRow result{local, {}, {}, {}};
         for (std::size_t k = rows.start[local]; k < rows.start[local + 1]; ++k)
           {
-            const Vector3 &from = contact.coarse_normals[contact.coarse.find(rows.columns[k])];
+            const RowProjection &coarse = contact.coarse_projections[contact.coarse.find(rows.columns[k])];
+            const Vector3       &to     = fine.normal(),
+                          &from         = coarse.normal().norm_square() > 0. ? coarse.normal() : to;
+            const Block turn            = rotation(from, to);
             result.columns.push_back(rows.columns[k]);
-            result.blocks.push_back(rows.weights[k] *
-                                    rotation(from.norm_square() > 0. ? from : normal, normal));
+            result.blocks.push_back(rows.weights[k] * (fine.is_identity() ? turn : fine.block() * turn));
           }
         return result;
       }
 
-      /// Adds factor * (row of P) * T_coarse in the components that are not blocked.
-      void add(const NodeRows &from, const std::size_t row, const double factor, const FixedMask blocked)
+      /// Adds factor * A_fine * (row of P) * T_coarse.
+      void add(const NodeRows &from, const std::size_t row, const double factor, const RowProjection &fine)
       {
         for (std::size_t k = from.start[row]; k < from.start[row + 1]; ++k)
           {
-            add_entry(from.columns[k], factor * from.weights[k], blocked);
-            if (const std::ptrdiff_t c = find_coarse(from.columns[k]); c >= 0)
-              for (const auto *entry = contact.coarse.begin(c); entry != contact.coarse.end(c); ++entry)
-                add_entry(entry->node, factor * from.weights[k] * entry->weight,
-                          blocked | contact.coarse_masks[c]);
+            const double weight = factor * from.weights[k];
+            add_entry(from.columns[k], weight, fine);
+            const std::ptrdiff_t c = find_coarse(from.columns[k]);
+            if (c < 0)
+              continue;
+            const RowProjection &coarse = contact.coarse_projections[c];
+            for (const auto *entry = contact.coarse.begin(c); entry != contact.coarse.end(c); ++entry)
+              if (fine.is_identity())
+                add_entry(entry->node, weight * entry->weight, coarse);
+              else
+                sums[entry->node] += (weight * entry->weight) * (fine.block() * coarse.block());
           }
       }
 
-      void add_entry(const NodeIndex column, const double weight, const FixedMask blocked)
+      void add_entry(const NodeIndex column, const double weight, const RowProjection &projection)
       {
-        Vector3 &sum = sums[column];
+        Block &sum = sums[column];
+        if (projection.is_identity())
+          for (unsigned int c = 0; c < dim; ++c)
+            sum[c][c] += weight;
+        else
+          sum += weight * projection.block();
+      }
+
+      static bool is_multiple_of_identity(const Block &block)
+      {
         for (unsigned int c = 0; c < dim; ++c)
-          if (!(blocked & (1u << c)))
-            sum[c] += weight;
+          for (unsigned int d = 0; d < dim; ++d)
+            if (block[c][d] != (c == d ? block[0][0] : 0.))
+              return false;
+        return true;
       }
 
       NodalTransfer::BlockRow row_of_sums(const unsigned int local) const
       {
         NodalTransfer::BlockRow result{local, {}, {}, {}};
         const bool              is_scalar = std::all_of(sums.begin(), sums.end(), [](const auto &entry) {
-          return entry.second[0] == entry.second[1] && entry.second[0] == entry.second[2];
+          return is_multiple_of_identity(entry.second);
         });
         result.columns.reserve(sums.size());
-        for (const auto &[column, diagonal] : sums)
+        for (const auto &[column, block] : sums)
           {
-            if (std::max({std::abs(diagonal[0]), std::abs(diagonal[1]), std::abs(diagonal[2])}) <= rounding)
+            if (block.norm_square() <= rounding * rounding)
               continue;
             result.columns.push_back(column);
             if (is_scalar)
-              result.weights.push_back(diagonal[0]);
+              result.weights.push_back(block[0][0]);
             else
-              {
-                Block block;
-                for (unsigned int c = 0; c < dim; ++c)
-                  block[c][c] = diagonal[c];
-                result.blocks.push_back(block);
-              }
+              result.blocks.push_back(block);
           }
         return result;
       }
 
-      const NodeRows              &rows;
-      const ContactOfLevels       &contact;
-      const NodeFilter             fine_nodes, coarse_nodes;
-      std::map<NodeIndex, Vector3> sums;
+      const NodeRows            &rows;
+      const ContactOfLevels     &contact;
+      const NodeFilter           fine_nodes, coarse_nodes;
+      std::map<NodeIndex, Block> sums;
     };
   } // namespace
 

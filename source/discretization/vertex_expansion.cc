@@ -8,10 +8,10 @@ namespace Signorini
   using namespace dealii;
 
   VertexExpansion::VertexExpansion(const NodalSpace &space, const InterfaceCoupling &coupling,
-                                   const std::vector<FixedMask> &row_masks)
+                                   const std::vector<RowProjection> &projections)
     : space(space)
     , coupling(coupling)
-    , row_masks(row_masks)
+    , projections(projections)
     , special(space.relevant().n_elements(), false)
   {
     for (std::size_t i = 0; i < special.size(); ++i)
@@ -26,11 +26,13 @@ namespace Signorini
   void VertexExpansion::add_conforming(const NodeIndex node, const double weight,
                                        std::vector<Term> &terms) const
   {
-    terms.push_back({node, weight, 0});
+    terms.push_back({node, weight, nullptr});
     const std::ptrdiff_t row = coupling.find(node);
-    if (row >= 0)
-      for (const auto *entry = coupling.begin(row); entry != coupling.end(row); ++entry)
-        terms.push_back({entry->node, weight * entry->weight, row_masks[row]});
+    if (row < 0)
+      return;
+    const RowProjection *const projection = projections[row].is_identity() ? nullptr : &projections[row];
+    for (const auto *entry = coupling.begin(row); entry != coupling.end(row); ++entry)
+      terms.push_back({entry->node, weight * entry->weight, projection});
   }
 
 

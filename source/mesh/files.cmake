@@ -13,6 +13,7 @@ signorini_add_layer(mesh
   surface_extraction.cc
   surface_file.cc
   surface_normals.cc
+  symmetry_planes.cc
   tetrahedral_forest.cc
   triangulated_shape.cc
   true_shape.cc

@@ -4,6 +4,7 @@
 #include <signorini/algebra/replicated_data.h>
 #include <signorini/mesh/surface_extraction.h>
 #include <signorini/mesh/surface_normals.h>
+#include <signorini/mesh/symmetry_planes.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -294,6 +295,7 @@ namespace Signorini
     surface.hanging.resize(surface.vertex_node.size());
     surface.true_shape = true_shape_of(surface, shapes);
     set_normals(surface, shapes);
+    project_onto_symmetry_planes(surface);
     return surface;
   }
 

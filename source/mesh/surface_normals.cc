@@ -113,14 +113,5 @@ namespace Signorini
       }
     normalize(normals);
     complete_normals(surface, normals, has_shape);
-
-    surface.normal_share.resize(normals.size());
-    for (std::size_t v = 0; v < normals.size(); ++v)
-      {
-        const Vector3 projected = project_free(surface.vertex_fixed[v], normals[v]);
-        surface.normal_share[v] = projected.norm();
-        if (surface.normal_share[v] > 1e-6)
-          normals[v] = projected / surface.normal_share[v];
-      }
   }
 } // namespace Signorini

@@ -123,7 +123,7 @@ namespace Signorini
             {
               if (surface.vertex_fixed[v] == all_fixed)
                 drop(v, DroppedNode::fixed);
-              else if (surface.normal_share[v] < .5)
+              else if (free_normal(v) < rule.smallest_free_normal)
                 drop(v, DroppedNode::normal_fixed);
               else if (excluded.count(surface.vertex_node[v]) > 0)
                 drop(v, DroppedNode::other_pair);
@@ -208,15 +208,28 @@ namespace Signorini
         return std::all_of(vertices.begin(), vertices.end(), [&](const unsigned int v) { return in_r[v]; });
       }
 
-      /// Of the vertices that were dropped for their thin cover only, brings the best covered one back.
+      /// Length of the part of the normal in free directions.
+      double free_normal(const unsigned int v) const
+      {
+        return project_free(surface.vertex_fixed[v], surface.mesh.vertex_normals[v]).norm();
+      }
+
+      /// Whether a vertex could carry a multiplier, if not as well as others.
+      bool may_return(const unsigned int v) const
+      {
+        return in_r[v] && !is_hanging(v) && covered[v] > 0. &&
+               (reason[v] == DroppedNode::thin_cover || reason[v] == DroppedNode::large_row ||
+                (reason[v] == DroppedNode::normal_fixed && free_normal(v) >= RowProjection::smallest_share));
+      }
+
+      /// Of the vertices that were dropped for their thin cover, or a nearly fixed normal, brings the best
+      /// covered one back.
       template <typename List>
       bool return_best(const List &candidates)
       {
         int best = -1;
         for (const unsigned int v : candidates)
-          if (in_r[v] && !is_hanging(v) && covered[v] > 0. &&
-              (reason[v] == DroppedNode::thin_cover || reason[v] == DroppedNode::large_row) &&
-              (best < 0 || share(v) > share(best)))
+          if (may_return(v) && (best < 0 || share(v) > share(best)))
             best = static_cast<int>(v);
         if (best < 0)
           return false;

@@ -39,7 +39,8 @@ namespace Signorini
         {
           result.nodes.push_back(all.nodes[q]);
           result.normals.push_back(all.normals[q]);
-          result.bounds.push_back(bound);
+          result.bounds.push_back(bound / all.share(q));
+          result.shares.push_back(all.share(q));
         }
     return result;
   }
@@ -58,7 +59,8 @@ namespace Signorini
       {
         if (active != nullptr && (*active)[p])
           continue;
-        const double       left   = std::max(0., half_spaces.bounds[p] - half_spaces.normal_part(p, values));
+        const double left =
+            half_spaces.share(p) * std::max(0., half_spaces.bounds[p] - half_spaces.normal_part(p, values));
         const unsigned int row    = half_spaces.nodes[p];
         const Block *const blocks = transfer.row_blocks(row);
         for (std::size_t k = transfer.row_begin(row); k < transfer.row_end(row); ++k)

@@ -31,6 +31,85 @@ def tetrahedra(p):
             iterations(s)
 
 
+def partly(body, sides, axis, angle):
+    """Settings of a rotated block whose sides keep some components of the linear field and are loaded in the others."""
+    values = ('-1e-3*x', '-1e-3*y', '-1e-3*z')
+    conditions = [f'{b}: (' + ', '.join(values[c] if c in components else '*' for c in range(3)) + ')' for b, components in sides.items()]
+    conditions.append(f'{"top" if body == "upper" else "bottom"}: {LINEAR}')
+    return [f'Body {body}/Dirichlet=' + '; '.join(conditions), f'Body {body}/Pressures=left: 2.5; right: 2.5; front: 2.5; back: 2.5',
+            f'Body {body}/Rotation axis={axis}', f'Body {body}/Rotation angle={angle}']
+
+
+def turn(point, axis, angle):
+    """A point turned about an axis through the origin (degrees)."""
+    a = [float(t) for t in axis.split(',')]
+    a = [t / math.hypot(*a) for t in a]
+    c, s = math.cos(math.radians(angle)), math.sin(math.radians(angle))
+    along = sum(t * q for t, q in zip(a, point))
+    return [c * point[i] + s * (a[i - 2] * point[i - 1] - a[i - 1] * point[i - 2]) + (1 - c) * along * a[i] for i in range(3)]
+
+
+def oblique(p):
+    """Contact nodes with some components prescribed and oblique normals: the fixed part of the traction reaches the other body."""
+    one = dict.fromkeys(('left', 'right', 'front', 'back'), (0,))
+    mixed = {'left': (0,), 'right': (1,), 'front': (2,), 'back': (0, 1)}
+    with_clamped = {'left': (0, 1, 2), 'right': (2,), 'front': (1,), 'back': (1, 2)}
+    hanging = ['Refinement/Regions=ball: (0.4, 0.5, 0.3), 0.31, 1; ball: (0.6, 0.5, -0.3), 0.31, 2']
+    few = p.command[0] == 'mpirun'
+    runs = [(one, '1, 2, 3', 25, [], []), (mixed, '1, 2, 3', 25, [], hanging), (with_clamped, '1, -1, 0.3', 50, kinds()[2], hanging),
+            (mixed, '0, 1, 0', 40, kinds()[0], []), (mixed, '1, -1, 0.3', 50, [], []), (one, '2, 1, -1', 130, kinds()[1], hanging)]
+    for sides, axis, angle, kind, more in runs[:3] if few else runs:
+        point = turn((.4, .5, .3), axis, angle)
+        for side in ('first', 'second'):
+            s = p.solve(PATCH_TEST, *partly('upper', sides, axis, angle), *partly('lower', sides, axis, angle), *kind, *more,
+                        f'Pair interface/Nonmortar={side}', f'Body upper/Probes=inside: ({point[0]}, {point[1]}, {point[2]})')
+            constant_pressure(s, 2.5)
+            certificate(s)
+            iterations(s)
+            for value, x in zip(s['probes'][0]['displacement'], point):
+                near(value, -1e-3 * x, 1e-9, 'displacement')
+            # The loads of the four sides balance each other; what the interface takes comes from the conditions.
+            for body, key in (('upper', 'force_on_mortar' if side == 'second' else 'force'), ('lower', 'force' if side == 'second' else 'force_on_mortar')):
+                for c in range(3):
+                    reaction = sum(b['reaction'][c] for b in s['boundaries'] if b['body'] == body)
+                    check(abs(reaction + s['pairs'][0][key][c]) < 1e-9, f'{body}: reactions {reaction}, contact {s["pairs"][0][key]}')
+    # The contact surface itself is fixed in x, nearly its normal: one node of a face carries the pressure.
+    for angle in (60, 84):
+        s = p.solve(PATCH_TEST, *partly('upper', one, '0, 1, 0', angle), *partly('lower', dict(one, top=(0,)), '0, 1, 0', angle),
+                    'Pair interface/Nonmortar=second')
+        constant_pressure(s, 2.5)
+        certificate(s)
+    # A rigid wall: the inclined face of a cube on it.
+    s = p.solve('obstacle/paraboloid.prm', *[t.replace('upper', 'cube') for t in partly('upper', mixed, '0, 1, 0', 40)], 'Body cube/Young modulus=1000',
+                'Body cube/Poisson ratio=0.3', 'Refinement/Global cycles=1',
+                f'Pair bottom/Obstacle=plane: (0, 0, 0), ({math.sin(math.radians(40))!r}, 0, {math.cos(math.radians(40))!r})')
+    constant_pressure(s, 2.5)
+    certificate(s)
+
+
+def oblique_methods(p):
+    """Blocks under pressure whose sides are fixed in x, turned about y: no exact solution, as many iterations as without that."""
+    for angle in (25, 60, 75):
+        n = (math.sin(math.radians(angle)), 0., math.cos(math.radians(angle)))
+        turned = [f'Body {b}/Rotation {k}' for b in ('upper', 'lower') for k in ('axis=0, 1, 0', f'angle={angle}')]
+        forces = []
+        for method, bound in (('accelerated', 12), ('truncated newton multigrid', 20), ('monotone multigrid', 60), ('active set amg', 6)):
+            s = p.solve(PATCH_TEST, *turned, 'Body upper/Dirichlet=' + ''.join(f'{b}: (0, *, *); ' for b in ('left', 'right', 'front', 'back')) +
+                        'top: (' + ', '.join(repr(-.01 * c) for c in n) + ')', 'Body lower/Dirichlet=bottom: (0, 0, 0)', 'Refinement/Global cycles=2',
+                        'Pair interface/Nonmortar=first', f'Solver/Method={method}', 'Solver/Check monotonicity=true')
+            certificate(s)
+            for c in s['cycles']:
+                check(c['nonlinear']['iterations'] <= bound, f'{method}, {angle}: {c["nonlinear"]["iterations"]} iterations')
+                check(c['linear_cg']['difference'] <= 1e-9, f'{method}, {angle}: linear solution differs by {c["linear_cg"]["difference"]}')
+                monotonicity = c['nonlinear'].get('monotonicity', {})
+                check(monotonicity.get('largest_energy_rise', 0) <= 1e-12 and monotonicity.get('largest_violation', 0) <= 1e-12,
+                      f'{method}, {angle}: {monotonicity}')
+            forces.append(s['pairs'][0]['force'])
+        for force in forces[1:]:
+            for c in (0, 2):
+                near(force[c], forces[0][c], 1e-8, f'force at {angle}')
+
+
 def tetrahedra_overhang(p):
     for kind in kinds():
         for wide, narrow, boundary in (('upper', 'lower', 'bottom'), ('lower', 'upper', 'top')):

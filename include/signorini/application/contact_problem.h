@@ -50,10 +50,9 @@ namespace Signorini
     std::vector<ContactPair>          pairs;
     std::vector<PairCoupling>         couplings;
     InterfaceCoupling                 coupling;
-    /// Per row of the coupling: pair and row in the pair, fixed mask, normal, gap.
+    /// Per row of the coupling: pair and row in the pair, A_p with the normal, gap.
     std::vector<std::pair<unsigned int, std::size_t>> origin;
-    std::vector<FixedMask>                            row_masks;
-    std::vector<Vector3>                              normals;
+    std::vector<RowProjection>                        projections;
     std::vector<double>                               gaps;
     std::unique_ptr<BasisTransformation>              transformation;
     /// Physical displacement on `partition`, ghosts up to date.
@@ -133,9 +132,9 @@ namespace Signorini
     void         use_nodal_gaps(PairCoupling &coupling, const ContactPair &pair) const;
     unsigned int choose_nonmortar(const PairDefinition &definition, const ContactSurface (&surfaces)[2]);
     void         solve_cycle(CycleResult &cycle);
-    /// Half-spaces of the contact nodes that a rank owns; gaps as BasisTransformation::reduce_gaps() gives
+    /// Half-spaces of the contact nodes that a rank owns; bounds as BasisTransformation::reduce_gaps() gives
     /// them.
-    HalfSpaces make_half_spaces(const NodePartition &partition, const std::vector<double> &gaps) const;
+    HalfSpaces make_half_spaces(const NodePartition &partition, const std::vector<double> &bounds) const;
     /// @param start null, or what the active set is guessed from
     std::unique_ptr<MultigridHierarchy> make_hierarchy(LinearSystem &&system, const LevelSpaces &levels,
                                                        const ObstacleProblem &problem,
@@ -150,7 +149,7 @@ namespace Signorini
     std::vector<Vector> motions_of_unknowns(const NodePartition       &partition,
                                             const BasisTransformation &transformation) const;
     void evaluate_contact(const Vector &v, const ObstacleProblem &problem, const NodeBlockMatrix &matrix,
-                          const std::vector<double> &gaps, const std::vector<unsigned char> &active);
+                          const std::vector<double> &bounds, const std::vector<unsigned char> &active);
     void solve_linear(CycleResult &cycle, const LevelSpaces &levels, const Vector &start);
     bool refine(const std::vector<bool> &marked);
     /// A displacement of the old space, on the current one.

@@ -6,6 +6,7 @@
 
 #include <signorini/algebra/interface_coupling.h>
 #include <signorini/algebra/node_partition.h>
+#include <signorini/algebra/row_projection.h>
 #include <signorini/discretization/boundary_conditions.h>
 #include <signorini/mesh/nodal_space.h>
 #include <signorini/solvers/obstacle_problem.h>
@@ -14,15 +15,15 @@
 
 namespace Signorini
 {
-  /// u = u_D + T v with T = I + E S, and back (method.md, section 4). v is the unknown of the obstacle
-  /// problem: relative displacement at nodes with a multiplier, zero in fixed components.
+  /// u = u_D + T v with T = I + A S, and back (method.md, sections 4 and 10). v is the unknown of the
+  /// obstacle problem: relative displacement at nodes with a multiplier, zero in fixed components.
   class BasisTransformation
   {
   public:
-    /// All arguments must outlive the object. row_masks: fixed components of the rows of the coupling.
+    /// All arguments must outlive the object. projections: A_p of the rows of the coupling.
     BasisTransformation(const NodalSpace &space, const NodePartition &space_partition,
                         const DirichletData &dirichlet, const InterfaceCoupling &coupling,
-                        const std::vector<FixedMask> &row_masks);
+                        const std::vector<RowProjection> &projections);
 
     /// Collective. The physical displacement of all relevant nodes, hanging ones included, on the
     /// partition of the space. `unknowns` is the partition of v; it knows the columns of owned rows.
@@ -32,20 +33,19 @@ namespace Signorini
     /// nodes. Sets the owned entries of v.
     void from_displacement(Vector &v, const Vector &u) const;
 
-    /// Collective. The bounds of the half-spaces for v: ĝ_p = g_p - n_p·(u_D,p - (S u_D)_p).
-    /// All lists are ordered like the rows of the coupling.
-    std::vector<double> reduce_gaps(const std::vector<double>  &gaps,
-                                    const std::vector<Vector3> &normals) const;
+    /// Collective. The bounds of the half-spaces for v, along RowProjection::direction():
+    /// (g_p - n_p·(u_D,p - (S u_D)_p)) / |m_p|. Both lists are ordered like the rows of the coupling.
+    std::vector<double> reduce_gaps(const std::vector<double> &gaps) const;
 
     /// Sets hanging nodes to their interpolated values and updates the ghosts.
     void interpolate_hanging_nodes(Vector &u) const;
 
   private:
-    const NodalSpace             &space;
-    const NodePartition          &partition;
-    const DirichletData          &dirichlet;
-    const InterfaceCoupling      &coupling;
-    const std::vector<FixedMask> &row_masks;
+    const NodalSpace                 &space;
+    const NodePartition              &partition;
+    const DirichletData              &dirichlet;
+    const InterfaceCoupling          &coupling;
+    const std::vector<RowProjection> &projections;
     /// Rows of the coupling that this rank owns: position, local node.
     std::vector<std::pair<std::size_t, unsigned int>> owned_rows;
     /// Sorted nodes in the columns of the coupling.

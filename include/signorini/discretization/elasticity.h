@@ -26,11 +26,11 @@ namespace Signorini
     std::vector<FixedMask> fixed;
   };
 
-  /// Collective. row_masks: the fixed masks of the rows of the coupling. An empty coupling gives the
+  /// Collective. projections: A_p of the rows of the coupling. An empty coupling gives the
   /// decoupled linear problem. Errors: InputError for cells with nonpositive Jacobian.
   LinearSystem assemble_elasticity(const Bodies &bodies, const NodalSpace &space, const Loads &loads,
                                    const DirichletData &dirichlet, const InterfaceCoupling &coupling,
-                                   const std::vector<FixedMask> &row_masks);
+                                   const std::vector<RowProjection> &projections);
 
   /// Collective. A u - f by node in the physical basis, hanging nodes resolved: at free components what is
   /// left is the contact force, at fixed ones the reaction too. u has the layout of `partition` (owned and

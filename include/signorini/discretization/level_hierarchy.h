@@ -6,6 +6,7 @@
 
 #include <signorini/algebra/interface_coupling.h>
 #include <signorini/algebra/replicated_data.h>
+#include <signorini/algebra/row_projection.h>
 #include <signorini/discretization/elasticity.h>
 #include <signorini/discretization/rigid_support.h>
 #include <signorini/mesh/coarser_meshes.h>
@@ -76,11 +77,11 @@ namespace Signorini
 
   struct HierarchyOptions
   {
-    /// One per row of the coupling: for a monotone multigrid, with relative displacements at contact nodes
-    /// that come from relative displacements alone, turned from normal to normal, and the contact nodes of
-    /// the coarse levels. Empty for the exact nesting.
-    std::vector<Vector3> contact_normals;
-    LevelZeroMethod      level_zero = LevelZeroMethod::automatic;
+    /// For a monotone multigrid: relative displacements at contact nodes come from relative displacements
+    /// alone, turned from normal to normal, and the coarse levels know their contact nodes. Else the exact
+    /// nesting.
+    bool            coarse_obstacles = false;
+    LevelZeroMethod level_zero       = LevelZeroMethod::automatic;
     /// Motions of bodies that only contact holds.
     std::vector<FreeMotion> free_motions;
     const Bodies           *bodies = nullptr;
@@ -99,13 +100,17 @@ namespace Signorini
 
   /// Collective. Galerkin hierarchy with P̂_k = T_k⁻¹ P_k T_{k-1} on all levels. An empty coupling gives the
   /// hierarchy of the decoupled linear problem.
+  /// @param projections A_p of the rows of the coupling
   MultigridHierarchy build_hierarchy(LinearSystem &&system, const LevelSpaces &spaces,
-                                     const InterfaceCoupling &coupling, const HierarchyOptions &options = {});
+                                     const InterfaceCoupling          &coupling,
+                                     const std::vector<RowProjection> &projections,
+                                     const HierarchyOptions           &options = {});
 
   /// Collective. The six rigid motions as v = T⁻¹ u, zero in fixed components, in the layout of a partition
   /// of the nodes of the space: what algebraic multigrid needs to know.
   std::vector<Vector> rigid_motions(const NodalSpace &space, const NodePartition &partition,
-                                    const std::vector<FixedMask> &fixed, const InterfaceCoupling &coupling);
+                                    const std::vector<FixedMask> &fixed, const InterfaceCoupling &coupling,
+                                    const std::vector<RowProjection> &projections);
 } // namespace Signorini
 
 #endif

@@ -6,6 +6,7 @@
 
 #include <signorini/algebra/interface_coupling.h>
 #include <signorini/algebra/nodal_transfer.h>
+#include <signorini/algebra/row_projection.h>
 
 #include <vector>
 
@@ -16,21 +17,21 @@ namespace Signorini
   {
     const InterfaceCoupling &fine;
     /// One per row of the coupling.
-    const std::vector<FixedMask> &fine_masks;
+    const std::vector<RowProjection> &fine_projections;
     /// Sorted nodes of rows and columns of the fine coupling, and their interpolation rows.
-    const std::vector<NodeIndex> &nodes;
-    const NodeRows               &node_rows;
-    const InterfaceCoupling      &coarse;
-    const std::vector<FixedMask> &coarse_masks;
-    /// One per row of the couplings, or empty: see transformed_rows().
-    const std::vector<Vector3> &normals, &coarse_normals;
+    const std::vector<NodeIndex>     &nodes;
+    const NodeRows                   &node_rows;
+    const InterfaceCoupling          &coarse;
+    const std::vector<RowProjection> &coarse_projections;
+    /// Whether coarse obstacles are wanted: see transformed_rows().
+    bool relative_only;
     /// One per row of the fine coupling, or empty: rows that are zero, because their nodes are tied.
     const std::vector<unsigned char> &tied;
   };
 
-  /// The rows of P̂ = (I - E S) P (I + E_c S_c) that differ from those of P, for the local nodes of the fine
-  /// level (method.md, section 5). With normals the rows of contact nodes have relative displacements only,
-  /// turned from the coarse normals to the fine one: what coarse obstacles need.
+  /// The rows of P̂ = (I - A S) P (I + A_c S_c) that differ from those of P, for the local nodes of the fine
+  /// level (method.md, section 5). With relative_only the rows of contact nodes have relative displacements
+  /// only, turned from the coarse normals to the fine one, n·v = sum w n_c·v_c: what coarse obstacles need.
   /// @param rows the rows of P of the local nodes
   std::vector<NodalTransfer::BlockRow> transformed_rows(const NodePartition &partition, const NodeRows &rows,
                                                         const ContactOfLevels &contact);

@@ -5,12 +5,13 @@
 #define signorini_discretization_vertex_expansion_h
 
 #include <signorini/algebra/interface_coupling.h>
+#include <signorini/algebra/row_projection.h>
 #include <signorini/mesh/nodal_space.h>
 
 namespace Signorini
 {
   /// How the displacement of a mesh vertex depends on the unknowns û: hanging nodes are resolved, and
-  /// u = T û with T = I + E S is applied at nonmortar nodes (method.md, section 4).
+  /// u = T û with T = I + A S is applied at nonmortar nodes (method.md, sections 4 and 10).
   class VertexExpansion
   {
   public:
@@ -18,12 +19,13 @@ namespace Signorini
     {
       NodeIndex node;
       double    weight;
-      /// Components in which the term does not act (the fixed ones of the nonmortar node it comes from).
-      FixedMask blocked;
+      /// A_p of the nonmortar node it comes from; null for the identity.
+      const RowProjection *projection;
     };
 
+    /// All arguments must outlive the object. projections: A_p of the rows of the coupling.
     VertexExpansion(const NodalSpace &space, const InterfaceCoupling &coupling,
-                    const std::vector<FixedMask> &row_masks);
+                    const std::vector<RowProjection> &projections);
 
     /// Whether a relevant node is neither hanging nor coupled: its expansion is itself.
     bool is_plain(const NodeIndex node) const
@@ -36,10 +38,10 @@ namespace Signorini
   private:
     void add_conforming(const NodeIndex node, const double weight, std::vector<Term> &terms) const;
 
-    const NodalSpace             &space;
-    const InterfaceCoupling      &coupling;
-    const std::vector<FixedMask> &row_masks;
-    std::vector<bool>             special;
+    const NodalSpace                 &space;
+    const InterfaceCoupling          &coupling;
+    const std::vector<RowProjection> &projections;
+    std::vector<bool>                 special;
   };
 } // namespace Signorini
 

@@ -35,8 +35,8 @@ namespace Signorini
     };
 
     /// Triangles of all faces. Hanging vertices on the edges of a face are corners of its triangles:
-    /// the mesh has no T-junctions. vertex_normals are outward, and already projected onto the free
-    /// directions of the vertex (renormalised) where something remains of them.
+    /// the mesh has no T-junctions. vertex_normals are outward unit normals; on symmetry planes they lie in
+    /// the plane (project_onto_symmetry_planes()).
     SurfaceMesh mesh;
 
     std::vector<Face> faces;
@@ -46,8 +46,6 @@ namespace Signorini
     std::vector<NodeIndex> vertex_node;
     /// Prescribed components of each vertex.
     std::vector<FixedMask> vertex_fixed;
-    /// |E_p n_p|: what the projection onto the free directions left of the unit normal, per vertex.
-    std::vector<double> normal_share;
     /// For hanging vertices: parents (vertex indices) and weights of the closed constraint; else empty.
     std::vector<std::vector<std::pair<unsigned int, double>>> hanging;
     /// The true surface over the facets.

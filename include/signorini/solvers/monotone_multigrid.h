@@ -16,9 +16,9 @@ namespace Signorini
   /// energy further and is admissible: it brings the iterations down to those of the linear multigrid (19
   /// to 14).
   ///
-  /// The transfer must take normal parts to normal parts with weights that add up to at most 1: rows at
-  /// contact nodes are multiples of rotations of the coarse normal into the fine one (build_hierarchy() with
-  /// normals).
+  /// The transfer must take normal parts (times HalfSpaces::share()) to normal parts with weights that add up
+  /// to at most 1: rows at contact nodes are multiples of rotations of the coarse normal into the fine one,
+  /// with the projection of the fine node (build_hierarchy() with coarse obstacles).
   class MonotoneMultigrid : public ObstacleSolver
   {
   public:
@@ -33,7 +33,8 @@ namespace Signorini
     struct Work
     {
       Vector correction, rhs, residual, finer;
-      /// Bounds of normal components at nodes, in the first component; the largest number where none is.
+      /// Bounds of relative displacements along full normals at nodes, in the first component; the largest
+      /// number where none is.
       Vector room;
     };
 

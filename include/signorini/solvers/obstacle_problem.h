@@ -19,6 +19,14 @@ namespace Signorini
     std::vector<Vector3> normals;
     /// Bounds (length).
     std::vector<double> bounds;
+    /// |m| of method.md, section 10: relative displacements along the full normal over those along `normals`.
+    /// Empty: one everywhere.
+    std::vector<double> shares;
+
+    double share(const std::size_t p) const
+    {
+      return shares.empty() ? 1. : shares[p];
+    }
 
     std::size_t size() const
     {

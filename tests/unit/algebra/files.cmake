@@ -3,4 +3,5 @@ signorini_add_unit_tests(algebra RANKS "1;2;4"
   node_block_matrix.cc
   replicated_data.cc
   rounded_sweep.cc
+  row_projection.cc
 )

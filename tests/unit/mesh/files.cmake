@@ -6,4 +6,5 @@ signorini_add_unit_tests(mesh RANKS "1;2;4"
   surface_extraction.cc
   tetrahedral_forest.cc
   surface_file.cc
+  symmetry_planes.cc
 )

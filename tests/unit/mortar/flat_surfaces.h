@@ -68,7 +68,6 @@ namespace FlatSurfaces
       const std::size_t n = surface.mesh.vertices.size();
       surface.hanging.resize(n);
       surface.vertex_fixed.assign(n, 0);
-      surface.normal_share.assign(n, 1.);
       for (unsigned int v = 0; v < n; ++v)
         surface.vertex_node.push_back(grid.first_node + (n - 1 - v));
       surface.mesh.vertex_normals.assign(n, Point<3>(0., 0., grid.faces_up ? 1. : -1.));

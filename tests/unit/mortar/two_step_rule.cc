@@ -188,8 +188,10 @@ TEST(TwoStepRule, FixedBorderAndExcludedNodeAndNormal)
       if (c.non.mesh.vertices[v].distance(Point<3>(.4, .8, 0.)) < 1e-10)
         c.excluded.insert(c.non.vertex_node[v]);
       if (c.non.mesh.vertices[v].distance(Point<3>(.8, .4, 0.)) < 1e-10)
-        c.non.normal_share[v] = .4;
+        c.non.vertex_fixed[v] = 1;
     }
+  // Of the inclined normal this much is free there.
+  c.rule.smallest_free_normal = .85;
   c.check(1e-13, 8);
   std::map<DroppedNode::Reason, unsigned int> reasons;
   for (const auto &node : c.coupling.dropped)
