@@ -388,3 +388,27 @@ def tied(p):
     run = p.call(os.path.join(TOP, 'prm', PATCH_TEST), '--set', 'Pair interface/Contact=tied', '--set', 'Body upper/Dirichlet=',
                  '--set', 'Body lower/Dirichlet=', '--output', os.path.join(tempfile.gettempdir(), 'signorini-tied'))
     check(run.returncode == 1 and 'tied to' in run.stderr, f'free bodies: {run.stderr}')
+
+
+def probes(p):
+    """A linear field at a grid of points through curved bodies: exact at all of them, whatever the cells look like."""
+    linear = '(x, 0.5*y - 0.25*x, 0.125*z)'
+
+    def solve(name, points, *settings):
+        listed = '; '.join(f'{i}: ({x:.6g}, {y:.6g}, {z:.6g})' for i, (x, y, z) in enumerate(points))
+        s = p.solve(os.path.join(TOP, 'tests', 'application', 'ball.prm'), *settings, f'Body ball/Probes={listed}')
+        check(len(s['probes']) == len(points), f'{name}: {len(s["probes"])} probes at {len(points)} points')
+        wrong = []
+        for probe in s['probes']:
+            x, y, z = probe['point']
+            exact = (x, .5 * y - .25 * x, .125 * z)
+            if any(abs(u - e) > 1e-9 for u, e in zip(probe['displacement'], exact)):
+                wrong.append((probe['point'], probe['displacement']))
+        print(f'{name}: {len(points)} points, {len(wrong)} wrong')
+        check(not wrong, f'{name}: {len(wrong)} of {len(points)} points are wrong, such as {wrong[:1]}')
+    n = 10
+    grid = [(i / n, j / n, k / n) for i in range(-n, n + 1) for j in range(-n, n + 1) for k in range(-n, n + 1)]
+    solve('ball', [(-.2, -.7, .1)] + [q for q in grid if math.hypot(*q) <= .95], f'Body ball/Dirichlet=sphere: {linear}')
+    solve('tetrahedra cut into hexahedra', [(x, y, z + 1) for x, y, z in grid if z < 0 and math.hypot(x, y, z) <= .93],
+          f'Body ball/Mesh={TOP}/prm/hertz/half_sphere_on_cube.msh', 'Body ball/Volumes=ball', 'Body ball/Convert to hexahedra=true',
+          f'Body ball/Dirichlet=sphere: {linear}; ball top: {linear}', 'Refinement/Global cycles=0')

@@ -36,7 +36,8 @@ namespace Signorini
     std::pair<double, dealii::Point<3>> volume_element(const Corners     &corners,
                                                        const unsigned int gauss_point);
 
-    /// Reference coordinates of a point in space (Newton); returns false if it does not converge.
+    /// Reference coordinates of a point in space, to rounding. A point of a cell that is not folded is found
+    /// inside. Elsewhere there may be several, or none: those found that lie nearest to the cell, or false.
     bool invert_map(dealii::Point<3> &reference, const Corners &corners, const dealii::Point<3> &point);
   } // namespace Hexahedron
 } // namespace Signorini
