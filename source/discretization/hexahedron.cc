@@ -87,6 +87,18 @@ namespace Signorini
               }
           }
       }
+
+      /// Adds bulk V m mᵀ to the blocks a <= b: m are the mean gradients, of which the sum of the gradients
+      /// times their weights is V times as much.
+      void add_mean_dilatation(std::array<double, 576> &blocks, const double (&sum)[8][3], const double bulk,
+                               const double volume)
+      {
+        for (unsigned int a = 0; a < 8; ++a)
+          for (unsigned int b = a; b < 8; ++b)
+            for (unsigned int c = 0; c < 3; ++c)
+              for (unsigned int d = 0; d < 3; ++d)
+                blocks[9 * (8 * a + b) + 3 * c + d] += bulk / volume * sum[a][c] * sum[b][d];
+      }
     } // namespace
 
 
@@ -113,10 +125,14 @@ namespace Signorini
 
 
     bool stiffness(std::array<double, 576> &blocks, const Corners &corners, const double young,
-                   const double poisson)
+                   const double poisson, const bool mean_dilatation)
     {
-      const double lambda = young * poisson / ((1. + poisson) * (1. - 2. * poisson));
-      const double mu     = .5 * young / (1. + poisson);
+      const double mu   = .5 * young / (1. + poisson);
+      const double bulk = young / (3. * (1. - 2. * poisson));
+      // What is left for the Gauss points beside the mean dilatation is the deviator.
+      const double lambda =
+          mean_dilatation ? -2. / 3. * mu : young * poisson / ((1. + poisson) * (1. - 2. * poisson));
+      double volume = 0., sum[8][3] = {};
       blocks.fill(0.);
       for (unsigned int q = 0; q < 8; ++q)
         {
@@ -132,7 +148,16 @@ namespace Signorini
               g[a][c] = t[c][0] * gradients[a][0] + t[c][1] * gradients[a][1] + t[c][2] * gradients[a][2];
           const double weight = .125 * det;
           add_gauss_point(blocks, g, weight * lambda, weight * mu);
+          if (mean_dilatation)
+            {
+              volume += weight;
+              for (unsigned int a = 0; a < 8; ++a)
+                for (unsigned int c = 0; c < 3; ++c)
+                  sum[a][c] += weight * g[a][c];
+            }
         }
+      if (mean_dilatation)
+        add_mean_dilatation(blocks, sum, bulk, volume);
       for (unsigned int a = 0; a < 8; ++a)
         for (unsigned int b = 0; b < a; ++b)
           for (unsigned int c = 0; c < 3; ++c)
@@ -159,15 +184,15 @@ namespace Signorini
       /// How far inverse maps are followed.
       struct InversionRule
       {
-        /// Steps of a damped Newton's method, and halvings of one. Of 25,000 points in cells whose corners are moved
-        /// by up to half of an edge in each direction none took more than 11 steps.
+        /// Steps of a damped Newton's method, and halvings of one. Of 25,000 points in cells whose corners
+        /// are moved by up to half of an edge in each direction none took more than 11 steps.
         unsigned int steps = 20, halvings = 8;
         /// Reference coordinates farther away than this are of no use to anyone.
         double reach = 100.;
         /// Size of the residual on the scale of the terms it is the difference of.
         double tolerance = 1e-14;
-        /// How often the cell is cut into eight to start from the pieces that may contain the point: 22 of those
-        /// points were not reached from the centre, but after two cuts at most.
+        /// How often the cell is cut into eight to start from the pieces that may contain the point: 22 of
+        /// those points were not reached from the centre, but after two cuts at most.
         unsigned int cuts = 6;
         /// A point that lies on the cell but for rounding is inside (reference coordinates).
         double inside = 1e-10;
@@ -211,8 +236,8 @@ namespace Signorini
             const double det = determinant(j);
             if (!(std::abs(det) > 0.))
               return false;
-            const Tensor<1, 3> way    = invert(j) * residual;
-            double             length = 1.;
+            const Tensor<1, 3> way     = invert(j) * residual;
+            double             length  = 1.;
             unsigned int       halving = 0;
             Point<3>           next;
             for (; halving <= rule.halvings; ++halving, length *= .5)
@@ -274,8 +299,8 @@ namespace Signorini
           shifted[a] = Point<3>(corners[a] - point);
           size       = std::max(size, corners[a].distance(corners[0]));
         }
-      bool       found = false;
-      double     best  = std::numeric_limits<double>::max();
+      bool       found    = false;
+      double     best     = std::numeric_limits<double>::max();
       const auto try_from = [&](const Point<3> &start) {
         Point<3> result = start;
         if (!find_origin(result, shifted))
@@ -290,8 +315,8 @@ namespace Signorini
       try_from(Point<3>(.5, .5, .5));
       if (best <= rule.inside)
         return true;
-      // Pieces whose image may contain the point, smaller and smaller: they close in on the point if it lies in
-      // the cell, and run out if it does not.
+      // Pieces whose image may contain the point, smaller and smaller: they close in on the point if it lies
+      // in the cell, and run out if it does not.
       std::vector<Piece> pieces = {{Point<3>(), 1.}}, smaller;
       for (unsigned int cut = 0; cut <= rule.cuts && best > rule.inside; ++cut)
         {

@@ -3,4 +3,5 @@ signorini_add_unit_tests(discretization RANKS "1;2;4"
   error_indicator.cc
   hexahedron.cc
   level_hierarchy.cc
+  mean_dilatation.cc
 )

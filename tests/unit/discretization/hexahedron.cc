@@ -4,6 +4,7 @@
 #include <signorini/algebra/types.h>
 #include <signorini/discretization/hexahedron.h>
 
+#include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
 #include <random>
@@ -67,19 +68,26 @@ namespace
             x[v][c] = (v >> c & 1) + move(random);
         double smallest = 1.;
         for (unsigned int i = 0; i < 125; ++i)
-          smallest =
-              std::min(smallest, determinant_at(x, Point<3>(.25 * (i % 5), .25 * (i / 5 % 5), .25 * (i / 25))));
+          smallest = std::min(smallest,
+                              determinant_at(x, Point<3>(.25 * (i % 5), .25 * (i / 5 % 5), .25 * (i / 25))));
         if (smallest > .01)
           return x;
       }
   }
 } // namespace
 
-TEST(Hexahedron, RigidMotionsCauseNoForces)
+/// Without and with mean dilatation.
+class HexahedronElement : public testing::TestWithParam<bool>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(Dilatation, HexahedronElement, testing::Bool());
+
+TEST_P(HexahedronElement, RigidMotionsCauseNoForces)
 {
   const auto              x = skew_cell();
   std::array<double, 576> blocks;
-  ASSERT_TRUE(Hexahedron::stiffness(blocks, x, 7., .3));
+  ASSERT_TRUE(Hexahedron::stiffness(blocks, x, 7., .3, GetParam()));
   for (unsigned int mode = 0; mode < 6; ++mode)
     {
       std::array<Vector3, 8> u;
@@ -98,13 +106,13 @@ TEST(Hexahedron, RigidMotionsCauseNoForces)
 }
 
 // A linear displacement: the energy is that of the constant stress.
-TEST(Hexahedron, EnergyOfAConstantStrain)
+TEST_P(HexahedronElement, EnergyOfAConstantStrain)
 {
   const double young = 7., nu = .3, mu = young / (2. * (1. + nu)),
                lambda       = young * nu / ((1. + nu) * (1. - 2. * nu));
   const auto              x = skew_cell();
   std::array<double, 576> blocks;
-  ASSERT_TRUE(Hexahedron::stiffness(blocks, x, young, nu));
+  ASSERT_TRUE(Hexahedron::stiffness(blocks, x, young, nu, GetParam()));
   const double gradient[3][3] = {{.1, .2, -.3}, {.4, -.5, .6}, {-.7, .8, .9}};
   double       volume = 0., energy = 0., trace = 0., strain2 = 0.;
   for (unsigned int q = 0; q < 8; ++q)
@@ -148,6 +156,33 @@ TEST(Hexahedron, FindsThePointOfAReferencePoint)
     }
 }
 
+// Of the displacements of a nearly incompressible cell one changes its volume; the others cost no more than
+// shear. With displacements alone those without divergence at all Gauss points are few.
+TEST(Hexahedron, MeanDilatationCostsVolumeOnlyOnce)
+{
+  const double young = 3., poisson = .4999999, mu = .5 * young / (1. + poisson);
+  for (const bool mean_dilatation : {false, true})
+    {
+      std::array<double, 576> blocks;
+      ASSERT_TRUE(Hexahedron::stiffness(blocks, skew_cell(), young, poisson, mean_dilatation));
+      Eigen::MatrixXd matrix(24, 24);
+      for (unsigned int a = 0; a < 8; ++a)
+        for (unsigned int b = 0; b < 8; ++b)
+          for (unsigned int c = 0; c < 9; ++c)
+            matrix(3 * a + c / 3, 3 * b + c % 3) = blocks[9 * (8 * a + b) + c];
+      EXPECT_LT((matrix - matrix.transpose()).norm(), 1e-14 * matrix.norm());
+      const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix).eigenvalues();
+      unsigned int          n_zero = 0, n_large = 0;
+      for (unsigned int i = 0; i < 24; ++i)
+        {
+          n_zero += std::abs(values(i)) < 1e-6 * mu;
+          n_large += values(i) > 1e3 * mu;
+        }
+      EXPECT_EQ(n_zero, 6u);
+      EXPECT_TRUE(mean_dilatation ? n_large == 1 : n_large >= 7) << n_large;
+    }
+}
+
 // Distorted cells of any size, far from the origin too: a point inside is found there, and what is found
 // outside leads back to the point.
 TEST(Hexahedron, FindsPointsInDistortedCells)
@@ -183,7 +218,8 @@ TEST(Hexahedron, FindsPointsInDistortedCells)
   EXPECT_GT(n_found, 12000u);
 }
 
-// x = a (1 - c), y = b, z = c: an edge of the cell has no length, and in the plane z = 1 there is nothing but it.
+// x = a (1 - c), y = b, z = c: an edge of the cell has no length, and in the plane z = 1 there is nothing but
+// it.
 TEST(Hexahedron, DoesNotFindWhatIsNotThere)
 {
   Hexahedron::Corners x;
