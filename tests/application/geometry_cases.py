@@ -137,7 +137,8 @@ def locking(p):
     reference, _ = solve(.3)
     mean, _ = solve(.3, *(f'Body {b}/Element=mean dilatation' for b in ('inner', 'outer')))
     check(mean[0] <= .8 * reference[0] and mean[1] <= .8 * reference[1], f'nu = 0.3 with mean dilatation: {mean}, without {reference}')
-    for nu, bound in ((.49, 25), (.499, 55)):
+    # On several ranks blocks of strongly coupled nodes end at the borders between them.
+    for nu, bound in ((.49, 25), (.499, 65)):
         error, count = solve(nu)
         # Even below the plain element at 0.3; the energy norm is that of the strains of the element.
         check(error[0] <= reference[0] and error[1] <= reference[1], f'nu = {nu}: errors {error}, at 0.3 {reference}')

@@ -6,6 +6,8 @@
 #include <signorini/discretization/element.h>
 #include <signorini/discretization/error_indicator.h>
 
+#include "../mesh/mesh_file.h"
+
 #include <gtest/gtest.h>
 
 using namespace Signorini;
@@ -96,6 +98,34 @@ TEST(MeanDilatation, WhereItIs)
   EXPECT_TRUE(Bodies(MPI_COMM_WORLD, {p}, ".").notes().empty());
   p.element = "mean dilatation";
   EXPECT_THROW(Bodies(MPI_COMM_WORLD, {p}, "."), InputError);
+}
+
+
+
+TEST(MeanDilatation, MaterialByMaterial)
+{
+  std::vector<Point<3>> points;
+  for (unsigned int i = 0; i < 12; ++i)
+    points.emplace_back(i % 2, i / 2 % 2, i / 4);
+  // Rubber on steel.
+  const TemporaryFile file(gmsh_text(points, {"5 2 1 1 1 2 4 3 5 6 8 7", "5 2 2 2 5 6 8 7 9 10 12 11"},
+                                     "2\n3 1 \"steel\"\n3 2 \"rubber\"\n"));
+  BodyParameters      p;
+  p.name             = "body";
+  p.mesh             = file.path;
+  p.poisson          = .3;
+  p.volume_materials = "rubber: 1, 0.49";
+  const Bodies     bodies(MPI_COMM_WORLD, {p}, ".");
+  const NodalSpace space(MPI_COMM_WORLD, bodies.mesh());
+  unsigned int     n = 0;
+  for (const NodalSpace::Cell &cell : space.cells())
+    if (cell.is_owned)
+      {
+        const bool above = Element(space, cell).centre()[2] > 1.;
+        EXPECT_EQ(bodies.material(cell.material).mean_dilatation, above);
+        ++n;
+      }
+  EXPECT_EQ(dealii::Utilities::MPI::sum(n, MPI_COMM_WORLD), 2u);
 }
 
 
