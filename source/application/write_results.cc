@@ -46,9 +46,9 @@ namespace Signorini
       std::vector<OutputField> fields;
       fields.push_back({"displacement", 3, relevant_values(d)});
       if (parameters.write_stress)
-        for (OutputField &field : nodal_stress(*d.space, fields[0].values, [&](const types::material_id id) {
-               const Material &m = problem.body_data().material(id);
-               return std::make_pair(m.young, m.poisson);
+        for (OutputField &field :
+             nodal_stress(*d.space, fields[0].values, [&](const types::material_id id) -> const Material & {
+               return problem.body_data().material(id);
              }))
           fields.push_back(std::move(field));
       write_bodies(folder, "bodies", *d.space, fields, [&](const types::material_id id) {

@@ -170,7 +170,7 @@ namespace Signorini
         data.element     = Element(space, cell);
         data.vertices.reinit(space.nodes(cell).data(), cell.n_vertices);
         const auto &material = bodies.material(cell.material);
-        if (!data.element.stiffness(data.stiffness, material.young, material.poisson))
+        if (!data.element.stiffness(data.stiffness, material))
           {
             std::ostringstream message;
             message << "Body " << bodies.body_name(material.body) << ": inverted cell near ("

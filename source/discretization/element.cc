@@ -44,10 +44,11 @@ namespace Signorini
 
 
 
-  bool Element::stiffness(std::array<double, 576> &blocks, const double young, const double poisson) const
+  bool Element::stiffness(std::array<double, 576> &blocks, const Material &material) const
   {
+    const double young = material.young, poisson = material.poisson;
     if (n == CellShape::hexahedron)
-      return Hexahedron::stiffness(blocks, corners, young, poisson);
+      return Hexahedron::stiffness(blocks, corners, young, poisson, material.mean_dilatation);
     std::array<Vector3, 8> g;
     if (!shape_gradients(g, Point<3>()))
       return false;
@@ -188,14 +189,71 @@ namespace Signorini
 
 
 
-  Block stress(const Block &gradient, const double young, const double poisson)
+  Block stress(const Block &gradient, const Material &material)
   {
+    const double young = material.young, poisson = material.poisson;
     const double lambda = young * poisson / ((1. + poisson) * (1. - 2. * poisson));
     const double mu     = .5 * young / (1. + poisson);
     Block        sigma  = mu * (gradient + transpose(gradient));
     for (unsigned int c = 0; c < 3; ++c)
       sigma[c][c] += lambda * trace(gradient);
     return sigma;
+  }
+
+
+
+  CellDisplacement::CellDisplacement(const Element &element, const Material &material,
+                                     const std::array<Vector3, CellShape::max_vertices> &u)
+    : element(element)
+    , material(material)
+    , u(u)
+  {
+    // That of linear tetrahedra is constant.
+    if (!material.mean_dilatation || element.n_vertices() == CellShape::tetrahedron)
+      return;
+    double volume = 0., sum = 0.;
+    Block  gradient;
+    for (unsigned int q = 0; q < element.n_points(); ++q)
+      if (plain_gradient(gradient, element.reference_point(q)))
+        {
+          const double weight = element.volume_element(q).first;
+          volume += weight;
+          sum += weight * trace(gradient);
+        }
+    if (volume > 0.)
+      {
+        has_mean_dilatation = true;
+        mean_dilatation     = sum / volume;
+      }
+  }
+
+
+
+  bool CellDisplacement::plain_gradient(Block &gradient, const Point<3> &reference) const
+  {
+    std::array<Vector3, CellShape::max_vertices> g;
+    if (!element.shape_gradients(g, reference))
+      return false;
+    gradient = Block();
+    for (unsigned int v = 0; v < element.n_vertices(); ++v)
+      gradient += outer_product(u[v], g[v]);
+    return true;
+  }
+
+
+
+  Block CellDisplacement::gradient(const Point<3> &reference) const
+  {
+    Block result;
+    if (!plain_gradient(result, reference))
+      return Block();
+    if (has_mean_dilatation)
+      {
+        const double change = (mean_dilatation - trace(result)) / 3.;
+        for (unsigned int c = 0; c < 3; ++c)
+          result[c][c] += change;
+      }
+    return result;
   }
 
 

@@ -13,30 +13,28 @@ namespace Signorini
 
   namespace
   {
+    std::array<Vector3, CellShape::max_vertices> cell_values(const NodalSpace       &space,
+                                                             const NodePartition    &partition,
+                                                             const Vector           &displacement,
+                                                             const NodalSpace::Cell &cell)
+    {
+      std::array<Vector3, CellShape::max_vertices> u;
+      const auto                                   nodes = space.nodes(cell);
+      for (unsigned int v = 0; v < nodes.size(); ++v)
+        for (unsigned int c = 0; c < dim; ++c)
+          u[v][c] = displacement.local_element(dim * partition.to_local(nodes[v]) + c);
+      return u;
+    }
+
     /// Stress of the discrete solution in one cell.
-    class CellStress
+    class CellStress : public CellDisplacement
     {
     public:
       CellStress(const Bodies &bodies, const NodalSpace &space, const NodePartition &partition,
                  const Vector &displacement, const NodalSpace::Cell &cell)
-        : element(space, cell)
-        , material(bodies.material(cell.material))
+        : CellDisplacement(Element(space, cell), bodies.material(cell.material),
+                           cell_values(space, partition, displacement, cell))
       {
-        const auto nodes = space.nodes(cell);
-        for (unsigned int v = 0; v < nodes.size(); ++v)
-          for (unsigned int c = 0; c < dim; ++c)
-            u[v][c] = displacement.local_element(dim * partition.to_local(nodes[v]) + c);
-      }
-
-      Block at(const Point<3> &reference) const
-      {
-        std::array<Vector3, CellShape::max_vertices> g;
-        if (!element.shape_gradients(g, reference))
-          return Block();
-        Block gradient;
-        for (unsigned int v = 0; v < element.n_vertices(); ++v)
-          gradient += outer_product(u[v], g[v]);
-        return stress(gradient, material.young, material.poisson);
       }
 
       /// At a point in space.
@@ -45,7 +43,7 @@ namespace Signorini
         Point<3> reference(.25, .25, .25);
         if (element.n_vertices() == CellShape::hexahedron && !element.invert_map(reference, point))
           reference = Point<3>(.5, .5, .5);
-        return at(reference);
+        return stress(reference);
       }
 
       /// At the centre, by differences of the stress between opposite faces (exact where the stress is
@@ -68,7 +66,7 @@ namespace Signorini
             Point<3> low(.5, .5, .5), high = low;
             low[d]  = 0.;
             high[d] = 1.;
-            result += (at(high) - at(low)) * Vector3(inverse[d]);
+            result += (stress(high) - stress(low)) * Vector3(inverse[d]);
           }
         return result;
       }
@@ -77,12 +75,6 @@ namespace Signorini
       {
         return .5 * material.young / (1. + material.poisson);
       }
-
-      const Element   element;
-      const Material &material;
-
-    private:
-      std::array<Vector3, CellShape::max_vertices> u;
     };
 
 

@@ -36,7 +36,7 @@ namespace Signorini
 
     double energy_density(const Block &gradient, const Material &material)
     {
-      return scalar_product(stress(gradient, material.young, material.poisson), gradient);
+      return scalar_product(stress(gradient, material), gradient);
     }
   } // namespace
 
@@ -53,10 +53,11 @@ namespace Signorini
           const Element                                element(space, cell);
           const auto                                   nodes    = space.nodes(cell);
           const Material                              &material = bodies.material(cell.material);
-          std::array<Vector3, CellShape::max_vertices> u, g;
+          std::array<Vector3, CellShape::max_vertices> u;
           for (unsigned int v = 0; v < nodes.size(); ++v)
             for (unsigned int c = 0; c < dim; ++c)
               u[v][c] = displacement.local_element(dim * partition.to_local(nodes[v]) + c);
+          const CellDisplacement discrete(element, material, u);
           for (unsigned int q = 0; q < element.n_points(); ++q)
             {
               const auto [weight, point]   = element.volume_element(q);
@@ -64,13 +65,9 @@ namespace Signorini
               const Vector3 known          = value_of(exact, point);
               const Block   known_gradient = gradient_of(exact, point, 1e-3 * element.diameter());
               Vector3       error          = known;
-              Block         gradient       = known_gradient;
-              element.shape_gradients(g, element.reference_point(q));
+              const Block   gradient       = known_gradient - discrete.gradient(element.reference_point(q));
               for (unsigned int v = 0; v < nodes.size(); ++v)
-                {
-                  error -= shape[v] * u[v];
-                  gradient -= outer_product(u[v], g[v]);
-                }
+                error -= shape[v] * u[v];
               sums[0] += weight * error.norm_square();
               sums[1] += weight * known.norm_square();
               sums[2] += weight * energy_density(gradient, material);

@@ -55,6 +55,12 @@ namespace Signorini
     prm.add_parameter("Young modulus", young, "Young's modulus E > 0 (force per area).");
     prm.add_parameter("Poisson ratio", poisson, "Poisson's ratio, -1 < nu < 0.5.");
     prm.add_parameter(
+        "Element", element,
+        "What hexahedra are made of: displacements alone (standard), or with the mean change of volume of "
+        "each cell (mean dilatation), which does not lock where Poisson's ratio is near 0.5; automatic: mean "
+        "dilatation where it is above 0.4, material by material.",
+        Patterns::Selection("automatic|standard|mean dilatation"));
+    prm.add_parameter(
         "Volumes", volumes,
         "Physical volumes of the mesh file that belong to this body (names or ids, separated by "
         "commas); empty for all.");
@@ -260,6 +266,7 @@ namespace Signorini
             body.material_of_volume[it - body.mesh.volume_names.begin()] =
                 static_cast<unsigned int>(materials.size() - 1);
           }
+        choose_elements(p, body);
 
         if (p.rotation_angle != 0.)
           {

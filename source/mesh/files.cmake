@@ -1,6 +1,7 @@
 signorini_add_layer(mesh
   abaqus_input.cc
   bodies.cc
+  body_elements.cc
   body_shapes.cc
   boundary_shape.cc
   coarser_meshes.cc

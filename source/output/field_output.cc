@@ -212,7 +212,7 @@ namespace Signorini
 
   std::vector<OutputField>
   nodal_stress(const NodalSpace &space, const std::vector<double> &displacement,
-               const std::function<std::pair<double, double>(const types::material_id material)> &material)
+               const std::function<const Material &(const types::material_id material)> &material)
   {
     const NodePartition partition(space.owned(), space.relevant(), space.communicator());
     Vector              normal, shear, weight;
@@ -223,18 +223,14 @@ namespace Signorini
         {
           const auto                                   nodes = space.nodes(cell);
           const Element                                element(space, cell);
-          std::array<Vector3, CellShape::max_vertices> gradients;
-          // The centre is the most accurate point of a hexahedron.
-          element.shape_gradients(gradients, Point<3>(.5, .5, .5));
-          Block gradient;
+          std::array<Vector3, CellShape::max_vertices> u;
           for (unsigned int v = 0; v < nodes.size(); ++v)
             for (unsigned int c = 0; c < 3; ++c)
-              for (unsigned int d = 0; d < 3; ++d)
-                gradient[c][d] +=
-                    displacement[3 * space.relevant().index_within_set(nodes[v]) + c] * gradients[v][d];
-          const auto [young, poisson] = material(cell.material);
-          const Block  sigma          = stress(gradient, young, poisson);
-          const double volume         = element.volume();
+              u[v][c] = displacement[3 * space.relevant().index_within_set(nodes[v]) + c];
+          // The centre is the most accurate point of a hexahedron.
+          const Block sigma =
+              CellDisplacement(element, material(cell.material), u).stress(Point<3>(.5, .5, .5));
+          const double volume = element.volume();
           for (const NodeIndex node : nodes)
             {
               const unsigned int i = partition.to_local(node);

@@ -1,6 +1,8 @@
 """Cases of complicated geometries: tetrahedra, adaptive meshes, boundary shapes, mesh files."""
+import itertools
 import math
 import os
+import random
 import struct
 import tempfile
 
@@ -152,10 +154,10 @@ def solve_dense(matrix, right):
     return x
 
 
-def lame():
+def lame(nu1=.3, nu2=.25):
     """Two shells 1 < r < 1.5 < 2.5 under the pressure 10 inside: u = A r + B / r^2 in each; the contact pressure."""
     a, b, c, pressure = 1., 1.5, 2.5, 10.
-    (k1, m1), (k2, m2) = ((E / (1 - 2 * nu), E / 2 / (1 + nu)) for E, nu in ((1000., .3), (2000., .25)))
+    (k1, m1), (k2, m2) = ((E / (1 - 2 * nu), E / 2 / (1 + nu)) for E, nu in ((1000., nu1), (2000., nu2)))
     x = solve_dense([[k1, -4 * m1 / a ** 3, 0, 0], [0, 0, k2, -4 * m2 / c ** 3],
                      [k1, -4 * m1 / b ** 3, -k2, 4 * m2 / b ** 3], [b, 1 / b ** 2, -b, -1 / b ** 2]], [-pressure, 0, 0, 0])
     return x, -(k1 * x[0] - 4 * m1 * x[1] / b ** 3)
@@ -188,6 +190,85 @@ def shells(p):
         check(abs(pair['max_pressure'] / contact - 1) < .15 and abs(pair['min_pressure'] / contact - 1) < .15,
               f'{name}: pressure {pair["min_pressure"]} to {pair["max_pressure"]}, expected {contact}')
         certificate(s)
+
+
+def locking(p):
+    """The shells with hexahedra, nearly incompressible: errors as at nu = 0.3, of the same orders."""
+    def exact(body, a, b):
+        return f'Body {body}/Exact displacement=(' + ', '.join(f'({a!r} + {b!r}*(x^2 + y^2 + z^2)^(-1.5))*{c}' for c in 'xyz') + ')'
+
+    def solve(nu, *settings):
+        (a1, b1, a2, b2), contact = lame(nu, nu)
+        s = p.solve(os.path.join(TOP, 'tests', 'application', 'shells.prm'), exact('inner', a1, b1), exact('outer', a2, b2),
+                    f'Body inner/Poisson ratio={nu}', f'Body outer/Poisson ratio={nu}', *settings)
+        errors = [[math.sqrt(sum(e[f'{k}_error'] ** 2 for e in c['exact'].values()) / sum(e[f'{k}_norm'] ** 2 for e in c['exact'].values()))
+                   for k in ('l2', 'energy')] for c in s['cycles']]
+        counts = [c['nonlinear']['iterations'] for c in s['cycles']]
+        pair = s['pairs'][0]
+        pressures = [pair[f'{k}_pressure'] / contact - 1 for k in ('min', 'max')]
+        print(f'nu = {nu} {settings}: errors', ', '.join(f'{l2:.2%} {energy:.2%}' for l2, energy in errors), 'iterations', counts,
+              'pressures {:+.2%} {:+.2%}'.format(*pressures))
+        certificate(s, 1e-7)
+        orders = [math.log2(old / new) for old, new in zip(errors[-2], errors[-1])]
+        check(orders[0] >= 1.9 and orders[1] >= .95, f'nu = {nu}: orders {orders}')
+        check(max(map(abs, pressures)) <= .01, f'nu = {nu}: pressures {pressures}')
+        return errors[-1], max(counts)
+    reference, _ = solve(.3)
+    mean, _ = solve(.3, *(f'Body {b}/Element=mean dilatation' for b in ('inner', 'outer')))
+    check(mean[0] <= .8 * reference[0] and mean[1] <= .8 * reference[1], f'nu = 0.3 with mean dilatation: {mean}, without {reference}')
+    # On several ranks blocks of strongly coupled nodes end at the borders between them.
+    for nu, bound in ((.49, 25), (.499, 65)):
+        error, count = solve(nu)
+        # Even below the plain element at 0.3; the energy norm is that of the strains of the element.
+        check(error[0] <= reference[0] and error[1] <= reference[1], f'nu = {nu}: errors {error}, at 0.3 {reference}')
+        check(count <= bound, f'nu = {nu}: {count} iterations')
+
+
+def write_distorted_block(path, low, high, n, seed):
+    """A block of n^3 hexahedra whose nodes are moved, those of the border within their sides; boundaries left to top."""
+    rng = random.Random(seed)
+    names = ('left', 'right', 'front', 'back', 'bottom', 'top')
+
+    def node(i, j, k):
+        return 1 + i + (n + 1) * (j + (n + 1) * k)
+    with open(path, 'w') as f:
+        f.write('$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n7\n3 7 "block"\n')
+        f.writelines(f'2 {i + 1} "{name}"\n' for i, name in enumerate(names))
+        f.write(f'$EndPhysicalNames\n$Nodes\n{(n + 1) ** 3}\n')
+        for place in itertools.product(range(n + 1), repeat=3):
+            moved = [(i + (rng.uniform(-.25, .25) if 0 < i < n else 0)) / n for i in reversed(place)]
+            x = [a + t * (b - a) for a, b, t in zip(low, high, moved)]
+            f.write(f'{node(*reversed(place))} {x[0]!r} {x[1]!r} {x[2]!r}\n')
+        lines = ['5 2 7 1 ' + ' '.join(str(node(i + a, j + b, k + c)) for a, b, c in
+                                       ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)))
+                 for i, j, k in itertools.product(range(n), repeat=3)]
+        for axis, end in itertools.product(range(3), range(2)):
+            for i, j in itertools.product(range(n), repeat=2):
+                corners = []
+                for a, b in ((0, 0), (1, 0), (1, 1), (0, 1)):
+                    place = [i + a, j + b]
+                    place.insert(axis, n * end)
+                    corners.append(str(node(*place)))
+                lines.append(f'3 2 {2 * axis + end + 1} {2 * axis + end + 1} ' + ' '.join(corners))
+        f.write(f'$EndNodes\n$Elements\n{len(lines)}\n')
+        f.writelines(f'{i + 1} {line}\n' for i, line in enumerate(lines))
+        f.write('$EndElements\n')
+
+
+def mean_dilatation(p):
+    """Patch tests with mean dilatation on distorted hexahedra, with hanging nodes; one body with it and one without."""
+    with tempfile.TemporaryDirectory() as folder:
+        blocks = []
+        for body, z, n in (('upper', 0., 3), ('lower', -1., 4)):
+            path = os.path.join(folder, f'{body}.msh')
+            write_distorted_block(path, (0., 0., z), (1., 1., z + 1.), n, n)
+            blocks.append(f'Body {body}/Mesh={path}')
+        for material in (['Body upper/Poisson ratio=0.499', 'Body lower/Poisson ratio=0.49'], ['Body lower/Poisson ratio=0.49'],
+                         [f'Body {b}/Element=mean dilatation' for b in ('upper', 'lower')]):
+            for region in ([], ['Refinement/Regions=ball: (0.4, 0.5, 0.3), 0.31, 1; ball: (0.6, 0.5, -0.3), 0.31, 2']):
+                s = p.solve(PATCH_TEST, *blocks, *material, *region, 'Refinement/Global cycles=0', 'Solver/Compare linear multigrid=false')
+                constant_pressure(s, 5.)
+                certificate(s)
 
 
 HERTZ_ADAPTIVE = ['Refinement/Regions=', 'Refinement/Final global cycles=0', 'Refinement/Compare cycles=true',
@@ -467,3 +548,27 @@ def tied(p):
     run = p.call(os.path.join(TOP, 'prm', PATCH_TEST), '--set', 'Pair interface/Contact=tied', '--set', 'Body upper/Dirichlet=',
                  '--set', 'Body lower/Dirichlet=', '--output', os.path.join(tempfile.gettempdir(), 'signorini-tied'))
     check(run.returncode == 1 and 'tied to' in run.stderr, f'free bodies: {run.stderr}')
+
+
+def probes(p):
+    """A linear field at a grid of points through curved bodies: exact at all of them, whatever the cells look like."""
+    linear = '(x, 0.5*y - 0.25*x, 0.125*z)'
+
+    def solve(name, points, *settings):
+        listed = '; '.join(f'{i}: ({x:.6g}, {y:.6g}, {z:.6g})' for i, (x, y, z) in enumerate(points))
+        s = p.solve(os.path.join(TOP, 'tests', 'application', 'ball.prm'), *settings, f'Body ball/Probes={listed}')
+        check(len(s['probes']) == len(points), f'{name}: {len(s["probes"])} probes at {len(points)} points')
+        wrong = []
+        for probe in s['probes']:
+            x, y, z = probe['point']
+            exact = (x, .5 * y - .25 * x, .125 * z)
+            if any(abs(u - e) > 1e-9 for u, e in zip(probe['displacement'], exact)):
+                wrong.append((probe['point'], probe['displacement']))
+        print(f'{name}: {len(points)} points, {len(wrong)} wrong')
+        check(not wrong, f'{name}: {len(wrong)} of {len(points)} points are wrong, such as {wrong[:1]}')
+    n = 10
+    grid = [(i / n, j / n, k / n) for i in range(-n, n + 1) for j in range(-n, n + 1) for k in range(-n, n + 1)]
+    solve('ball', [(-.2, -.7, .1)] + [q for q in grid if math.hypot(*q) <= .95], f'Body ball/Dirichlet=sphere: {linear}')
+    solve('tetrahedra cut into hexahedra', [(x, y, z + 1) for x, y, z in grid if z < 0 and math.hypot(x, y, z) <= .93],
+          f'Body ball/Mesh={TOP}/prm/hertz/half_sphere_on_cube.msh', 'Body ball/Volumes=ball', 'Body ball/Convert to hexahedra=true',
+          f'Body ball/Dirichlet=sphere: {linear}; ball top: {linear}', 'Refinement/Global cycles=0')

@@ -5,6 +5,7 @@
 #define signorini_discretization_element_h
 
 #include <signorini/discretization/hexahedron.h>
+#include <signorini/mesh/bodies.h>
 #include <signorini/mesh/nodal_space.h>
 
 namespace Signorini
@@ -33,7 +34,7 @@ namespace Signorini
 
     /// Stiffness of isotropic linear elasticity: blocks[n_vertices * a + b], nine numbers each, row by row
     /// (E times length). False if the Jacobian is not positive.
-    bool stiffness(std::array<double, 576> &blocks, const double young, const double poisson) const;
+    bool stiffness(std::array<double, 576> &blocks, const Material &material) const;
 
     /// Points of a quadrature that is exact for products of the shape functions and linear data on
     /// parallelepipeds and tetrahedra.
@@ -72,7 +73,35 @@ namespace Signorini
   };
 
   /// Stress lambda tr(eps) I + 2 mu eps of a displacement gradient.
-  Block stress(const Block &gradient, const double young, const double poisson);
+  Block stress(const Block &gradient, const Material &material);
+
+  /// A displacement in one cell, with the strain that the stiffness of the cell is made of.
+  class CellDisplacement
+  {
+  public:
+    /// u: at the vertices of the cell.
+    CellDisplacement(const Element &element, const Material &material,
+                     const std::array<Vector3, CellShape::max_vertices> &u);
+
+    /// The gradient in space; with mean dilatation its trace is the mean over the cell. Zero where the
+    /// Jacobian is not positive.
+    Block gradient(const dealii::Point<3> &reference) const;
+
+    Block stress(const dealii::Point<3> &reference) const
+    {
+      return Signorini::stress(gradient(reference), material);
+    }
+
+    const Element                                      element;
+    const Material                                    &material;
+    const std::array<Vector3, CellShape::max_vertices> u;
+
+  private:
+    bool plain_gradient(Block &gradient, const dealii::Point<3> &reference) const;
+
+    bool   has_mean_dilatation = false;
+    double mean_dilatation     = 0.;
+  };
 
   /// A face of a cell: its corners (in the order of CellShape::face), and Gauss points (2x2 on
   /// quadrilaterals, three on triangles: exact for polynomials of degree two).

@@ -14,7 +14,8 @@ namespace Signorini
   /// Distance of a discrete displacement of a body from a known one, and the norms of the known one.
   struct ExactError
   {
-    /// L2 norms (length^2.5); energy norms sqrt(int eps : C : eps).
+    /// L2 norms (length^2.5); energy norms sqrt(int eps : C : eps), eps as the stiffness of the cells has it
+    /// (with mean dilatation or without).
     double l2 = 0., l2_norm = 0., energy = 0., energy_norm = 0.;
   };
 

@@ -18,10 +18,11 @@ namespace Signorini
     using Corners = std::array<dealii::Point<3>, 8>;
 
     /// Stiffness of isotropic linear elasticity: blocks[8 * a + b] is the 3x3 block of corners a and b,
-    /// nine numbers row by row. Units: E times length.
+    /// nine numbers row by row. Units: E times length. With mean dilatation the change of volume is the mean
+    /// over the cell instead of that at each Gauss point (B-bar): no locking where nu is near 0.5.
     /// @return false if the Jacobian is not positive at a Gauss point.
     bool stiffness(std::array<double, 576> &blocks, const Corners &corners, const double young,
-                   const double poisson);
+                   const double poisson, const bool mean_dilatation = false);
 
     /// Values of the 8 shape functions at a point of the reference cell.
     std::array<double, 8> shape_values(const dealii::Point<3> &reference);
@@ -36,7 +37,8 @@ namespace Signorini
     std::pair<double, dealii::Point<3>> volume_element(const Corners     &corners,
                                                        const unsigned int gauss_point);
 
-    /// Reference coordinates of a point in space (Newton); returns false if it does not converge.
+    /// Reference coordinates of a point in space, to rounding. A point of a cell that is not folded is found
+    /// inside. Elsewhere there may be several, or none: those found that lie nearest to the cell, or false.
     bool invert_map(dealii::Point<3> &reference, const Corners &corners, const dealii::Point<3> &point);
   } // namespace Hexahedron
 } // namespace Signorini

@@ -39,6 +39,7 @@ namespace Signorini
     std::string shapes, sharp_edges;
     bool        snap                 = false;
     bool        convert_to_hexahedra = false, convert_to_tetrahedra = false;
+    std::string element = "automatic";
     std::string volumes, volume_materials;
 
     /// Declares the parameters in the current subsection.
@@ -51,6 +52,8 @@ namespace Signorini
     unsigned int body;
     /// Young's modulus (force per area) and Poisson's ratio.
     double young, poisson;
+    /// Whether hexahedra have the mean change of volume of the cell everywhere in it (B-bar).
+    bool mean_dilatation = false;
   };
 
   /// All bodies: those of hexahedra in one distributed triangulation (one p4est forest), those of tetrahedra
@@ -169,6 +172,7 @@ namespace Signorini
   private:
     struct Placed;
 
+    void choose_elements(const BodyParameters &parameters, const Placed &placed);
     void read_shapes(const BodyParameters &parameters, Placed &placed, const std::string &base_folder);
     void snap_vertices(Placed &placed, const std::string &where);
     void follow_shapes();

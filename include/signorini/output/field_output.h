@@ -41,10 +41,10 @@ namespace Signorini
 
   /// Collective. Volume weighted nodal averages of the stress: fields "stress" (xx, yy, zz, xy, yz, zx),
   /// "von Mises" and "principal stress" (3, largest first), in the unit of E.
-  /// displacement: values at the relevant nodes, three each. material: Young's modulus and Poisson's ratio.
-  std::vector<OutputField> nodal_stress(
-      const NodalSpace &space, const std::vector<double> &displacement,
-      const std::function<std::pair<double, double>(const dealii::types::material_id material)> &material);
+  /// displacement: values at the relevant nodes, three each. Cells with mean dilatation have its stress.
+  std::vector<OutputField>
+  nodal_stress(const NodalSpace &space, const std::vector<double> &displacement,
+               const std::function<const Material &(const dealii::types::material_id material)> &material);
 } // namespace Signorini
 
 #endif

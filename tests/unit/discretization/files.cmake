@@ -4,4 +4,5 @@ signorini_add_unit_tests(discretization RANKS "1;2;4"
   hexahedron.cc
   level_hierarchy.cc
   partly_fixed.cc
+  mean_dilatation.cc
 )
