@@ -1,5 +1,6 @@
 signorini_add_layer(application
   adaptivity.cc
+  contact_checks.cc
   contact_evaluation.cc
   contact_problem.cc
   contact_setup.cc
