@@ -109,8 +109,8 @@ namespace Signorini
             note("pair " + d.pairs[p].name + ": its sides are swapped, because " +
                  percent((lost.by_other_pairs + lost.by_conditions) / lost.covered) + " of \"" +
                  d.pairs[p].nonmortar_name + "\" could carry no contact stress (" +
-                 (lost.by_other_pairs > lost.by_conditions ? "it is the nonmortar side of another pair, too" :
-                                                             "its displacements are prescribed") +
+                 (lost.by_other_pairs > lost.by_conditions ? "it is the nonmortar side of another pair, too"
+                                                           : "its displacements are prescribed") +
                  ").");
           }
       }
@@ -143,10 +143,11 @@ namespace Signorini
               "surface is the other (mortar) side in all of its pairs, or take the common part out of one of "
               "them (\"First region\", \"Second region\").");
         if (is_void)
-          throw InputError("Pair " + pair.name + ": no node of \"" + pair.nonmortar_name +
-                           "\" can carry a contact stress, because their displacements are prescribed (Body " +
-                           bodies.body_name(pair.nonmortar_body) +
-                           "/Dirichlet). Leave the surface free there," + choice + " or remove the pair.");
+          throw InputError(
+              "Pair " + pair.name + ": no node of \"" + pair.nonmortar_name +
+              "\" can carry a contact stress, because their displacements are prescribed (Body " +
+              bodies.body_name(pair.nonmortar_body) + "/Dirichlet). Leave the surface free there," + choice +
+              " or remove the pair.");
         refuse_held_overlap(p);
       }
   }
@@ -155,7 +156,7 @@ namespace Signorini
 
   std::string ContactProblem::rivals_of(const unsigned int pair) const
   {
-    const Discretization     &d = discretization;
+    const Discretization     &d   = discretization;
     const std::set<NodeIndex> own = touched_nonmortar_nodes(d.pairs[pair].nonmortar, d.pairs[pair].moments);
     std::string               text;
     for (unsigned int q = 0; q < d.pairs.size(); ++q)
@@ -163,10 +164,9 @@ namespace Signorini
         std::set<NodeIndex> nodes = touched_mortar_nodes(d.pairs[q].mortar, d.pairs[q].moments);
         if (q != pair)
           nodes.merge(touched_nonmortar_nodes(d.pairs[q].nonmortar, d.pairs[q].moments));
-        if (std::any_of(own.begin(), own.end(),
-                        [&](const NodeIndex node) { return nodes.count(node) > 0; }))
-          text += (text.empty() ? "" : ", ") + (q == pair ? std::string("its other side") :
-                                                            "pair \"" + d.pairs[q].name + "\"");
+        if (std::any_of(own.begin(), own.end(), [&](const NodeIndex node) { return nodes.count(node) > 0; }))
+          text += (text.empty() ? "" : ", ") +
+                  (q == pair ? std::string("its other side") : "pair \"" + d.pairs[q].name + "\"");
       }
     return text;
   }
@@ -244,8 +244,8 @@ namespace Signorini
       return;
     std::ostringstream text;
     text << "Pair " << pair.name << ": the displacements that are prescribed on \"" << pair.nonmortar_name
-         << "\" and \"" << (pair.obstacle ? "the obstacle" : pair.mortar_name)
-         << "\" make them overlap by " << overlap << " near (" << pair.nonmortar.mesh.vertices[where]
+         << "\" and \"" << (pair.obstacle ? "the obstacle" : pair.mortar_name) << "\" make them overlap by "
+         << overlap << " near (" << pair.nonmortar.mesh.vertices[where]
          << "), and nothing can resist. Prescribe displacements elsewhere than on the contact surfaces (Body "
          << bodies.body_name(pair.nonmortar_body) << "/Dirichlet).";
     throw InputError(text.str());
@@ -256,13 +256,13 @@ namespace Signorini
   double ContactProblem::width_of(const unsigned int body) const
   {
     // The extents along the principal axes of the nodes.
-    const NodalSpace     &space = *discretization.space;
-    std::set<NodeIndex>   nodes;
+    const NodalSpace   &space = *discretization.space;
+    std::set<NodeIndex> nodes;
     for (const NodalSpace::Cell &cell : space.cells())
       if (cell.is_owned && bodies.body_of_material(cell.material) == body)
         nodes.insert(space.nodes(cell).begin(), space.nodes(cell).end());
-    const double    n = Utilities::MPI::sum(static_cast<double>(nodes.size()), comm);
-    Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+    const double    n        = Utilities::MPI::sum(static_cast<double>(nodes.size()), comm);
+    Eigen::Vector3d centre   = Eigen::Vector3d::Zero();
     const auto      position = [&](const NodeIndex node) {
       const Point<3> &x = space.position(node);
       return Eigen::Vector3d(x[0], x[1], x[2]);

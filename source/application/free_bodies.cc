@@ -47,11 +47,11 @@ namespace Signorini
 
 
 
-  std::set<unsigned int> ContactProblem::parts_of(const PairDefinition &definition, const unsigned int side) const
+  std::set<unsigned int> ContactProblem::parts_of(const PairDefinition &definition,
+                                                  const unsigned int    side) const
   {
     std::set<unsigned int> result;
-    for (const types::boundary_id id :
-         bodies.boundary_ids(definition.body[side], definition.boundary[side]))
+    for (const types::boundary_id id : bodies.boundary_ids(definition.body[side], definition.boundary[side]))
       for (unsigned int part = 0; part < bodies.n_parts(); ++part)
         if (bodies.part(part).boundaries.count(id) > 0)
           result.insert(part);

@@ -45,8 +45,8 @@ namespace Signorini
       {
         const std::size_t n_cells = Utilities::MPI::sum(cells[b], comm);
         out << "body " << bodies.body_name(b) << ": " << n_cells
-            << " cells, E = " << parameters.bodies[b].young
-            << ", nu = " << parameters.bodies[b].poisson << std::endl;
+            << " cells, E = " << parameters.bodies[b].young << ", nu = " << parameters.bodies[b].poisson
+            << std::endl;
         for (unsigned int i = 0; i < bodies.boundary_names(b).size(); ++i)
           {
             const Extent e    = extents[bodies.boundary_id(b, i)];

@@ -32,7 +32,7 @@ namespace Signorini
     /// The part of each relevant node (-1 for nodes of other ranks' cells), and the box of each part as
     /// centre and half diagonal.
     std::vector<int> find_parts(std::vector<FreeMotion> &frames, const Bodies &bodies,
-                                 const NodalSpace &space)
+                                const NodalSpace &space)
     {
       const unsigned int  n_parts = bodies.n_parts();
       std::vector<double> low(dim * n_parts, std::numeric_limits<double>::max()), high(low);
@@ -63,7 +63,7 @@ namespace Signorini
               h[c] = Utilities::MPI::max(high[dim * b + c], space.communicator());
             }
           frames.push_back(
-            {bodies.part(b).body, l + .5 * (h - l), .5 * (h - l).norm(), Vector3(), Vector3(), b});
+              {bodies.part(b).body, l + .5 * (h - l), .5 * (h - l).norm(), Vector3(), Vector3(), b});
         }
       return part_of_node;
     }

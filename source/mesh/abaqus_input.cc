@@ -183,11 +183,13 @@ namespace Signorini
           {
             if (words.size() < 4)
               fail("a node needs a number and three coordinates. Is the file cut off?");
-            const long label = label_in(words[0]);
-            const Point<3> position(coordinate_in(words[1]), coordinate_in(words[2]), coordinate_in(words[3]));
+            const long     label = label_in(words[0]);
+            const Point<3> position(coordinate_in(words[1]), coordinate_in(words[2]),
+                                    coordinate_in(words[3]));
             const auto [it, is_new] = nodes.insert({label, position});
             if (!is_new && it->second != position)
-              fail("node " + words[0] + " is there twice, in different places. Give each node its own number.");
+              fail("node " + words[0] +
+                   " is there twice, in different places. Give each node its own number.");
             if (options.count("NSET") > 0)
               node_sets.get(options["NSET"]).insert(label);
           }

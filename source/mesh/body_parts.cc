@@ -13,9 +13,9 @@ namespace Signorini
 
   void Bodies::find_parts(Placed &placed, const unsigned int body)
   {
-    const VolumeMesh               &mesh         = placed.mesh;
-    const unsigned int              first_part   = n_parts();
-    const std::vector<unsigned int> part_of_cell = connected_parts(mesh);
+    const VolumeMesh                                             &mesh         = placed.mesh;
+    const unsigned int                                            first_part   = n_parts();
+    const std::vector<unsigned int>                               part_of_cell = connected_parts(mesh);
     std::map<std::pair<unsigned int, unsigned int>, unsigned int> copies;
     std::vector<unsigned int> part_of_vertex(mesh.vertices.size(), VolumeMesh::no_vertex);
     std::vector<Point<3>>     low, high;
@@ -56,7 +56,8 @@ namespace Signorini
     for (std::size_t part = 0; part < low.size(); ++part)
       parts[first_part + part].centre = low[part] + .5 * (high[part] - low[part]);
     for (const auto &face : mesh.faces)
-      parts[first_part + part_of_vertex[face.vertices[0]]].boundaries.insert(placed.first_boundary + face.name);
+      parts[first_part + part_of_vertex[face.vertices[0]]].boundaries.insert(placed.first_boundary +
+                                                                             face.name);
   }
 
 

@@ -97,8 +97,8 @@ namespace Signorini
                          std::to_string(loaded) +
                          " cells have 4 or 8 nodes, the others more. Write a mesh of first order.");
       if (in_file != unknown_number && in_file != n_cells)
-        throw InputError("Mesh file \"" + file + "\": it has " + std::to_string(in_file) + " cells, of which " +
-                         std::to_string(n_cells) +
+        throw InputError("Mesh file \"" + file + "\": it has " + std::to_string(in_file) +
+                         " cells, of which " + std::to_string(n_cells) +
                          " could be read. Are there numbers of elements that occur twice?");
     }
 

@@ -124,11 +124,14 @@ namespace Signorini
       /// How many times vertices go back half of the way before they stay where they were.
       unsigned int n_halvings = 10;
       /// Rounds over the vertices that are not there yet, and sweeps over the free vertices around one.
-      unsigned int n_rounds = 3, n_sweeps = 4;
+      unsigned int n_rounds = 3, n_sweeps = 3;
+      /// A bound for the cost on meshes that are bad all over (some milliseconds each).
+      std::size_t n_attempts = 500;
       /// A free vertex moves while the worst of its cells has a smaller share of its quality than this.
       double good = .7;
       /// First and last step of its search, as shares of its shortest edge.
-      double first_step = .4, last_step = .02;
+      double       first_step = .4, last_step = .05;
+      unsigned int n_steps = 12;
     };
 
     /// Moves single vertices to their targets where the free ones around can give way. All cells keep the
@@ -157,22 +160,32 @@ namespace Signorini
             star[next[v]++] = c;
       }
 
-      /// Whether the vertex got to its target; else it may have got nearer.
-      bool advance(const unsigned int v, const Point<3> &target)
+      /// Whether the vertex got to its target; else whether it got nearer is in `moved`.
+      bool advance(bool &moved, const unsigned int v, const Point<3> &target)
       {
-        const std::vector<unsigned int> region = free_vertices_around(v);
+        const std::vector<unsigned int> region  = free_vertices_around(v);
         const std::set<unsigned int>    touched = cells_of(region, v);
-        for (double share = 1.; share > .2; share *= .5)
+        for (double share = 1.; share >= .5; share *= .5)
           {
             std::vector<Point<3>> saved = {positions[v]};
             for (const unsigned int w : region)
               saved.push_back(positions[w]);
             positions[v] = share == 1. ? target : positions[v] + share * (target - positions[v]);
-            for (unsigned int sweep = 0; sweep < rule.n_sweeps && worst_of(touched) < rule.good; ++sweep)
-              for (const unsigned int w : region)
-                improve(w);
-            if (worst_of(touched) >= rule.tolerated)
-              return share == 1.;
+            double worst = worst_of(touched);
+            for (unsigned int sweep = 0; sweep < rule.n_sweeps && worst < rule.tolerated; ++sweep)
+              {
+                const double old = worst;
+                for (const unsigned int w : region)
+                  improve(w);
+                worst = worst_of(touched);
+                if (worst <= old + 1e-3)
+                  break;
+              }
+            if (worst >= rule.tolerated)
+              {
+                moved = true;
+                return share == 1.;
+              }
             positions[v] = saved[0];
             for (std::size_t i = 0; i < region.size(); ++i)
               positions[region[i]] = saved[i + 1];
@@ -228,40 +241,72 @@ namespace Signorini
         return worst;
       }
 
-      /// Moves a free vertex to where the worst of its cells is better: a search along the ways to and from
-      /// its neighbours, with shorter and shorter steps.
+      /// How the share of its quality that a cell keeps grows when the vertex moves.
+      Tensor<1, 3> gradient(const unsigned int c, const unsigned int w, const double h)
+      {
+        const Point<3> from = positions[w];
+        Tensor<1, 3>   result;
+        for (unsigned int i = 0; i < 3; ++i)
+          for (const double sign : {-1., 1.})
+            {
+              positions[w][i] = from[i] + sign * h;
+              result[i] += sign * quality(positions, cells[c]) / reference[c];
+              positions[w] = from;
+            }
+        return result;
+      }
+
+      /// Directions that may be good for the worst cells: those in which one or several of them grow, and to
+      /// the middle of the neighbours.
+      std::vector<Tensor<1, 3>> ways_of(const unsigned int w, const double h)
+      {
+        std::vector<std::pair<double, unsigned int>> worst;
+        Tensor<1, 3>                                 sum;
+        for (const unsigned int c : star_of(w))
+          {
+            worst.emplace_back(quality(positions, cells[c]) / reference[c], c);
+            for (const unsigned int x : cells[c])
+              sum += positions[x] - positions[w];
+          }
+        std::vector<Tensor<1, 3>> ways = {sum};
+        const std::size_t         n    = std::min<std::size_t>(3, worst.size());
+        std::partial_sort(worst.begin(), worst.begin() + n, worst.end());
+        sum = 0.;
+        for (std::size_t i = 0; i < n; ++i)
+          {
+            ways.push_back(gradient(worst[i].second, w, h));
+            sum += ways.back();
+            if (i > 0)
+              ways.push_back(sum);
+          }
+        for (Tensor<1, 3> &way : ways)
+          if (const double length = way.norm(); length > 0.)
+            way /= length;
+        return ways;
+      }
+
+      /// Moves a free vertex to where the worst of its cells is better, by shorter and shorter steps.
       void improve(const unsigned int w)
       {
-        const auto                star_cells = star_of(w);
-        std::vector<Tensor<1, 3>> ways;
-        double                    shortest = std::numeric_limits<double>::max();
-        std::set<unsigned int>    neighbours;
+        const auto star_cells = star_of(w);
+        double     now        = worst_of(star_cells);
+        if (now >= rule.good)
+          return;
+        double shortest = std::numeric_limits<double>::max();
         for (const unsigned int c : star_cells)
-          neighbours.insert(cells[c].begin(), cells[c].end());
-        neighbours.erase(w);
-        Tensor<1, 3> mean;
-        for (const unsigned int x : neighbours)
-          {
-            const Tensor<1, 3> way = positions[x] - positions[w];
-            mean += way / static_cast<double>(neighbours.size());
-            if (!(way.norm() > 0.))
-              return;
-            shortest = std::min(shortest, way.norm());
-            ways.push_back(way / way.norm());
-            ways.push_back(-way / way.norm());
-          }
-        if (mean.norm() > 0.)
-          ways.insert(ways.begin(), mean / mean.norm());
-        double now = worst_of(star_cells);
-        for (double step = rule.first_step; step >= rule.last_step && now < rule.good;)
+          for (const unsigned int x : cells[c])
+            if (x != w)
+              shortest = std::min(shortest, positions[x].distance(positions[w]));
+        double step = rule.first_step;
+        for (unsigned int i = 0; i < rule.n_steps && step >= rule.last_step && now < rule.good; ++i)
           {
             const Point<3> from = positions[w];
             Point<3>       best = from;
-            for (const Tensor<1, 3> &way : ways)
+            for (const Tensor<1, 3> &way : ways_of(w, rule.last_step * shortest))
               {
-                positions[w]       = from + step * shortest * way;
-                const double there = worst_of(star_cells);
-                if (there > now)
+                positions[w] = from + step * shortest * way;
+                // Steps that hardly help are not worth the next ones.
+                if (const double there = worst_of(star_cells); there > now + 1e-3)
                   {
                     now  = there;
                     best = positions[w];
@@ -273,9 +318,9 @@ namespace Signorini
           }
       }
 
-      std::vector<Point<3>>    &positions;
-      const Cells              &cells;
-      const std::vector<bool>  &is_free;
+      std::vector<Point<3>>   &positions;
+      const Cells             &cells;
+      const std::vector<bool> &is_free;
       /// The quality that each cell had at the start; zero where it is not known yet.
       std::vector<double>      &reference;
       const MovementRule       &rule;
@@ -291,7 +336,7 @@ namespace Signorini
   {
     const MovementRule rule;
     MovementReport     report;
-    const Targets          targets = let_others_follow(positions, wanted, cells, is_fixed);
+    const Targets      targets = let_others_follow(positions, wanted, cells, is_fixed);
     std::unordered_map<unsigned int, std::size_t> index;
     std::vector<bool>                             moves(positions.size(), false);
     for (std::size_t i = 0; i < targets.size(); ++i)
@@ -313,7 +358,8 @@ namespace Signorini
     std::vector<unsigned int> halvings(targets.size(), 0);
     const auto                place = [&](const std::size_t i) {
       const auto &[v, target] = targets[i];
-      const double share = halvings[i] > rule.n_halvings ? 0. : std::ldexp(1., -static_cast<int>(halvings[i]));
+      const double share =
+          halvings[i] > rule.n_halvings ? 0. : std::ldexp(1., -static_cast<int>(halvings[i]));
       positions[v] = start[i] + share * (target - start[i]);
     };
     for (const auto &target : targets)
@@ -348,13 +394,18 @@ namespace Signorini
           is_free[v] = !is_fixed[v];
         for (const auto &target : wanted)
           is_free[target.first] = false;
+        std::size_t  n_attempts = 0;
         LateVertices attempts(positions, cells, is_free, before, rule);
-        for (unsigned int round = 0; round < rule.n_rounds && !late.empty(); ++round)
-          late.erase(std::remove_if(late.begin(), late.end(),
-                                    [&](const unsigned int v) {
-                                      return attempts.advance(v, wanted[index[v]].second);
-                                    }),
-                     late.end());
+        bool         moved = true;
+        for (unsigned int round = 0; round < rule.n_rounds && moved; ++round)
+          {
+            moved = false;
+            std::vector<unsigned int> still;
+            for (const unsigned int v : late)
+              if (n_attempts++ >= rule.n_attempts || !attempts.advance(moved, v, wanted[index[v]].second))
+                still.push_back(v);
+            late = std::move(still);
+          }
       }
     for (const unsigned int c : around)
       report.quality_after = std::min(report.quality_after, quality(positions, cells[c]));

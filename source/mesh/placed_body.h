@@ -15,9 +15,9 @@ namespace Signorini
     std::vector<CurvedBoundary> curved;
     std::vector<unsigned int>   material_of_volume, material_of_cell;
     /// Vertices of the start mesh that could not be moved to their shapes.
-    std::vector<unsigned int>   late;
-    Placement                   placement;
-    dealii::types::boundary_id  first_boundary;
+    std::vector<unsigned int>  late;
+    Placement                  placement;
+    dealii::types::boundary_id first_boundary;
   };
 
   /// Names for a message.

@@ -76,9 +76,10 @@ namespace Signorini
             if (sorted_vertices(entries[j].cell) == sorted_vertices(entries[k].cell))
               {
                 std::ostringstream message;
-                message << "the cell near (" << mesh.vertices[entries[j].face[0]]
-                        << ") is there twice. Take the copy out (gmsh's format 2 writes the cells of a volume "
-                           "once for each of its physical groups).";
+                message
+                    << "the cell near (" << mesh.vertices[entries[j].face[0]]
+                    << ") is there twice. Take the copy out (gmsh's format 2 writes the cells of a volume "
+                       "once for each of its physical groups).";
                 throw InputError(message.str());
               }
         if (j - i > 2)
@@ -113,7 +114,7 @@ namespace Signorini
     std::vector<unsigned int>            part;
     for (const VolumeMesh::Cell &cell : mesh.cells)
       part.push_back(
-        number.insert({find(cell.vertices[0]), static_cast<unsigned int>(number.size())}).first->second);
+          number.insert({find(cell.vertices[0]), static_cast<unsigned int>(number.size())}).first->second);
     return part;
   }
 

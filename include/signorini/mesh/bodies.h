@@ -193,15 +193,15 @@ namespace Signorini
     void read_shapes(const BodyParameters &parameters, Placed &placed, const std::string &base_folder);
     /// Connected parts, and the materials of cells, which are those of their volumes for the first part.
     void find_parts(Placed &placed, const unsigned int body);
-    /// Refuses shapes of the parameters that lie elsewhere than their boundaries.
-    void check_shapes(const Placed &placed, const std::string &where, const bool snaps) const;
+    /// Refuses shapes of the parameters that lie elsewhere than their boundaries, notes those that are off.
+    void check_shapes(const Placed &placed, const std::string &where, const bool snaps);
     void snap_vertices(Placed &placed);
     /// Moves vertices on the given boundaries to their shapes; returns those that are not there yet.
     std::vector<unsigned int>
-    move_to_shapes(std::vector<dealii::Point<3>>                                      &positions,
-                   const std::map<unsigned int, std::set<dealii::types::boundary_id>> &ids,
-                   const std::vector<dealii::ArrayView<const unsigned int>>           &cells,
-                   const std::vector<bool>                                            &is_fixed);
+         move_to_shapes(std::vector<dealii::Point<3>>                                      &positions,
+                        const std::map<unsigned int, std::set<dealii::types::boundary_id>> &ids,
+                        const std::vector<dealii::ArrayView<const unsigned int>>           &cells,
+                        const std::vector<bool>                                            &is_fixed);
     void follow_shapes();
     void assess_hexahedra();
     void set_manifolds(dealii::types::manifold_id next);
