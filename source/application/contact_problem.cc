@@ -27,28 +27,13 @@ namespace Signorini
       loads.add(bodies, b, parameters.loads[b]);
     for (const std::string &text : bodies.notes())
       note(text);
-    note_movement();
     define_pairs();
+    note_movement();
     for (unsigned int i = 0; i < parameters.refinement.initial_global; ++i)
       {
         const NodalSpace space(comm, bodies.mesh());
         bodies.refine(space, std::vector<bool>(space.cells().size(), true));
       }
-  }
-
-
-
-  void ContactProblem::note_movement()
-  {
-    const MovementReport &m = bodies.movement();
-    if (m.n_damped == 0)
-      return;
-    std::ostringstream text;
-    text << std::setprecision(3) << m.n_damped << " of " << m.n_moved
-         << " boundary nodes are not on their boundary shape yet, to keep cells from degenerating (worst "
-            "quality "
-         << m.quality_before << " before moving, " << m.quality_after << " after).";
-    note(text.str());
   }
 
 

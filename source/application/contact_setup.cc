@@ -101,6 +101,8 @@ namespace Signorini
       softer = young[0] < young[1] ? 0 : 1;
     else
       softer = average_face_area(surfaces[0]) <= average_face_area(surfaces[1]) * (1. + 1e-9) ? 0 : 1;
+    if (definition.is_swapped)
+      return 1 - softer;
     if (definition.parameters.nonmortar == "auto")
       {
         note("pair " + definition.parameters.name + ": \"" + bodies.body_name(definition.body[softer]) +
@@ -210,6 +212,24 @@ namespace Signorini
 
 
 
+  void ContactProblem::couple_pairs()
+  {
+    Discretization                  &d = discretization;
+    std::vector<std::set<NodeIndex>> nonmortar_nodes, mortar_nodes;
+    for (const ContactPair &pair : d.pairs)
+      {
+        nonmortar_nodes.push_back(touched_nonmortar_nodes(pair.nonmortar, pair.moments));
+        mortar_nodes.push_back(touched_mortar_nodes(pair.mortar, pair.moments));
+      }
+    const auto excluded = excluded_nodes(nonmortar_nodes, mortar_nodes);
+    d.couplings.clear();
+    for (unsigned int p = 0; p < d.pairs.size(); ++p)
+      d.couplings.push_back(couple(d.pairs[p].nonmortar, d.pairs[p].mortar, d.pairs[p].moments, excluded[p],
+                                   static_cast<bool>(d.pairs[p].prescribed_gap)));
+  }
+
+
+
   void ContactProblem::setup_contact(CycleResult &cycle)
   {
     Discretization &d = discretization;
@@ -217,23 +237,17 @@ namespace Signorini
     for (const PairDefinition &definition : pair_definitions)
       d.pairs.push_back(make_pair(definition, cycle));
 
-    Timer                            time;
-    std::vector<std::set<NodeIndex>> nonmortar_nodes, mortar_nodes;
-    std::vector<std::string>         names;
-    for (const ContactPair &pair : d.pairs)
-      {
-        nonmortar_nodes.push_back(touched_nonmortar_nodes(pair.nonmortar, pair.moments));
-        mortar_nodes.push_back(touched_mortar_nodes(pair.mortar, pair.moments));
-        names.push_back(pair.name);
-      }
-    const auto excluded = excluded_nodes(nonmortar_nodes, mortar_nodes);
-    d.couplings.clear();
+    Timer time;
+    couple_pairs();
+    while (swap_sides(cycle))
+      couple_pairs();
+    refuse_lost_contact();
+    std::vector<std::string> names;
     for (unsigned int p = 0; p < d.pairs.size(); ++p)
       {
         const ContactPair &pair = d.pairs[p];
-        d.couplings.push_back(couple(pair.nonmortar, pair.mortar, pair.moments, excluded[p],
-                                     static_cast<bool>(pair.prescribed_gap)));
-        PairCoupling &c = d.couplings.back();
+        names.push_back(pair.name);
+        PairCoupling &c = d.couplings[p];
         if (pair_definitions[p].parameters.gap == "nodal")
           use_nodal_gaps(c, pair);
         std::map<std::string, unsigned int> reasons;
@@ -252,6 +266,7 @@ namespace Signorini
         // Faceted curved surfaces overlap by rounding and by their sagitta; report what exceeds rounding.
         if (smallest < -1e-12 * size && cycle.cycle == 0 && pair_definitions[p].parameters.contact != "tied")
           {
+            refuse_large_overlap(p, -smallest);
             std::ostringstream text;
             text << "pair " << pair.name << ": initial penetration of " << -smallest << " (weighted gap)";
             if (pair_definitions[p].parameters.penetration == "refuse")

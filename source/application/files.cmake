@@ -1,6 +1,7 @@
 signorini_add_layer(application
   adaptivity.cc
   certificate.cc
+  contact_checks.cc
   contact_evaluation.cc
   contact_problem.cc
   contact_setup.cc

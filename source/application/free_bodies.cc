@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
-// Bodies that nothing but contact holds.
+// Bodies, or parts of them, that nothing but contact holds.
 
 #include <signorini/algebra/input_error.h>
 #include <signorini/algebra/replicated_data.h>
@@ -19,27 +19,43 @@ namespace Signorini
     std::set<unsigned int> in_contact;
     for (const PairDefinition &definition : pair_definitions)
       for (unsigned int i = 0; i < definition.n_sides(); ++i)
-        in_contact.insert(definition.body[i]);
-    const auto         &motions = discretization.free_motions;
-    std::vector<double> coefficients(motions.size(), 0.);
-    for (std::size_t m = 0; m < motions.size(); ++m)
-      if (in_contact.count(motions[m].body) == 0 || parameters.solver.method == SolverMethod::active_set_amg)
         {
+          const std::set<unsigned int> parts = parts_of(definition, i);
+          in_contact.insert(parts.begin(), parts.end());
+        }
+    const auto &motions = discretization.free_motions;
+    for (std::size_t m = 0; m < motions.size(); ++m)
+      if (in_contact.count(motions[m].part) == 0 || parameters.solver.method == SolverMethod::active_set_amg)
+        {
+          std::vector<double> coefficients(motions.size(), 0.);
           coefficients[m] = 1.;
           throw InputError("Body " + bodies.body_name(motions[m].body) +
                            "/Dirichlet: the conditions do not exclude a rigid motion (" +
                            describe_motion(motions, coefficients, bodies) + ")" +
-                           (in_contact.count(motions[m].body) == 0
-                                ? " and the body belongs to no contact pair"
+                           (in_contact.count(motions[m].part) == 0
+                                ? " and no boundary of what moves belongs to a contact pair"
                                 : ", which \"Solver/Method = active set amg\" needs") +
                            ". Prescribe displacements on more of its boundaries, e.g. a symmetry plane "
                            "\"name: (0, *, *)\".");
         }
     std::set<std::string> names;
     for (const FreeMotion &motion : motions)
-      names.insert(bodies.body_name(motion.body));
+      names.insert(bodies.part_name(motion.part));
     for (const std::string &name : names)
-      note("body " + name + ": its Dirichlet conditions do not hold it, contact must.");
+      note(name + ": its Dirichlet conditions do not hold it, contact must.");
+  }
+
+
+
+  std::set<unsigned int> ContactProblem::parts_of(const PairDefinition &definition,
+                                                  const unsigned int    side) const
+  {
+    std::set<unsigned int> result;
+    for (const types::boundary_id id : bodies.boundary_ids(definition.body[side], definition.boundary[side]))
+      for (unsigned int part = 0; part < bodies.n_parts(); ++part)
+        if (bodies.part(part).boundaries.count(id) > 0)
+          result.insert(part);
+    return result;
   }
 
 

@@ -44,10 +44,9 @@ namespace Signorini
     for (unsigned int b = 0; b < bodies.n_bodies(); ++b)
       {
         const std::size_t n_cells = Utilities::MPI::sum(cells[b], comm);
-        const Material   &m       = bodies.material(b);
         out << "body " << bodies.body_name(b) << ": " << n_cells
-            << " cells, E = " << parameters.bodies[m.body].young
-            << ", nu = " << parameters.bodies[m.body].poisson << std::endl;
+            << " cells, E = " << parameters.bodies[b].young << ", nu = " << parameters.bodies[b].poisson
+            << std::endl;
         for (unsigned int i = 0; i < bodies.boundary_names(b).size(); ++i)
           {
             const Extent e    = extents[bodies.boundary_id(b, i)];

@@ -14,28 +14,33 @@ namespace Signorini
   void ContactProblem::hold_by_ties()
   {
     Discretization           &d = discretization;
-    std::vector<unsigned int> group(bodies.n_bodies());
-    for (unsigned int b = 0; b < group.size(); ++b)
-      group[b] = b;
+    std::vector<unsigned int> group(bodies.n_parts());
+    for (unsigned int part = 0; part < group.size(); ++part)
+      group[part] = part;
     for (const PairDefinition &definition : pair_definitions)
       if (definition.parameters.contact == "tied")
         {
-          const unsigned int from = group[definition.body[1]], to = group[definition.body[0]];
-          std::replace(group.begin(), group.end(), from, to);
+          const unsigned int to = group[*parts_of(definition, 0).begin()];
+          for (unsigned int i = 0; i < 2; ++i)
+            for (const unsigned int part : parts_of(definition, i))
+              {
+                const unsigned int from = group[part];
+                std::replace(group.begin(), group.end(), from, to);
+              }
         }
     std::set<unsigned int> moving;
     for (const FreeMotion &motion : d.free_motions)
-      moving.insert(motion.body);
+      moving.insert(motion.part);
     std::set<unsigned int> held;
-    for (unsigned int b = 0; b < group.size(); ++b)
-      if (moving.count(b) == 0)
-        held.insert(group[b]);
+    for (unsigned int part = 0; part < group.size(); ++part)
+      if (moving.count(part) == 0)
+        held.insert(group[part]);
     d.is_held_by_ties = false;
     std::vector<FreeMotion> left;
     for (const FreeMotion &motion : d.free_motions)
-      if (std::count(group.begin(), group.end(), group[motion.body]) == 1)
+      if (std::count(group.begin(), group.end(), group[motion.part]) == 1)
         left.push_back(motion);
-      else if (held.count(group[motion.body]) > 0)
+      else if (held.count(group[motion.part]) > 0)
         d.is_held_by_ties = true;
       else
         throw InputError(

@@ -314,7 +314,7 @@ namespace Signorini
     std::vector<Vector> motions(2 * dim);
     for (unsigned int m = 0; m < 2 * dim; ++m)
       {
-        FreeMotion motion{0, centre, 1., Vector3(), Vector3()};
+        FreeMotion motion{0, centre, 1., Vector3(), Vector3(), 0};
         (m < dim ? motion.translation : motion.rotation)[m % dim] = 1.;
         partition.reinit(motions[m]);
         for (unsigned int i = 0; i < partition.n_owned(); ++i)

@@ -29,32 +29,32 @@ namespace Signorini
       return row;
     }
 
-    /// The body of each relevant node (-1 for nodes of other ranks' cells), and the box of each body as
+    /// The part of each relevant node (-1 for nodes of other ranks' cells), and the box of each part as
     /// centre and half diagonal.
-    std::vector<int> find_bodies(std::vector<FreeMotion> &frames, const Bodies &bodies,
-                                 const NodalSpace &space)
+    std::vector<int> find_parts(std::vector<FreeMotion> &frames, const Bodies &bodies,
+                                const NodalSpace &space)
     {
-      const unsigned int  n_bodies = bodies.n_bodies();
-      std::vector<double> low(dim * n_bodies, std::numeric_limits<double>::max()), high(low);
-      std::vector<int>    body_of_node(space.relevant().n_elements(), -1);
+      const unsigned int  n_parts = bodies.n_parts();
+      std::vector<double> low(dim * n_parts, std::numeric_limits<double>::max()), high(low);
+      std::vector<int>    part_of_node(space.relevant().n_elements(), -1);
       for (double &h : high)
         h = -h;
       for (const NodalSpace::Cell &cell : space.cells())
         if (cell.is_owned)
           {
-            const unsigned int body = bodies.body_of_material(cell.material);
+            const unsigned int part = bodies.part_of_material(cell.material);
             for (const NodeIndex node : space.nodes(cell))
               {
-                body_of_node[space.relevant().index_within_set(node)] = static_cast<int>(body);
+                part_of_node[space.relevant().index_within_set(node)] = static_cast<int>(part);
                 for (unsigned int c = 0; c < dim; ++c)
                   {
-                    low[dim * body + c]  = std::min(low[dim * body + c], space.position(node)[c]);
-                    high[dim * body + c] = std::max(high[dim * body + c], space.position(node)[c]);
+                    low[dim * part + c]  = std::min(low[dim * part + c], space.position(node)[c]);
+                    high[dim * part + c] = std::max(high[dim * part + c], space.position(node)[c]);
                   }
               }
           }
       frames.clear();
-      for (unsigned int b = 0; b < n_bodies; ++b)
+      for (unsigned int b = 0; b < n_parts; ++b)
         {
           Point<3> l, h;
           for (unsigned int c = 0; c < dim; ++c)
@@ -62,9 +62,10 @@ namespace Signorini
               l[c] = Utilities::MPI::min(low[dim * b + c], space.communicator());
               h[c] = Utilities::MPI::max(high[dim * b + c], space.communicator());
             }
-          frames.push_back({b, l + .5 * (h - l), .5 * (h - l).norm(), Vector3(), Vector3()});
+          frames.push_back(
+              {bodies.part(b).body, l + .5 * (h - l), .5 * (h - l).norm(), Vector3(), Vector3(), b});
         }
-      return body_of_node;
+      return part_of_node;
     }
   } // namespace
 
@@ -74,14 +75,14 @@ namespace Signorini
                                        const DirichletData &dirichlet)
   {
     std::vector<FreeMotion> frames;
-    const auto              body_of_node = find_bodies(frames, bodies, space);
+    const auto              part_of_node = find_parts(frames, bodies, space);
     std::vector<double>     sums(36 * frames.size(), 0.);
     for (const NodeIndex node : space.owned())
       {
         const std::size_t i = space.relevant().index_within_set(node);
-        if (body_of_node[i] < 0)
+        if (part_of_node[i] < 0)
           continue;
-        const unsigned int b = static_cast<unsigned int>(body_of_node[i]);
+        const unsigned int b = static_cast<unsigned int>(part_of_node[i]);
         for (unsigned int c = 0; c < dim; ++c)
           if (dirichlet.mask[i] & (1u << c))
             {
@@ -118,7 +119,7 @@ namespace Signorini
                                     const NodalSpace &space, const NodePartition &partition)
   {
     std::vector<FreeMotion> frames;
-    const auto              body_of_node = find_bodies(frames, bodies, space);
+    const auto              part_of_node = find_parts(frames, bodies, space);
     std::vector<Vector>     fields(motions.size());
     for (std::size_t m = 0; m < motions.size(); ++m)
       {
@@ -126,7 +127,7 @@ namespace Signorini
         for (unsigned int i = 0; i < partition.n_owned(); ++i)
           {
             const NodeIndex node = partition.to_global(i);
-            if (body_of_node[space.relevant().index_within_set(node)] != static_cast<int>(motions[m].body))
+            if (part_of_node[space.relevant().index_within_set(node)] != static_cast<int>(motions[m].part))
               continue;
             const Vector3 u = motions[m](space.position(node));
             for (unsigned int c = 0; c < dim; ++c)
@@ -232,14 +233,14 @@ namespace Signorini
   std::string describe_motion(const std::vector<FreeMotion> &motions, const std::vector<double> &coefficients,
                               const Bodies &bodies)
   {
-    // Of the body that moves most.
-    std::vector<double> size(bodies.n_bodies(), 0.);
+    // Of the part that moves most.
+    std::vector<double> size(bodies.n_parts(), 0.);
     for (std::size_t m = 0; m < motions.size(); ++m)
-      size[motions[m].body] += coefficients[m] * coefficients[m];
-    const auto body = static_cast<unsigned int>(std::max_element(size.begin(), size.end()) - size.begin());
+      size[motions[m].part] += coefficients[m] * coefficients[m];
+    const auto part = static_cast<unsigned int>(std::max_element(size.begin(), size.end()) - size.begin());
     Vector3    translation, rotation;
     for (std::size_t m = 0; m < motions.size(); ++m)
-      if (motions[m].body == body)
+      if (motions[m].part == part)
         {
           translation += coefficients[m] * motions[m].translation;
           rotation += coefficients[m] * motions[m].rotation;
@@ -255,7 +256,7 @@ namespace Signorini
           text << ")";
         }
     };
-    text << "body " << bodies.body_name(body) << ", ";
+    text << bodies.part_name(part) << ", ";
     print("translation", translation, rotation);
     if (translation.norm() > 1e-3 * rotation.norm() && rotation.norm() > 1e-3 * translation.norm())
       text << " with ";

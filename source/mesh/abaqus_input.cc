@@ -183,9 +183,13 @@ namespace Signorini
           {
             if (words.size() < 4)
               fail("a node needs a number and three coordinates. Is the file cut off?");
-            const long label = label_in(words[0]);
-            nodes[label] =
-                Point<3>(coordinate_in(words[1]), coordinate_in(words[2]), coordinate_in(words[3]));
+            const long     label = label_in(words[0]);
+            const Point<3> position(coordinate_in(words[1]), coordinate_in(words[2]),
+                                    coordinate_in(words[3]));
+            const auto [it, is_new] = nodes.insert({label, position});
+            if (!is_new && it->second != position)
+              fail("node " + words[0] +
+                   " is there twice, in different places. Give each node its own number.");
             if (options.count("NSET") > 0)
               node_sets.get(options["NSET"]).insert(label);
           }
@@ -209,7 +213,9 @@ namespace Signorini
 
       void add_element()
       {
-        elements[element[0]].assign(element.begin() + 1, element.end());
+        if (!elements.insert({element[0], {element.begin() + 1, element.end()}}).second)
+          fail("element " + std::to_string(element[0]) +
+               " is there twice. Give each element its own number, or take the copy out.");
         if (options.count("ELSET") > 0)
           element_sets.get(options["ELSET"]).insert(element[0]);
         element.clear();

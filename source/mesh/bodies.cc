@@ -245,7 +245,7 @@ namespace Signorini
         remarks.insert(remarks.end(), body.mesh.notes.begin(), body.mesh.notes.end());
 
         // Materials: one per body, and one for each volume with its own.
-        materials.push_back({b, p.young, p.poisson});
+        materials.push_back({b, p.young, p.poisson, false, n_parts()});
         body.material_of_volume.assign(body.mesh.volume_names.size(),
                                        static_cast<unsigned int>(materials.size() - 1));
         for (const std::string &entry : Utilities::split_string_list(p.volume_materials, ';'))
@@ -262,7 +262,7 @@ namespace Signorini
                                listed(body.mesh.volume_names) + ".");
             const auto values = numbers_in(parts[1], 2, where);
             check_material(values[0], values[1], section, " of volume \"" + parts[0] + "\"");
-            materials.push_back({b, values[0], values[1]});
+            materials.push_back({b, values[0], values[1], false, n_parts()});
             body.material_of_volume[it - body.mesh.volume_names.begin()] =
                 static_cast<unsigned int>(materials.size() - 1);
           }
@@ -283,8 +283,10 @@ namespace Signorini
           v = body.placement(v);
         for (Point<3> &v : start_surfaces.back().mesh.vertices)
           v = body.placement(v);
+        check_shapes(body, section + "Boundary shapes", p.snap);
+        find_parts(body, b);
         if (p.snap)
-          snap_vertices(body, section + "Snap boundary vertices");
+          snap_vertices(body);
         boundaries.push_back(body.mesh.boundary_names);
         next_boundary += body.mesh.boundary_names.size();
       }
@@ -328,7 +330,7 @@ namespace Signorini
             cells.emplace_back(8);
             for (unsigned int v = 0; v < 8; ++v)
               cells.back().vertices[v] = cell.vertices[v] + shift;
-            cells.back().material_id = placed[b].material_of_volume[cell.volume];
+            cells.back().material_id = placed[b].material_of_cell[&cell - mesh.cells.data()];
           }
         for (const auto &face : mesh.faces)
           {
@@ -392,10 +394,14 @@ namespace Signorini
           name_of[face_key(face.vertices)] = face.name;
         const unsigned int shift = static_cast<unsigned int>(vertices.size());
         vertices.insert(vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
+        for (const unsigned int v : placed[b].late)
+          for (const auto &face : mesh.faces)
+            if (std::find(face.vertices.begin(), face.vertices.end(), v) != face.vertices.end())
+              late_vertices[v + shift].insert(first_boundary[b] + face.name);
         for (const VolumeMesh::Cell &cell : mesh.cells)
           {
             cells.emplace_back();
-            cells.back().material = placed[b].material_of_volume[cell.volume];
+            cells.back().material = placed[b].material_of_cell[&cell - mesh.cells.data()];
             for (unsigned int f = 0; f < 4; ++f)
               {
                 VolumeMesh::Face face;

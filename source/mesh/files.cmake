@@ -2,11 +2,13 @@ signorini_add_layer(mesh
   abaqus_input.cc
   bodies.cc
   body_elements.cc
+  body_parts.cc
   body_shapes.cc
   boundary_shape.cc
   coarser_meshes.cc
   expression.cc
   generated_mesh.cc
+  gmsh_file.cc
   mesh_input.cc
   nodal_space.cc
   node_movement.cc

@@ -3,6 +3,7 @@
 
 #include <signorini/algebra/input_error.h>
 #include <signorini/mesh/abaqus_input.h>
+#include <signorini/mesh/gmsh_file.h>
 #include <signorini/mesh/gmsh_session.h>
 #include <signorini/mesh/mesh_input.h>
 
@@ -84,8 +85,26 @@ namespace Signorini
       return result;
     }
 
+    /// gmsh's lists of an entity take the type from one element and lose those with another number of nodes.
+    void check_number(const std::string &file, const std::size_t in_file, const std::size_t n_cells)
+    {
+      double n_tetrahedra = 0., n_hexahedra = 0.;
+      gmsh::option::getNumber("Mesh.NbTetrahedra", n_tetrahedra);
+      gmsh::option::getNumber("Mesh.NbHexahedra", n_hexahedra);
+      const auto loaded = static_cast<std::size_t>(n_tetrahedra + n_hexahedra);
+      if (loaded != n_cells)
+        throw InputError("Mesh file \"" + file + "\": " + std::to_string(n_cells) + " of " +
+                         std::to_string(loaded) +
+                         " cells have 4 or 8 nodes, the others more. Write a mesh of first order.");
+      if (in_file != unknown_number && in_file != n_cells)
+        throw InputError("Mesh file \"" + file + "\": it has " + std::to_string(in_file) +
+                         " cells, of which " + std::to_string(n_cells) +
+                         " could be read. Are there numbers of elements that occur twice?");
+    }
+
     VolumeMesh read_with_gmsh(const std::string &file)
     {
+      const std::size_t n_in_file = count_volume_elements(file);
       const GmshSession session(file);
       VolumeMesh        mesh;
 
@@ -120,6 +139,7 @@ namespace Signorini
         }
       if (mesh.cells.empty())
         throw InputError("Mesh file \"" + file + "\": it contains neither tetrahedra nor hexahedra.");
+      check_number(file, n_in_file, mesh.cells.size());
 
       std::map<VolumeMesh::Face, std::string> named;
       for (const auto &[entity, n, nodes] : elements(2, gmsh_triangle, 3, gmsh_quadrilateral, 4, file))

@@ -5,6 +5,7 @@
 #include <signorini/mesh/tetrahedral_forest.h>
 #include <signorini/mesh/volume_mesh.h>
 
+#include <set>
 #include <unordered_map>
 
 namespace Signorini
@@ -33,6 +34,11 @@ namespace Signorini
     quality_after  = std::min(quality_after, other.quality_after);
     n_moved += other.n_moved;
     n_damped += other.n_damped;
+    for (const auto &[id, entry] : other.late)
+      {
+        late[id].first += entry.first;
+        late[id].second = std::max(late[id].second, entry.second);
+      }
   }
 
 
@@ -107,13 +113,230 @@ namespace Signorini
 
 
 
+  namespace
+  {
+    /// Second attempts for vertices that had to go back. Pure numbers; measured on refined spheres and the
+    /// knee.
+    struct MovementRule
+    {
+      /// The share of its quality that a cell keeps at least.
+      double tolerated = 1. / 3.;
+      /// How many times vertices go back half of the way before they stay where they were.
+      unsigned int n_halvings = 10;
+      /// Rounds over the vertices that are not there yet, and sweeps over the free vertices around one.
+      unsigned int n_rounds = 3, n_sweeps = 3;
+      /// A bound for the cost on meshes that are bad all over (some milliseconds each).
+      std::size_t n_attempts = 500;
+      /// A free vertex moves while the worst of its cells has a smaller share of its quality than this.
+      double good = .7;
+      /// First and last step of its search, as shares of its shortest edge.
+      double       first_step = .4, last_step = .05;
+      unsigned int n_steps = 12;
+    };
+
+    /// Moves single vertices to their targets where the free ones around can give way. All cells keep the
+    /// tolerated share of the quality that they had at the start.
+    class LateVertices
+    {
+    public:
+      LateVertices(std::vector<Point<3>> &positions, const Cells &cells, const std::vector<bool> &is_free,
+                   std::vector<double> &reference, const MovementRule &rule)
+        : positions(positions)
+        , cells(cells)
+        , is_free(is_free)
+        , reference(reference)
+        , rule(rule)
+        , start(positions.size() + 1, 0)
+      {
+        for (const auto &cell : cells)
+          for (const unsigned int v : cell)
+            ++start[v + 1];
+        for (std::size_t v = 0; v < positions.size(); ++v)
+          start[v + 1] += start[v];
+        star.resize(start.back());
+        std::vector<std::size_t> next(start.begin(), start.end() - 1);
+        for (unsigned int c = 0; c < cells.size(); ++c)
+          for (const unsigned int v : cells[c])
+            star[next[v]++] = c;
+      }
+
+      /// Whether the vertex got to its target; else whether it got nearer is in `moved`.
+      bool advance(bool &moved, const unsigned int v, const Point<3> &target)
+      {
+        const std::vector<unsigned int> region  = free_vertices_around(v);
+        const std::set<unsigned int>    touched = cells_of(region, v);
+        for (double share = 1.; share >= .5; share *= .5)
+          {
+            std::vector<Point<3>> saved = {positions[v]};
+            for (const unsigned int w : region)
+              saved.push_back(positions[w]);
+            positions[v] = share == 1. ? target : positions[v] + share * (target - positions[v]);
+            double worst = worst_of(touched);
+            for (unsigned int sweep = 0; sweep < rule.n_sweeps && worst < rule.tolerated; ++sweep)
+              {
+                const double old = worst;
+                for (const unsigned int w : region)
+                  improve(w);
+                worst = worst_of(touched);
+                if (worst <= old + 1e-3)
+                  break;
+              }
+            if (worst >= rule.tolerated)
+              {
+                moved = true;
+                return share == 1.;
+              }
+            positions[v] = saved[0];
+            for (std::size_t i = 0; i < region.size(); ++i)
+              positions[region[i]] = saved[i + 1];
+          }
+        return false;
+      }
+
+    private:
+      ArrayView<const unsigned int> star_of(const unsigned int v) const
+      {
+        return {star.data() + start[v], start[v + 1] - start[v]};
+      }
+
+      /// Of the cells at the vertex and of their neighbours, nearest first.
+      std::vector<unsigned int> free_vertices_around(const unsigned int v) const
+      {
+        std::vector<unsigned int> result, ring = {v};
+        std::set<unsigned int>    known = {v};
+        for (unsigned int layer = 0; layer < 2; ++layer)
+          {
+            std::vector<unsigned int> next;
+            for (const unsigned int w : ring)
+              for (const unsigned int c : star_of(w))
+                for (const unsigned int x : cells[c])
+                  if (known.insert(x).second)
+                    next.push_back(x);
+            for (const unsigned int w : next)
+              if (is_free[w])
+                result.push_back(w);
+            ring = std::move(next);
+          }
+        return result;
+      }
+
+      std::set<unsigned int> cells_of(const std::vector<unsigned int> &region, const unsigned int v)
+      {
+        std::set<unsigned int> touched(star_of(v).begin(), star_of(v).end());
+        for (const unsigned int w : region)
+          touched.insert(star_of(w).begin(), star_of(w).end());
+        // Cells that nothing has moved yet.
+        for (const unsigned int c : touched)
+          if (reference[c] == 0.)
+            reference[c] = quality(positions, cells[c]);
+        return touched;
+      }
+
+      template <typename List>
+      double worst_of(const List &list) const
+      {
+        double worst = std::numeric_limits<double>::max();
+        for (const unsigned int c : list)
+          worst = std::min(worst, quality(positions, cells[c]) / reference[c]);
+        return worst;
+      }
+
+      /// How the share of its quality that a cell keeps grows when the vertex moves.
+      Tensor<1, 3> gradient(const unsigned int c, const unsigned int w, const double h)
+      {
+        const Point<3> from = positions[w];
+        Tensor<1, 3>   result;
+        for (unsigned int i = 0; i < 3; ++i)
+          for (const double sign : {-1., 1.})
+            {
+              positions[w][i] = from[i] + sign * h;
+              result[i] += sign * quality(positions, cells[c]) / reference[c];
+              positions[w] = from;
+            }
+        return result;
+      }
+
+      /// Directions that may be good for the worst cells: those in which one or several of them grow, and to
+      /// the middle of the neighbours.
+      std::vector<Tensor<1, 3>> ways_of(const unsigned int w, const double h)
+      {
+        std::vector<std::pair<double, unsigned int>> worst;
+        Tensor<1, 3>                                 sum;
+        for (const unsigned int c : star_of(w))
+          {
+            worst.emplace_back(quality(positions, cells[c]) / reference[c], c);
+            for (const unsigned int x : cells[c])
+              sum += positions[x] - positions[w];
+          }
+        std::vector<Tensor<1, 3>> ways = {sum};
+        const std::size_t         n    = std::min<std::size_t>(3, worst.size());
+        std::partial_sort(worst.begin(), worst.begin() + n, worst.end());
+        sum = 0.;
+        for (std::size_t i = 0; i < n; ++i)
+          {
+            ways.push_back(gradient(worst[i].second, w, h));
+            sum += ways.back();
+            if (i > 0)
+              ways.push_back(sum);
+          }
+        for (Tensor<1, 3> &way : ways)
+          if (const double length = way.norm(); length > 0.)
+            way /= length;
+        return ways;
+      }
+
+      /// Moves a free vertex to where the worst of its cells is better, by shorter and shorter steps.
+      void improve(const unsigned int w)
+      {
+        const auto star_cells = star_of(w);
+        double     now        = worst_of(star_cells);
+        if (now >= rule.good)
+          return;
+        double shortest = std::numeric_limits<double>::max();
+        for (const unsigned int c : star_cells)
+          for (const unsigned int x : cells[c])
+            if (x != w)
+              shortest = std::min(shortest, positions[x].distance(positions[w]));
+        double step = rule.first_step;
+        for (unsigned int i = 0; i < rule.n_steps && step >= rule.last_step && now < rule.good; ++i)
+          {
+            const Point<3> from = positions[w];
+            Point<3>       best = from;
+            for (const Tensor<1, 3> &way : ways_of(w, rule.last_step * shortest))
+              {
+                positions[w] = from + step * shortest * way;
+                // Steps that hardly help are not worth the next ones.
+                if (const double there = worst_of(star_cells); there > now + 1e-3)
+                  {
+                    now  = there;
+                    best = positions[w];
+                  }
+              }
+            positions[w] = best;
+            if (best == from)
+              step *= .5;
+          }
+      }
+
+      std::vector<Point<3>>   &positions;
+      const Cells             &cells;
+      const std::vector<bool> &is_free;
+      /// The quality that each cell had at the start; zero where it is not known yet.
+      std::vector<double>      &reference;
+      const MovementRule       &rule;
+      std::vector<std::size_t>  start;
+      std::vector<unsigned int> star;
+    };
+  } // namespace
+
+
+
   MovementReport move_nodes(std::vector<Point<3>> &positions, const Targets &wanted, const Cells &cells,
                             const std::vector<bool> &is_fixed, std::vector<unsigned int> &late)
   {
-    constexpr double       tolerated  = 1. / 3.;
-    constexpr unsigned int n_halvings = 10;
-    MovementReport         report;
-    const Targets          targets = let_others_follow(positions, wanted, cells, is_fixed);
+    const MovementRule rule;
+    MovementReport     report;
+    const Targets      targets = let_others_follow(positions, wanted, cells, is_fixed);
     std::unordered_map<unsigned int, std::size_t> index;
     std::vector<bool>                             moves(positions.size(), false);
     for (std::size_t i = 0; i < targets.size(); ++i)
@@ -121,21 +344,22 @@ namespace Signorini
         index[targets[i].first] = i;
         moves[targets[i].first] = true;
       }
-    std::vector<const ArrayView<const unsigned int> *> around;
-    std::vector<double>                                before;
-    for (const auto &cell : cells)
-      if (std::any_of(cell.begin(), cell.end(), [&](const unsigned int v) { return moves[v]; }))
+    std::vector<unsigned int> around;
+    std::vector<double>       before(cells.size(), 0.);
+    for (unsigned int c = 0; c < cells.size(); ++c)
+      if (std::any_of(cells[c].begin(), cells[c].end(), [&](const unsigned int v) { return moves[v]; }))
         {
-          around.push_back(&cell);
-          before.push_back(quality(positions, cell));
-          report.quality_before = std::min(report.quality_before, before.back());
+          around.push_back(c);
+          before[c]             = quality(positions, cells[c]);
+          report.quality_before = std::min(report.quality_before, before[c]);
         }
 
     std::vector<Point<3>>     start;
     std::vector<unsigned int> halvings(targets.size(), 0);
     const auto                place = [&](const std::size_t i) {
       const auto &[v, target] = targets[i];
-      const double share = halvings[i] > n_halvings ? 0. : std::ldexp(1., -static_cast<int>(halvings[i]));
+      const double share =
+          halvings[i] > rule.n_halvings ? 0. : std::ldexp(1., -static_cast<int>(halvings[i]));
       positions[v] = start[i] + share * (target - start[i]);
     };
     for (const auto &target : targets)
@@ -147,10 +371,10 @@ namespace Signorini
       {
         changed = false;
         goes_back.assign(targets.size(), false);
-        for (std::size_t c = 0; c < around.size(); ++c)
-          if (!(quality(positions, *around[c]) >= tolerated * before[c]))
-            for (const unsigned int v : *around[c])
-              if (moves[v] && halvings[index[v]] <= n_halvings)
+        for (const unsigned int c : around)
+          if (!(quality(positions, cells[c]) >= rule.tolerated * before[c]))
+            for (const unsigned int v : cells[c])
+              if (moves[v] && halvings[index[v]] <= rule.n_halvings)
                 goes_back[index[v]] = true;
         for (std::size_t i = 0; i < targets.size(); ++i)
           if (goes_back[i])
@@ -160,15 +384,33 @@ namespace Signorini
               changed = true;
             }
       }
-    for (const auto *cell : around)
-      report.quality_after = std::min(report.quality_after, quality(positions, *cell));
-    report.n_moved = wanted.size();
     for (std::size_t i = 0; i < wanted.size(); ++i)
       if (halvings[i] > 0)
-        {
-          late.push_back(targets[i].first);
-          ++report.n_damped;
-        }
+        late.push_back(wanted[i].first);
+    if (!late.empty())
+      {
+        std::vector<bool> is_free(positions.size());
+        for (std::size_t v = 0; v < is_free.size(); ++v)
+          is_free[v] = !is_fixed[v];
+        for (const auto &target : wanted)
+          is_free[target.first] = false;
+        std::size_t  n_attempts = 0;
+        LateVertices attempts(positions, cells, is_free, before, rule);
+        bool         moved = true;
+        for (unsigned int round = 0; round < rule.n_rounds && moved; ++round)
+          {
+            moved = false;
+            std::vector<unsigned int> still;
+            for (const unsigned int v : late)
+              if (n_attempts++ >= rule.n_attempts || !attempts.advance(moved, v, wanted[index[v]].second))
+                still.push_back(v);
+            late = std::move(still);
+          }
+      }
+    for (const unsigned int c : around)
+      report.quality_after = std::min(report.quality_after, quality(positions, cells[c]));
+    report.n_moved  = wanted.size();
+    report.n_damped = late.size();
     return report;
   }
 } // namespace Signorini

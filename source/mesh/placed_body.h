@@ -13,9 +13,11 @@ namespace Signorini
   {
     VolumeMesh                  mesh;
     std::vector<CurvedBoundary> curved;
-    std::vector<unsigned int>   material_of_volume;
-    Placement                   placement;
-    dealii::types::boundary_id  first_boundary;
+    std::vector<unsigned int>   material_of_volume, material_of_cell;
+    /// Vertices of the start mesh that could not be moved to their shapes.
+    std::vector<unsigned int>  late;
+    Placement                  placement;
+    dealii::types::boundary_id first_boundary;
   };
 
   /// Names for a message.

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <sstream>
 
 namespace Signorini
@@ -61,22 +62,60 @@ namespace Signorini
     std::sort(entries.begin(), entries.end(), [](const Entry &a, const Entry &b) {
       return std::tie(a.key, a.cell) < std::tie(b.key, b.cell);
     });
+    const auto sorted_vertices = [&](const unsigned int c) {
+      std::array<unsigned int, 8> vertices = mesh.cells[c].vertices;
+      std::fill(vertices.begin() + mesh.cells[c].n_vertices, vertices.end(), VolumeMesh::no_vertex);
+      std::sort(vertices.begin(), vertices.end());
+      return vertices;
+    };
     std::vector<std::pair<VolumeMesh::Face, unsigned int>> faces;
     for (std::size_t i = 0, j; i < entries.size(); i = j)
       {
-        for (j = i + 1; j < entries.size() && entries[j].key == entries[i].key;)
-          ++j;
+        for (j = i + 1; j < entries.size() && entries[j].key == entries[i].key; ++j)
+          for (std::size_t k = i; k < j; ++k)
+            if (sorted_vertices(entries[j].cell) == sorted_vertices(entries[k].cell))
+              {
+                std::ostringstream message;
+                message
+                    << "the cell near (" << mesh.vertices[entries[j].face[0]]
+                    << ") is there twice. Take the copy out (gmsh's format 2 writes the cells of a volume "
+                       "once for each of its physical groups).";
+                throw InputError(message.str());
+              }
         if (j - i > 2)
           {
             std::ostringstream message;
             message << "a face near (" << mesh.vertices[entries[i].face[0]] << ") belongs to " << j - i
-                    << " cells. Are there cells twice in the mesh?";
+                    << " cells. Do cells overlap?";
             throw InputError(message.str());
           }
         if (j - i == 1)
           faces.emplace_back(entries[i].face, entries[i].cell);
       }
     return faces;
+  }
+
+
+
+  std::vector<unsigned int> connected_parts(const VolumeMesh &mesh)
+  {
+    // Union of the vertices of each cell.
+    std::vector<unsigned int> root(mesh.vertices.size());
+    std::iota(root.begin(), root.end(), 0u);
+    const auto find = [&](unsigned int v) {
+      while (root[v] != v)
+        v = root[v] = root[root[v]];
+      return v;
+    };
+    for (const VolumeMesh::Cell &cell : mesh.cells)
+      for (unsigned int v = 1; v < cell.n_vertices; ++v)
+        root[find(cell.vertices[v])] = find(cell.vertices[0]);
+    std::map<unsigned int, unsigned int> number;
+    std::vector<unsigned int>            part;
+    for (const VolumeMesh::Cell &cell : mesh.cells)
+      part.push_back(
+          number.insert({find(cell.vertices[0]), static_cast<unsigned int>(number.size())}).first->second);
+    return part;
   }
 
 

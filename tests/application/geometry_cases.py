@@ -7,6 +7,7 @@ import struct
 import tempfile
 
 from harness import TOP, certificate, check, constant_pressure, iterations, near
+from input_cases import held_surfaces, overlaps, parts, shared_surfaces  # noqa: F401
 
 PATCH_TEST = 'patch_test/patch_test.prm'
 LINEAR = '(-1e-3*x, -1e-3*y, -1e-3*z)'
@@ -450,6 +451,11 @@ def bad_meshes(p):
             content = f.read()
         with open(path('cut.stl'), 'wb') as f:
             f.write(content[:-30])
+        # In another unit: the number of triangles, then 12 numbers and two bytes for each.
+        with open(os.path.join(os.path.dirname(prm), 'half_sphere_surface.stl'), 'rb') as f:
+            content = f.read()
+        write_stl(path('unit.stl'), [tuple(tuple(1e3 * x for x in struct.unpack_from('<3f', content, 84 + 50 * i + 12 * v)) for v in (1, 2, 3))
+                                     for i in range((len(content) - 84) // 50)])
         write_stl(path('far.stl'), [tuple((x + 50., y, z) for x, y, z in t) for t in square])
         cases = [(f'Body ball/Mesh={path(f"cut{n}.msh")}', f'cut{n}.msh') for n in range(4)]
         cases += [(f'Body ball/Mesh={path("cut.inp")}', 'cut off'),
@@ -460,11 +466,14 @@ def bad_meshes(p):
                   (f'Body ball/Boundary shapes=sphere: file: {path("nan.stl")}', 'finite'),
                   (f'Body ball/Boundary shapes=sphere: file: {path("three.stl")}', 'not a manifold'),
                   (f'Body ball/Boundary shapes=sphere: file: {path("cut.stl")}', 'cut.stl'),
-                  (f'Body ball/Boundary shapes=sphere: file: {path("no.stl")}', 'no.stl')]
+                  (f'Body ball/Boundary shapes=sphere: file: {path("no.stl")}', 'no.stl'),
+                  (f'Body ball/Boundary shapes=sphere: file: {path("unit.stl")}', 'in the units'),
+                  ('Body ball/Boundary shapes=sphere: sphere: (0, 0, 1.1), 1', 'away from the vertex'),
+                  ('Body ball/Boundary shapes=sphere: sphere: (0, 0, 1), 1e3', 'away from the vertex')]
         out = path('out')
         before = sorted(os.listdir(folder))
         for setting, word in cases + [((f'Body ball/Boundary shapes=sphere: file: {path("far.stl")}',
-                                        'Body ball/Snap boundary vertices=true'), 'farther from the vertex')]:
+                                        'Body ball/Snap boundary vertices=true'), 'away from the vertex')]:
             settings = [setting] if isinstance(setting, str) else list(setting)
             run = p.call(prm, '--output', out, *[a for s in settings for a in ('--set', s)])
             check(run.returncode == 1, f'{settings}: exit code {run.returncode}')

@@ -112,6 +112,9 @@ namespace Signorini
       bool           has_gap;
       RigidObstacle  obstacle;
       bool           has_obstacle;
+      /// Whether an automatic choice of the nonmortar side was turned round, because the other side left
+      /// contact without multipliers.
+      bool is_swapped = false;
 
       unsigned int n_sides() const
       {
@@ -122,14 +125,25 @@ namespace Signorini
     void define_pairs();
     void setup_space();
     /// Pairs that are tied (ties.cc).
-    void         hold_by_ties();
-    void         tie_lift();
-    void         tie_unknowns(LinearSystem &system) const;
-    void         evaluate_ties();
-    void         setup_contact(CycleResult &cycle);
-    ContactPair  make_pair(const PairDefinition &definition, CycleResult &cycle);
-    void         map_pair(ContactPair &pair, CycleResult &cycle);
-    void         use_nodal_gaps(PairCoupling &coupling, const ContactPair &pair) const;
+    void hold_by_ties();
+    void tie_lift();
+    void tie_unknowns(LinearSystem &system) const;
+    void evaluate_ties();
+    void setup_contact(CycleResult &cycle);
+    void couple_pairs();
+    /// Pairs that lose contact because of conditions or other pairs, or begin with an overlap that makes no
+    /// sense (contact_checks.cc). Turns automatic choices of sides round where that helps; whether it did.
+    bool swap_sides(CycleResult &cycle);
+    void refuse_lost_contact() const;
+    void refuse_held_overlap(const unsigned int pair) const;
+    void refuse_large_overlap(const unsigned int pair, const double overlap) const;
+    /// The other pairs that need nodes of a pair's nonmortar side.
+    std::string            rivals_of(const unsigned int pair) const;
+    double                 width_of(const unsigned int body) const;
+    std::set<unsigned int> parts_of(const PairDefinition &definition, const unsigned int side) const;
+    ContactPair            make_pair(const PairDefinition &definition, CycleResult &cycle);
+    void                   map_pair(ContactPair &pair, CycleResult &cycle);
+    void                   use_nodal_gaps(PairCoupling &coupling, const ContactPair &pair) const;
     unsigned int choose_nonmortar(const PairDefinition &definition, const ContactSurface (&surfaces)[2]);
     void         solve_cycle(CycleResult &cycle);
     /// Half-spaces of the contact nodes that a rank owns; bounds as BasisTransformation::reduce_gaps() gives

@@ -12,7 +12,7 @@
 
 namespace Signorini
 {
-  /// A rigid motion of one body that its Dirichlet conditions do not exclude:
+  /// A rigid motion of a connected part of a body that its Dirichlet conditions do not exclude:
   /// translation + rotation x (x - centre) / length.
   struct FreeMotion
   {
@@ -20,6 +20,8 @@ namespace Signorini
     dealii::Point<3> centre;
     double           length;
     Vector3          translation, rotation;
+    /// Of Bodies::part().
+    unsigned int part = 0;
 
     Vector3 operator()(const dealii::Point<3> &x) const
     {
@@ -27,12 +29,12 @@ namespace Signorini
     }
   };
 
-  /// Collective. An orthonormal basis of the motions that the conditions leave to the bodies. Empty if every
-  /// body is held.
+  /// Collective. An orthonormal basis of the motions that the conditions leave to the connected parts of the
+  /// bodies. Empty if every part is held.
   std::vector<FreeMotion> free_motions(const Bodies &bodies, const NodalSpace &space,
                                        const DirichletData &dirichlet);
 
-  /// Collective. The displacements of the motions, each zero on all other bodies, on a partition of the nodes
+  /// Collective. The displacements of the motions, each zero on all other parts, on a partition of the nodes
   /// of the space; ghosts up to date.
   std::vector<Vector> motion_fields(const std::vector<FreeMotion> &motions, const Bodies &bodies,
                                     const NodalSpace &space, const NodePartition &partition);

@@ -54,6 +54,18 @@ namespace Signorini
     double young, poisson;
     /// Whether hexahedra have the mean change of volume of the cell everywhere in it (B-bar).
     bool mean_dilatation = false;
+    /// The part of the body (Bodies::part()).
+    unsigned int part = 0;
+  };
+
+  /// A connected part of a body: most bodies have one.
+  struct BodyPart
+  {
+    unsigned int body;
+    /// Of its box, on the start mesh.
+    dealii::Point<3> centre;
+    /// The boundaries on which it has faces.
+    std::set<dealii::types::boundary_id> boundaries;
   };
 
   /// All bodies: those of hexahedra in one distributed triangulation (one p4est forest), those of tetrahedra
@@ -128,6 +140,28 @@ namespace Signorini
       return materials[id].body;
     }
 
+    /// Connected parts, those of the first body first. Cells of different parts have different materials.
+    unsigned int n_parts() const
+    {
+      return static_cast<unsigned int>(parts.size());
+    }
+
+    const BodyPart &part(const unsigned int i) const
+    {
+      return parts[i];
+    }
+
+    unsigned int part_of_material(const dealii::types::material_id id) const
+    {
+      return materials[id].part;
+    }
+
+    /// "body NAME", and where the part is if the body has several.
+    std::string part_name(const unsigned int part) const;
+
+    /// "body NAME, boundary NAME".
+    std::string boundary_name(const dealii::types::boundary_id id) const;
+
     const std::vector<std::string> &boundary_names(const unsigned int body) const
     {
       return boundaries[body];
@@ -174,7 +208,17 @@ namespace Signorini
 
     void choose_elements(const BodyParameters &parameters, const Placed &placed);
     void read_shapes(const BodyParameters &parameters, Placed &placed, const std::string &base_folder);
-    void snap_vertices(Placed &placed, const std::string &where);
+    /// Connected parts, and the materials of cells, which are those of their volumes for the first part.
+    void find_parts(Placed &placed, const unsigned int body);
+    /// Refuses shapes of the parameters that lie elsewhere than their boundaries, notes those that are off.
+    void check_shapes(const Placed &placed, const std::string &where, const bool snaps);
+    void snap_vertices(Placed &placed);
+    /// Moves vertices on the given boundaries to their shapes; returns those that are not there yet.
+    std::vector<unsigned int>
+         move_to_shapes(std::vector<dealii::Point<3>>                                      &positions,
+                        const std::map<unsigned int, std::set<dealii::types::boundary_id>> &ids,
+                        const std::vector<dealii::ArrayView<const unsigned int>>           &cells,
+                        const std::vector<bool>                                            &is_fixed);
     void follow_shapes();
     void assess_hexahedra();
     void set_manifolds();
@@ -201,6 +245,7 @@ namespace Signorini
     std::unique_ptr<TetrahedralForest>                               forest;
     std::vector<std::string>                                         names;
     std::vector<Material>                                            materials;
+    std::vector<BodyPart>                                            parts;
     std::vector<std::vector<std::string>>                            boundaries;
     std::vector<dealii::types::boundary_id>                          first_boundary;
     std::vector<std::string>                                         remarks;

@@ -17,8 +17,8 @@ namespace Signorini
   /// gmsh's own library (which keeps physical names and does not join coincident nodes). Rank 0 reads, all
   /// get plain arrays. Boundary faces and volumes get the names of their physical groups, or the ids as text
   /// where there is no name; faces without a group are "unnamed". Cells of mirrored orientation are mended,
-  /// with a note. Errors: InputError for missing or broken files, unsupported elements (by name) and inverted
-  /// cells.
+  /// with a note. Errors: InputError for missing or broken files, unsupported elements (by name), cells
+  /// that are inverted or there twice, and files of which not every cell can be read.
   VolumeMesh read_volume_mesh(const std::string &file, const MPI_Comm communicator);
 
   /// The index of a name, appended if new.

@@ -7,6 +7,9 @@
 #include <deal.II/base/array_view.h>
 #include <deal.II/base/point.h>
 
+#include <deal.II/base/types.h>
+
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -18,6 +21,8 @@ namespace Signorini
   {
     double      quality_before = 1., quality_after = 1.;
     std::size_t n_moved = 0, n_damped = 0;
+    /// Of each boundary with vertices that are not on its shape: their number, and the largest distance.
+    std::map<dealii::types::boundary_id, std::pair<std::size_t, double>> late;
 
     void add(const MovementReport &other);
   };
@@ -25,7 +30,9 @@ namespace Signorini
   /// Moves vertices to their targets, and free ones around them along (their displacements are means of
   /// their neighbours'), as far as no cell becomes bad: not worse than a third of what it was (nor inverted).
   /// Where one would, the vertices of the cell that move go back half of the way, up to ten times, then all
-  /// of it. Vertices that did not reach their target are returned in `late`. Not collective.
+  /// of it. Then those vertices are tried again one by one, the free ones around moving to where the worst of
+  /// their cells is best (MovementRule). Vertices that did not reach their target are returned in `late`. Not
+  /// collective.
   /// @param cells each with the 4 or 8 vertices of a cell
   /// @param is_fixed vertices that may not follow: on boundaries and between materials
   MovementReport move_nodes(std::vector<dealii::Point<3>>                                &positions,

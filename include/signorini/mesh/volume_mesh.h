@@ -68,8 +68,12 @@ namespace Signorini
   VolumeMesh::Face face_key(VolumeMesh::Face face);
 
   /// Faces that belong to one cell only (hexahedra: vertices in deal.II's face order), and that cell.
-  /// Errors: InputError for faces that belong to more than two cells.
+  /// Errors: InputError for faces that belong to more than two cells, and for cells that are there twice.
   std::vector<std::pair<VolumeMesh::Face, unsigned int>> find_boundary_faces(const VolumeMesh &mesh);
+
+  /// For each cell the number of its connected part: cells that share a vertex are connected. Parts are
+  /// numbered in the order of their first cells.
+  std::vector<unsigned int> connected_parts(const VolumeMesh &mesh);
 
   /// Turns mirrored cells over, with a note; `where` names the mesh. Errors: InputError for degenerate and
   /// twisted cells.

@@ -265,3 +265,42 @@ TEST(NodeMovement, NoCellInverts)
   EXPECT_TRUE(late.empty());
   EXPECT_EQ(x[3], Point<3>(.1, .1, .9));
 }
+
+
+
+// Three vertices of the top of a block go down by the height of a cell: they arrive only if the nodes inside
+// do more than follow, which two of them did not.
+TEST(NodeMovement, NodesInsideGiveWay)
+{
+  GeneratedMeshParameters parameters;
+  parameters.kind         = "block";
+  parameters.upper_corner = Point<3>(4., 4., 4.);
+  parameters.divisions    = {{4, 4, 4}};
+  VolumeMesh        mesh  = split_into_tetrahedra(generate_mesh(parameters).mesh);
+  std::vector<bool> is_fixed(mesh.vertices.size(), false);
+  for (const auto &face : mesh.faces)
+    for (const unsigned int v : face.vertices)
+      if (v != VolumeMesh::no_vertex)
+        is_fixed[v] = true;
+  std::vector<std::pair<unsigned int, Point<3>>> targets;
+  for (unsigned int v = 0; v < mesh.vertices.size(); ++v)
+    if (const Point<3> x = mesh.vertices[v];
+        x[2] > 3.9 && std::abs(x[0] - 2.) < 1.1 && std::abs(x[1] - 2.) < .1)
+      targets.emplace_back(v, x - Tensor<1, 3>({0., 0., 1.}));
+  ASSERT_EQ(targets.size(), 3u);
+  std::vector<ArrayView<const unsigned int>> cells;
+  for (const auto &cell : mesh.cells)
+    cells.emplace_back(cell.vertices.data(), cell.n_vertices);
+  const std::vector<Point<3>> before = mesh.vertices;
+  std::vector<unsigned int>   late;
+  const MovementReport        report = move_nodes(mesh.vertices, targets, cells, is_fixed, late);
+  EXPECT_TRUE(late.empty());
+  EXPECT_EQ(report.n_damped, 0u);
+  for (const auto &[v, target] : targets)
+    EXPECT_EQ(mesh.vertices[v], target);
+  EXPECT_GE(report.quality_after, report.quality_before / 3.);
+  for (unsigned int v = 0; v < before.size(); ++v)
+    if (is_fixed[v] &&
+        std::none_of(targets.begin(), targets.end(), [&](const auto &t) { return t.first == v; }))
+      EXPECT_EQ(mesh.vertices[v], before[v]);
+}

@@ -167,7 +167,11 @@ TEST(MeshInput, RefusesWhatItCannotUse)
   expect_in(error_of(gmsh_text(cube(), {"6 2 7 1 1 2 3 5 6 7"})), "Prism");
   expect_in(error_of(gmsh_text(cube(), {bottom})), "neither tetrahedra nor hexahedra");
   expect_in(error_of(gmsh_text(cube(), {"4 2 7 1 1 2 3 4"})), "degenerate");
-  expect_in(error_of(gmsh_text(cube(), {hexahedron, hexahedron, hexahedron})), "belongs to 3 cells");
+  expect_in(error_of(gmsh_text(cube(), {hexahedron, hexahedron, hexahedron})), "twice");
+  const std::vector<Point<3>> fan = {Point<3>(),           Point<3>(1., 0., 0.), Point<3>(0., 1., 0.),
+                                     Point<3>(0., 0., 1.), Point<3>(0., 0., 2.), Point<3>(0., 0., -1.)};
+  expect_in(error_of(gmsh_text(fan, {"4 2 7 1 1 2 3 4", "4 2 7 1 1 2 3 5", "4 2 7 1 1 2 3 6"})),
+            "belongs to 3 cells");
   std::vector<Point<3>> quadratic(20);
   std::string           nodes = "17 2 7 1";
   for (unsigned int i = 0; i < 20; ++i)
@@ -180,4 +184,64 @@ TEST(MeshInput, RefusesWhatItCannotUse)
   error_of(good.substr(0, good.size() / 2));
   error_of("this is not a mesh\n");
   EXPECT_THROW(read_volume_mesh("/nonexistent/file.msh", MPI_COMM_WORLD), InputError);
+}
+
+
+
+// gmsh leaves cells out without a word; the file itself says how many there are.
+TEST(MeshInput, LosesNoCells)
+{
+  std::vector<Point<3>> points = {Point<3>(), Point<3>(1., 0., 0.), Point<3>(0., 1., 0.),
+                                  Point<3>(0., 0., 1.), Point<3>(1., 1., 1.)};
+  for (const auto &[a, b] :
+       {std::pair(0, 1), std::pair(1, 2), std::pair(0, 2), std::pair(0, 3), std::pair(2, 3), std::pair(1, 3)})
+    points.push_back(points[a] + .5 * (points[b] - points[a]));
+  const std::string first = "4 2 7 1 1 2 3 4", second = "4 2 7 1 2 3 4 5",
+                    quadratic = "11 2 7 1 1 2 3 4 6 7 8 9 10 11";
+  // Of another order, or one that has another type than nodes.
+  expect_in(error_of(gmsh_text(points, {quadratic, second})), "nodes");
+  expect_in(error_of(gmsh_text(points, {second, quadratic})), "nodes");
+  error_of(gmsh_text(points, {first, "4 2 7 1 2 3 4 5 6 7 8 9 10 11"}));
+  error_of(gmsh_text(points, {"4 2 7 1 1 2 3", second}));
+  // Another number of them.
+  const std::string good = gmsh_text(points, {first, second});
+  const auto        with = [](std::string text, const std::string &old, const std::string &now) {
+    return text.replace(text.find(old), old.size(), now);
+  };
+  expect_in(error_of(with(good, "$Elements\n2\n", "$Elements\n1\n")), "announces 1 elements and has 2");
+  error_of(with(good, "$Elements\n2\n", "$Elements\n3\n"));
+  // A number of an element twice, or a cell.
+  expect_in(error_of(with(good, "\n2 4 2", "\n1 4 2")), "1");
+  expect_in(error_of(gmsh_text(points, {first, second, second})), "twice");
+  const std::string head = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 5 1 5\n3 1 0 5\n1\n2\n3\n4\n5\n0 "
+                           "0 0\n1 0 0\n0 1 0\n0 0 "
+                           "1\n1 1 1\n$EndNodes\n$Elements\n";
+  for (const char *const block :
+       {"1 2 1 2\n3 1 4 1", "1 1 1 2\n3 1 4 1", "1 1 1 2\n3 1 4 2", "1 3 1 2\n3 1 4 2"})
+    error_of(head + block + "\n1 1 2 3 4\n2 2 3 4 5\n$EndElements\n");
+}
+
+
+
+TEST(MeshInput, AbaqusFilesLoseNoCells)
+{
+  const std::string nodes = "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n5, 1, 1, 1\n";
+  const auto        error = [&](const std::string &text) {
+    const TemporaryFile file(nodes + text, ".inp");
+    try
+      {
+        read_volume_mesh(file.path, MPI_COMM_WORLD);
+      }
+    catch (const InputError &e)
+      {
+        return std::string(e.what());
+      }
+    return std::string("none");
+  };
+  EXPECT_EQ(error("*ELEMENT, TYPE=C3D4\n1, 1, 2, 3, 4\n2, 2, 3, 4, 5\n"), "none");
+  expect_in(error("*ELEMENT, TYPE=C3D4\n1, 1, 2, 3, 4\n1, 2, 3, 4, 5\n"), "element 1 is there twice");
+  expect_in(error("*ELEMENT, TYPE=C3D4\n1, 1, 2, 3, 4\n2, 2, 3, 4, 1\n"), "twice");
+  expect_in(error("*NODE\n3, 0, 2, 0\n*ELEMENT, TYPE=C3D4\n1, 1, 2, 3, 4\n"), "node 3 is there twice");
+  expect_in(error("*ELEMENT, TYPE=C3D10\n1, 1, 2, 3, 4, 5, 1, 2, 3, 4, 5\n"), "C3D10");
+  expect_in(error("*ELEMENT, TYPE=C3D4\n1, 1, 2, 3, 4, 5, 1, 2, 3, 4, 5\n"), "too many nodes");
 }
