@@ -228,7 +228,7 @@ namespace Signorini
     , mortar(mortar_mesh.triangles, mortar_mesh.vertices.size())
   {
     Incidence        incidence(nonmortar_mesh, mortar_mesh, nonmortar, mortar);
-    const PartRegion region(nonmortar_mesh, is_selected);
+    const PartRegion region(incidence.nonmortar, is_selected);
     PlaneGraph       graph(incidence, region, communicator);
     summary.lost_edges  = std::move(graph.lost_edges);
     summary.n_conflicts = nonmortar.n_conflicts + mortar.n_conflicts;

@@ -50,6 +50,25 @@ namespace Signorini
       return size;
     }
 
+    /// With an origin in the middle of the nonmortar surface: numbers far from theirs have few digits left for
+    /// the distances that are decided here.
+    SurfaceMesh near_origin(SurfaceMesh mesh, const SurfaceMesh &nonmortar)
+    {
+      if (nonmortar.vertices.empty())
+        return mesh;
+      Point<3> low = nonmortar.vertices[0], high = low;
+      for (const Point<3> &p : nonmortar.vertices)
+        for (unsigned int c = 0; c < 3; ++c)
+          {
+            low[c]  = std::min(low[c], p[c]);
+            high[c] = std::max(high[c], p[c]);
+          }
+      const Tensor<1, 3> middle = low + .5 * (high - low) - Point<3>();
+      for (Point<3> &p : mesh.vertices)
+        p -= middle;
+      return mesh;
+    }
+
     Incidence::Side decide(const double distance, const double position, const double size)
     {
       const bool on_it = std::abs(distance) <= NormalProjection::incidence_tolerance * size;
@@ -61,8 +80,8 @@ namespace Signorini
 
   Incidence::Incidence(const SurfaceMesh &nonmortar, const SurfaceMesh &mortar,
                        const SurfaceTopology &nonmortar_topology, const SurfaceTopology &mortar_topology)
-    : nonmortar(nonmortar)
-    , mortar(mortar)
+    : nonmortar(near_origin(nonmortar, nonmortar))
+    , mortar(near_origin(mortar, nonmortar))
     , nonmortar_topology(nonmortar_topology)
     , mortar_topology(mortar_topology)
     , nonmortar_normal(area_normals(nonmortar))
@@ -111,7 +130,8 @@ namespace Signorini
     double             position;
     const double       distance = NormalProjection::distance_from_edge(mortar.vertices[vertex],
                                                                        mortar.vertex_normals[vertex], e, position);
-    return decide(distance, position, std::min(mortar_size[vertex], e.a.distance(e.b)));
+    return decide(distance, position,
+                  std::min(mortar_size[vertex], nonmortar_size[nonmortar_topology.edges[edge][position > .5]]));
   }
 
 
@@ -121,7 +141,8 @@ namespace Signorini
     const OrientedEdge e = edge_of(mortar, mortar_topology.edges[edge]);
     double             position;
     const double distance = NormalProjection::distance_from_curtain(nonmortar.vertices[vertex], e, position);
-    return decide(distance, position, std::min(nonmortar_size[vertex], e.a.distance(e.b)));
+    return decide(distance, position,
+                  std::min(nonmortar_size[vertex], mortar_size[mortar_topology.edges[edge][position > .5]]));
   }
 
 
@@ -133,7 +154,7 @@ namespace Signorini
     t                  = share != 0. ? low.distance / share : .5;
     s                  = (1. - t) * low.position + t * high.position;
     // A little outside is rounding.
-    constexpr double outside = 1e-6;
+    constexpr double outside = near_end;
     const bool       inside  = NormalProjection::intersect_edges(
                                    edge_of(mortar, mortar_topology.edges[mortar_edge]),
                                    edge_of(nonmortar, nonmortar_topology.edges[nonmortar_edge]), s, t) &&
@@ -167,7 +188,7 @@ namespace Signorini
         if (roots[1] < roots[0])
           std::swap(roots[0], roots[1]);
       }
-    constexpr double      outside = 1e-9;
+    constexpr double      outside = near_end;
     std::vector<Crossing> result;
     for (unsigned int i = 0; i < n_roots; ++i)
       {

@@ -209,10 +209,11 @@ namespace Signorini
     for (unsigned int i = 0; i < 2; ++i)
       if (s[i].sign == 0 && walk.forward(s[i].position) > 0.)
         return go_to_vertex(walk, ends[i], s[i].position);
-    for (unsigned int i = 0; i < 2; ++i)
-      if (s[i].sign == 0)
-        s[i].sign = -s[1 - i].sign;
+    // It starts between the two: they lie on different sides, whatever rounding says of the nearer one.
+    const unsigned int far = std::abs(s[0].distance) > std::abs(s[1].distance) ? 0 : 1;
     if (s[0].sign * s[1].sign >= 0)
+      s[1 - far].sign = -s[far].sign;
+    if (s[far].sign == 0)
       return State::lost;
     const unsigned int beside_left = walk.direction * s[0].sign > 0 ? 0 : 1;
     walk.triangle                  = beside[beside_left];
@@ -275,6 +276,27 @@ namespace Signorini
 
 
 
+  bool PlaneGraph::is_between_ends(const Incidence::Crossing &crossing, const unsigned int edge,
+                                   const unsigned int mortar_edge) const
+  {
+    const auto sign_of = [](const Incidence::Side &s) {
+      return s.sign != 0 ? s.sign : (s.distance > 0. ? 1 : -1);
+    };
+    constexpr double near_end = Incidence::near_end;
+    const auto      &ends = nonmortar.edges[edge], &mortar_ends = mortar.edges[mortar_edge];
+    if (crossing.t < near_end && sign_of(side(ends[0], mortar_edge)) != crossing.low_side)
+      return false;
+    if (crossing.t > 1. - near_end && sign_of(side(ends[1], mortar_edge)) == crossing.low_side)
+      return false;
+    if (crossing.s < near_end &&
+        incidence.of_mortar_vertex(mortar_ends[0], edge).sign != -crossing.low_side)
+      return false;
+    return !(crossing.s > 1. - near_end &&
+             incidence.of_mortar_vertex(mortar_ends[1], edge).sign != crossing.low_side);
+  }
+
+
+
   PlaneGraph::State PlaneGraph::trace_by_roots(Walk &walk, const SurfacePoint &start)
   {
     std::vector<unsigned int> triangles, passed;
@@ -309,6 +331,8 @@ namespace Signorini
           for (const unsigned int e : nonmortar.triangle_edges[t])
             for (const auto &crossing : incidence.all_crossings(e, walk.edge))
               {
+                if (!is_between_ends(crossing, e, walk.edge))
+                  continue;
                 const double position = walk.forward(crossing.s);
                 const bool   was_here = std::find(passed.begin(), passed.end(), e) != passed.end();
                 if (position >= walk.position + (was_here ? 1e3 : -1.) * rounding && position < nearest)
@@ -437,11 +461,13 @@ namespace Signorini
     double     at_e, at_f;
     const bool crosses = incidence.cross(at_e, at_f, e, f, s[0], s[1]);
     Walk       walk{f, direction, mortar_vertex_node[direction > 0 ? q : p]};
-    // Right at an end: inwards only from an end outside. An end inside has been followed already.
-    constexpr double at_end = 1e-6;
-    const double     come   = walk.forward(at_f);
-    if (!crosses || come > 1. - at_end ||
-        (come < at_end && mortar_vertex_node[direction > 0 ? p : q] != none))
+    // Right at an end of the mortar edge the side on which that end lies decides, as where its vertex was placed.
+    const double come   = walk.forward(at_f);
+    const auto   inside = [&](const unsigned int v) {
+      return (only == 0 ? 1 : -1) * incidence.of_mortar_vertex(v, e).sign;
+    };
+    if (!crosses || (come < Incidence::near_end && inside(direction > 0 ? p : q) >= 0) ||
+        (come > 1. - Incidence::near_end && inside(direction > 0 ? q : p) <= 0))
       return;
     walk.position    = come;
     walk.triangle    = t;

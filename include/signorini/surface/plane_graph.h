@@ -92,6 +92,10 @@ namespace Signorini
     State leave_through(Walk &walk, const unsigned int local_edge, const Incidence::Side &begin,
                         const Incidence::Side &end);
     State walk_to_end(Walk &walk, State state);
+    /// Whether a crossing near an end of one of the edges is none right beside it: a matter of the side on
+    /// which that end lies, as for all other decisions.
+    bool  is_between_ends(const Incidence::Crossing &crossing, const unsigned int edge,
+                          const unsigned int mortar_edge) const;
     State trace_by_roots(Walk &walk, const SurfacePoint &start);
     void  take_back(const Walk &walk, const std::size_t n_nodes);
     bool  is_reached(const Walk &walk, const unsigned int triangle) const;
