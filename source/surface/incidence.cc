@@ -69,9 +69,9 @@ namespace Signorini
       return mesh;
     }
 
-    Incidence::Side decide(const double distance, const double position, const double size)
+    Incidence::Side decide(const double distance, const double position, const double tolerance)
     {
-      const bool on_it = std::abs(distance) <= NormalProjection::incidence_tolerance * size;
+      const bool on_it = std::abs(distance) <= tolerance;
       return {on_it ? 0 : (distance > 0. ? 1 : -1), distance, position};
     }
   } // namespace
@@ -131,7 +131,8 @@ namespace Signorini
     const double       distance = NormalProjection::distance_from_edge(mortar.vertices[vertex],
                                                                        mortar.vertex_normals[vertex], e, position);
     return decide(distance, position,
-                  std::min(mortar_size[vertex], nonmortar_size[nonmortar_topology.edges[edge][position > .5]]));
+                  NormalProjection::on_nonmortar_tolerance *
+                      std::min(mortar_size[vertex], nonmortar_size[nonmortar_topology.edges[edge][position > .5]]));
   }
 
 
@@ -142,7 +143,8 @@ namespace Signorini
     double             position;
     const double distance = NormalProjection::distance_from_curtain(nonmortar.vertices[vertex], e, position);
     return decide(distance, position,
-                  std::min(nonmortar_size[vertex], mortar_size[mortar_topology.edges[edge][position > .5]]));
+                  NormalProjection::on_mortar_tolerance *
+                      std::min(nonmortar_size[vertex], mortar_size[mortar_topology.edges[edge][position > .5]]));
   }
 
 
@@ -155,10 +157,18 @@ namespace Signorini
     s                  = (1. - t) * low.position + t * high.position;
     // A little outside is rounding.
     constexpr double outside = near_end;
-    const bool       inside  = NormalProjection::intersect_edges(
-                                   edge_of(mortar, mortar_topology.edges[mortar_edge]),
-                                   edge_of(nonmortar, nonmortar_topology.edges[nonmortar_edge]), s, t) &&
-                        s >= -outside && s <= 1. + outside && t >= -outside && t <= 1. + outside;
+    const OrientedEdge e = edge_of(nonmortar, nonmortar_topology.edges[nonmortar_edge]);
+    const double     t_first = t, s_first = s;
+    const auto       is_inside = [](const double x) { return x >= -outside && x <= 1. + outside; };
+    bool inside = NormalProjection::intersect_edges(edge_of(mortar, mortar_topology.edges[mortar_edge]), e, s, t) &&
+                  is_inside(s) && is_inside(t);
+    if (!inside && is_inside(s_first) && std::abs(share) < near_end * e.a.distance(e.b))
+      {
+        // Nearly parallel edges, whose crossing is an ill-conditioned place: any between the sides will do.
+        t      = t_first;
+        s      = s_first;
+        inside = true;
+      }
     t = std::min(1., std::max(0., t));
     s = std::min(1., std::max(0., s));
     return inside;

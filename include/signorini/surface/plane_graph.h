@@ -4,6 +4,7 @@
 #ifndef signorini_surface_plane_graph_h
 #define signorini_surface_plane_graph_h
 
+#include <signorini/surface/box_tree.h>
 #include <signorini/surface/incidence.h>
 #include <signorini/surface/part_region.h>
 #include <signorini/surface/surface_mesh.h>
@@ -16,8 +17,6 @@
 
 namespace Signorini
 {
-  class BoxTree;
-
   /// Why a mortar vertex has no image on the nonmortar surface.
   enum class Unmapped : unsigned char
   {
@@ -101,7 +100,10 @@ namespace Signorini
     bool  is_reached(const Walk &walk, const unsigned int triangle) const;
 
     void enter_at_borders();
+    void find_below_curtain(std::vector<unsigned int> &found, const BoxTree &tree, const BoxTree::Box &all,
+                            const unsigned int mortar_edge) const;
     void enter_at(const unsigned int border_edge, const unsigned int mortar_edge);
+    bool runs_along(const unsigned int mortar_edge, const unsigned int edge) const;
 
     State go_to_vertex(Walk &walk, const unsigned int vertex, const double position);
     State place_crossing(Walk &walk, const unsigned int edge, const double t, const double position,
@@ -128,8 +130,6 @@ namespace Signorini
     /// For nodes where edges cross: the side of the mortar edge on which the lower end of the nonmortar edge
     /// lies.
     std::vector<signed char> low_side;
-    /// The longest way from a mortar vertex to its image, over all parts.
-    double reach = 0.;
     /// Mortar edges that were not followed from end to end, and where they are known to cross border edges.
     std::vector<unsigned int>                       unfinished;
     std::set<std::pair<unsigned int, unsigned int>> border_crossings;
