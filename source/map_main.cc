@@ -21,7 +21,7 @@ namespace
 {
   using namespace Signorini;
 
-  const char *const usage = "usage: signorini-map NONMORTAR MORTAR [--report] [--vtu FILE] [--json FILE]\n"
+  const char *const usage = "usage: signorini-map NONMORTAR MORTAR [--report] [--vtu FILE] [--json FILE] [--strict]\n"
                             "\n"
                             "Maps the mortar surface onto the nonmortar surface along its continuous normal "
                             "field and computes the\n"
@@ -33,13 +33,15 @@ namespace
                             "default without --json)\n"
                             "  --vtu FILE   the overlay with the way to the image and the gap, for ParaView\n"
                             "  --json FILE  the figures\n"
+                            "  --strict     fail where the mapping has errors: lost, torn or turned pieces, a "
+                            "tiling that is not exact\n"
                             "  --help, --version\n";
 
   struct CommandLine
   {
     std::vector<std::string> files;
     std::string              vtu, json;
-    bool                     report = false;
+    bool                     report = false, strict = false;
   };
 
   CommandLine parse(const int argc, char **argv)
@@ -50,6 +52,8 @@ namespace
         const std::string word = argv[i];
         if (word == "--report")
           line.report = true;
+        else if (word == "--strict")
+          line.strict = true;
         else if (word == "--vtu" || word == "--json")
           {
             if (++i == argc)
@@ -118,6 +122,8 @@ namespace
       throw InputError(
           "the surfaces do not face each other anywhere: there is not a single overlay cell. Normals "
           "must point towards each other.");
+    if (const std::string errors = describe_errors(mapping.report()); line.strict && !errors.empty())
+      throw InputError("the mapping has errors: " + errors + ".");
   }
 } // namespace
 

@@ -4,6 +4,7 @@
 #include <signorini/algebra/input_error.h>
 #include <signorini/application/contact_problem.h>
 #include <signorini/mesh/surface_extraction.h>
+#include <signorini/surface/mapping_quality.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -191,6 +192,11 @@ namespace Signorini
                        "\" do not face each other anywhere: there is not a single overlay cell.");
     pair.mapping_time = time.wall_time();
     cycle.times["mapping"] += pair.mapping_time;
+    if (const std::string errors = describe_errors(sum_reports(pair.mapping->report(), comm)); !errors.empty())
+      note("warning: pair " + pair.name + ", cycle " + std::to_string(cycle.cycle) +
+           ": the contact mapping has errors (" + errors +
+           "): pressures and forces near those places are wrong. Look at the surfaces with signorini-map; a finer "
+           "or smoother mesh on the bent or folded parts, or the other side as nonmortar side, helps.");
 
     time.restart();
     pair.moments =

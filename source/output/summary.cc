@@ -191,6 +191,8 @@ namespace Signorini
     json.number("turned", report.n_flips);
     json.number("conflicting_edges", report.n_conflicts);
     json.number("lost_edges", report.lost_edges.size());
+    json.number("lost_triangles", report.n_lost_triangles);
+    json.number("torn_edges", report.n_torn_edges);
   }
 
 

@@ -122,11 +122,13 @@ namespace Signorini
 
 
 
-  void BoxTree::find_overlapping(std::vector<unsigned int> &found, const Box &box) const
+  void BoxTree::find_overlapping(std::vector<unsigned int> &found, const Box &box,
+                                 const unsigned int at_most) const
   {
     found.clear();
-    tree->values.query(bgi::intersects(TreeBox(tree_point(box.low), tree_point(box.high))),
-                       Collector{&found});
+    const auto overlap = bgi::intersects(TreeBox(tree_point(box.low), tree_point(box.high)));
+    for (auto it = tree->values.qbegin(overlap); it != tree->values.qend() && found.size() < at_most; ++it)
+      found.push_back(it->second);
   }
 
 

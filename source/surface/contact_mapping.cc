@@ -121,6 +121,8 @@ namespace Signorini
         list.clear();
         corners.clear();
         incident.clear();
+        sides.clear();
+        faces_any = false;
         covered        = 0.;
         n_broken       = 0;
         is_covered_all = true;
@@ -143,7 +145,10 @@ namespace Signorini
             const unsigned int m = incident[first].mortar_triangle;
             for (last = first + 1; last < incident.size() && incident[last].mortar_triangle == m;)
               ++last;
-            if (last - first >= 3 && incidence.triangles_face(t, m))
+            if (!incidence.triangles_face(t, m))
+              continue;
+            faces_any = true;
+            if (last - first >= 3)
               add_polygon(t, m, first, last);
           }
       }
@@ -154,7 +159,21 @@ namespace Signorini
         return is_covered_all && !list.empty() ? std::abs(covered - 1.) : 0.;
       }
 
+      /// Whether it has images everywhere, but no polygon.
+      bool is_lost() const
+      {
+        return is_covered_all && faces_any && list.empty();
+      }
+
+      /// A part of an edge of the triangle that is a side of a polygon.
+      struct EdgeSide
+      {
+        unsigned int edge;
+        double       length;
+      };
+
       std::vector<Polygon>      list;
+      std::vector<EdgeSide>     sides;
       std::vector<unsigned int> corners;
       double                    covered;
       unsigned int              n_broken;
@@ -189,6 +208,7 @@ namespace Signorini
             const auto w = graph.nodes[corner.node].nonmortar.weights_in(nonmortar, t);
             flat.push_back({{w[1], w[2]}});
           }
+        add_sides(t, m);
         // Triangles that only touch have no area in common.
         const double share = share_of(flat);
         if (std::abs(share) < 1e-15)
@@ -206,6 +226,41 @@ namespace Signorini
         list.push_back({m, share, -share_of(flat), begin, static_cast<std::ptrdiff_t>(corners.size())});
       }
 
+      // What the neighbour beyond the edge has to have as well: not where the mortar surface ends, nor what the
+      // neighbour does not face.
+      void add_sides(const unsigned int t, const unsigned int m)
+      {
+        for (std::size_t k = 0; k < unsorted.size(); ++k)
+          {
+            const MappingNode &a = graph.nodes[unsorted[k].node],
+                              &b = graph.nodes[unsorted[(k + 1) % unsorted.size()].node];
+            for (const unsigned int e : nonmortar.triangle_edges[t])
+              {
+                if (nonmortar.is_border(e) || !lies_on(nonmortar, a.nonmortar, e) ||
+                    !lies_on(nonmortar, b.nonmortar, e))
+                  continue;
+                const auto &beside = nonmortar.edge_triangles[e];
+                bool skip = !incidence.triangles_face(beside[beside[0] == t ? 1 : 0], m);
+                for (const unsigned int f : mortar.triangle_edges[m])
+                  skip = skip || (mortar.is_border(f) && lies_on(mortar, a.mortar, f) &&
+                                  lies_on(mortar, b.mortar, f));
+                if (!skip)
+                  sides.push_back({e, parameter_on(b.nonmortar, e) - parameter_on(a.nonmortar, e)});
+              }
+          }
+      }
+
+      static bool lies_on(const SurfaceTopology &topology, const SurfacePoint &p, const unsigned int edge)
+      {
+        return (p.on == On::edge && p.index == edge) ||
+               (p.on == On::vertex && (p.index == topology.edges[edge][0] || p.index == topology.edges[edge][1]));
+      }
+
+      double parameter_on(const SurfacePoint &p, const unsigned int edge) const
+      {
+        return p.on == On::edge ? p.x[0] : (p.index == nonmortar.edges[edge][0] ? 0. : 1.);
+      }
+
       const Incidence                   &incidence;
       const SurfaceTopology             &nonmortar, &mortar;
       const PlaneGraph                  &graph;
@@ -214,7 +269,7 @@ namespace Signorini
       std::vector<CommonPolygon::Corner> unsorted;
       std::vector<std::array<double, 2>> flat;
       CommonPolygon                      sorter;
-      bool                               is_covered_all;
+      bool                               is_covered_all, faces_any;
     };
   } // namespace
 
@@ -228,7 +283,7 @@ namespace Signorini
     , mortar(mortar_mesh.triangles, mortar_mesh.vertices.size())
   {
     Incidence        incidence(nonmortar_mesh, mortar_mesh, nonmortar, mortar);
-    const PartRegion region(nonmortar_mesh, is_selected);
+    const PartRegion region(incidence.nonmortar, is_selected);
     PlaneGraph       graph(incidence, region, communicator);
     summary.lost_edges  = std::move(graph.lost_edges);
     summary.n_conflicts = nonmortar.n_conflicts + mortar.n_conflicts;
@@ -255,13 +310,18 @@ namespace Signorini
     // About as many polygons as nodes, of four to five corners.
     found.reserve(graph.nodes.size() + graph.nodes.size() / 8);
     found_corners.reserve(5 * found.capacity());
-    TrianglePolygons polygons(incidence, graph, mortar_border);
+    // Both triangles of an edge run through it in opposite directions: what they have of it adds up to nothing.
+    std::vector<double> balance(nonmortar.edges.size(), 0.);
+    TrianglePolygons    polygons(incidence, graph, mortar_border);
     const auto       visit = [&](const unsigned int t) {
       polygons.compute(t);
       const double area = incidence.nonmortar_normal[t].norm();
       summary.area_nonmortar += area;
       summary.area_covered += polygons.covered * area;
       summary.n_broken += polygons.n_broken;
+      summary.n_lost_triangles += polygons.is_lost();
+      for (const auto &side : polygons.sides)
+        balance[side.edge] += side.length;
       summary.worst_tiling_defect = std::max(summary.worst_tiling_defect, polygons.defect());
       found_in[t].first           = static_cast<unsigned int>(found.size());
       for (const auto &polygon : polygons.list)
@@ -286,6 +346,17 @@ namespace Signorini
             if (!is_selected || is_selected(t))
               visit(t);
           }
+
+    for (unsigned int e = 0; e < nonmortar.edges.size(); ++e)
+      if (!nonmortar.is_border(e))
+        {
+          const auto        &beside     = nonmortar.edge_triangles[e];
+          const unsigned int n_selected = !is_selected ? 2 : is_selected(beside[0]) + is_selected(beside[1]);
+          if (n_selected == 2)
+            summary.n_torn_edges += std::abs(balance[e]) > MappingReport::torn;
+          else if (n_selected == 1)
+            summary.open_edges.emplace_back(e, balance[e]);
+        }
 
     polygon_triangles.reserve(found.size());
     polygon_start.reserve(found.size() + 1);

@@ -50,9 +50,28 @@ namespace Signorini
       return size;
     }
 
-    Incidence::Side decide(const double distance, const double position, const double size)
+    /// With an origin in the middle of the nonmortar surface: numbers far from theirs have few digits left for
+    /// the distances that are decided here.
+    SurfaceMesh near_origin(SurfaceMesh mesh, const SurfaceMesh &nonmortar)
     {
-      const bool on_it = std::abs(distance) <= NormalProjection::incidence_tolerance * size;
+      if (nonmortar.vertices.empty())
+        return mesh;
+      Point<3> low = nonmortar.vertices[0], high = low;
+      for (const Point<3> &p : nonmortar.vertices)
+        for (unsigned int c = 0; c < 3; ++c)
+          {
+            low[c]  = std::min(low[c], p[c]);
+            high[c] = std::max(high[c], p[c]);
+          }
+      const Tensor<1, 3> middle = low + .5 * (high - low) - Point<3>();
+      for (Point<3> &p : mesh.vertices)
+        p -= middle;
+      return mesh;
+    }
+
+    Incidence::Side decide(const double distance, const double position, const double tolerance)
+    {
+      const bool on_it = std::abs(distance) <= tolerance;
       return {on_it ? 0 : (distance > 0. ? 1 : -1), distance, position};
     }
   } // namespace
@@ -61,8 +80,8 @@ namespace Signorini
 
   Incidence::Incidence(const SurfaceMesh &nonmortar, const SurfaceMesh &mortar,
                        const SurfaceTopology &nonmortar_topology, const SurfaceTopology &mortar_topology)
-    : nonmortar(nonmortar)
-    , mortar(mortar)
+    : nonmortar(near_origin(nonmortar, nonmortar))
+    , mortar(near_origin(mortar, nonmortar))
     , nonmortar_topology(nonmortar_topology)
     , mortar_topology(mortar_topology)
     , nonmortar_normal(area_normals(nonmortar))
@@ -111,7 +130,9 @@ namespace Signorini
     double             position;
     const double       distance = NormalProjection::distance_from_edge(mortar.vertices[vertex],
                                                                        mortar.vertex_normals[vertex], e, position);
-    return decide(distance, position, std::min(mortar_size[vertex], e.a.distance(e.b)));
+    return decide(distance, position,
+                  NormalProjection::on_nonmortar_tolerance *
+                      std::min(mortar_size[vertex], nonmortar_size[nonmortar_topology.edges[edge][position > .5]]));
   }
 
 
@@ -121,7 +142,9 @@ namespace Signorini
     const OrientedEdge e = edge_of(mortar, mortar_topology.edges[edge]);
     double             position;
     const double distance = NormalProjection::distance_from_curtain(nonmortar.vertices[vertex], e, position);
-    return decide(distance, position, std::min(nonmortar_size[vertex], e.a.distance(e.b)));
+    return decide(distance, position,
+                  NormalProjection::on_mortar_tolerance *
+                      std::min(nonmortar_size[vertex], mortar_size[mortar_topology.edges[edge][position > .5]]));
   }
 
 
@@ -133,11 +156,19 @@ namespace Signorini
     t                  = share != 0. ? low.distance / share : .5;
     s                  = (1. - t) * low.position + t * high.position;
     // A little outside is rounding.
-    constexpr double outside = 1e-6;
-    const bool       inside  = NormalProjection::intersect_edges(
-                                   edge_of(mortar, mortar_topology.edges[mortar_edge]),
-                                   edge_of(nonmortar, nonmortar_topology.edges[nonmortar_edge]), s, t) &&
-                        s >= -outside && s <= 1. + outside && t >= -outside && t <= 1. + outside;
+    constexpr double outside = near_end;
+    const OrientedEdge e = edge_of(nonmortar, nonmortar_topology.edges[nonmortar_edge]);
+    const double     t_first = t, s_first = s;
+    const auto       is_inside = [](const double x) { return x >= -outside && x <= 1. + outside; };
+    bool inside = NormalProjection::intersect_edges(edge_of(mortar, mortar_topology.edges[mortar_edge]), e, s, t) &&
+                  is_inside(s) && is_inside(t);
+    if (!inside && is_inside(s_first) && std::abs(share) < near_end * e.a.distance(e.b))
+      {
+        // Nearly parallel edges, whose crossing is an ill-conditioned place: any between the sides will do.
+        t      = t_first;
+        s      = s_first;
+        inside = true;
+      }
     t = std::min(1., std::max(0., t));
     s = std::min(1., std::max(0., s));
     return inside;
@@ -167,7 +198,7 @@ namespace Signorini
         if (roots[1] < roots[0])
           std::swap(roots[0], roots[1]);
       }
-    constexpr double      outside = 1e-9;
+    constexpr double      outside = near_end;
     std::vector<Crossing> result;
     for (unsigned int i = 0; i < n_roots; ++i)
       {

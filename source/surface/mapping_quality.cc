@@ -93,7 +93,8 @@ namespace Signorini
   {
     for (double *area : {&report.area_nonmortar, &report.area_covered, &report.area_mortar_covered})
       *area = Utilities::MPI::sum(*area, communicator);
-    for (std::size_t *number : {&report.n_cells, &report.n_pairs, &report.n_flips, &report.n_broken})
+    for (std::size_t *number : {&report.n_cells, &report.n_pairs, &report.n_flips, &report.n_broken, &report.n_lost_triangles,
+                                &report.n_torn_edges})
       *number = Utilities::MPI::sum(*number, communicator);
     report.worst_tiling_defect = Utilities::MPI::max(report.worst_tiling_defect, communicator);
     // An edge over several parts may be lost in each of them; a vertex is told by one.
@@ -105,6 +106,13 @@ namespace Signorini
       std::sort(list.begin(), list.end());
       list.erase(std::unique(list.begin(), list.end()), list.end());
     };
+    std::map<unsigned int, double> balance;
+    for (const auto &part : Utilities::MPI::all_gather(communicator, report.open_edges))
+      for (const auto &[edge, length] : part)
+        balance[edge] += length;
+    for (const auto &[edge, length] : balance)
+      report.n_torn_edges += std::abs(length) > MappingReport::torn;
+    report.open_edges.clear();
     gather(report.lost_edges);
     gather(report.unmapped);
     return report;
@@ -139,6 +147,28 @@ namespace Signorini
 
 
 
+  std::string describe_errors(const MappingReport &report)
+  {
+    std::ostringstream text;
+    const auto         add = [&](const std::size_t number, const char *what) {
+      if (number > 0)
+        text << (text.tellp() > 0 ? ", " : "") << number << ' ' << what;
+    };
+    add(report.n_lost_triangles, "nonmortar triangles without their part of the overlay");
+    add(report.n_torn_edges, "nonmortar edges along which the overlay is torn");
+    add(report.lost_edges.size(), "mortar edges lost");
+    add(report.n_flips, "cells turned");
+    add(report.n_broken, "pairs of triangles without a polygon");
+    // Above the size of what is taken for incident.
+    constexpr double largest_defect = 1e-9;
+    if (report.worst_tiling_defect > largest_defect)
+      text << (text.tellp() > 0 ? ", " : "") << "a triangle that is covered wrongly by "
+           << report.worst_tiling_defect << " of its area";
+    return text.str();
+  }
+
+
+
   void print_mapping(std::ostream &out, const MappingReport &report, const MappingQuality &quality)
   {
     out << std::setprecision(6) << "  covered          " << 100. * report.area_covered / report.area_nonmortar
@@ -152,10 +182,9 @@ namespace Signorini
     if (report.n_conflicts > 0)
       out << "  surfaces         " << report.n_conflicts
           << " edges where triangles turn to different sides or more than two meet (taken as borders)\n";
-    if (report.n_flips + report.n_broken + report.lost_edges.size() > 0)
-      out << "  turned           " << report.n_flips << " cells, " << report.n_broken
-          << " pairs without a polygon, " << report.lost_edges.size()
-          << " edges lost: there the mapping is not one-to-one\n";
+    if (const std::string errors = describe_errors(report); !errors.empty())
+      out << "  errors           " << errors << ": there the mapping is not one-to-one. In a contact run\n"
+          << "                   pressures and forces near those places are wrong; the rest is not affected\n";
     if (report.n_pairs > 0)
       {
         out << "  angle            " << quality.largest_angle << " degrees at most between the normals, "

@@ -72,9 +72,6 @@ namespace Signorini
         mortar_order = spatial_order(incidence.mortar);
         select_mortar_edges(communicator);
         map_mortar_vertices();
-        // A program of one part need not have started MPI.
-        if (communicator != MPI_COMM_SELF)
-          reach = Utilities::MPI::max(reach, communicator);
         trace_mortar_edges();
       }
     low_side.resize(nodes.size(), 0);
@@ -205,7 +202,6 @@ namespace Signorini
             state[v] = turned_away ? Unmapped::wrong_side : Unmapped::no_hit;
             continue;
           }
-        reach                 = std::max(reach, nearest);
         mortar_vertex_node[v] = static_cast<unsigned int>(nodes.size());
         if (best.on == On::vertex)
           {

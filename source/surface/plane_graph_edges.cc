@@ -209,10 +209,12 @@ namespace Signorini
     for (unsigned int i = 0; i < 2; ++i)
       if (s[i].sign == 0 && walk.forward(s[i].position) > 0.)
         return go_to_vertex(walk, ends[i], s[i].position);
-    for (unsigned int i = 0; i < 2; ++i)
-      if (s[i].sign == 0)
-        s[i].sign = -s[1 - i].sign;
+    // It starts between the two: they lie on different sides, whatever rounding says of the nearer one.
+    const unsigned int far =
+        s[1].sign == 0 || (s[0].sign != 0 && std::abs(s[0].distance) > std::abs(s[1].distance)) ? 0 : 1;
     if (s[0].sign * s[1].sign >= 0)
+      s[1 - far].sign = -s[far].sign;
+    if (s[far].sign == 0)
       return State::lost;
     const unsigned int beside_left = walk.direction * s[0].sign > 0 ? 0 : 1;
     walk.triangle                  = beside[beside_left];
@@ -275,6 +277,27 @@ namespace Signorini
 
 
 
+  bool PlaneGraph::is_between_ends(const Incidence::Crossing &crossing, const unsigned int edge,
+                                   const unsigned int mortar_edge) const
+  {
+    const auto sign_of = [](const Incidence::Side &s) {
+      return s.sign != 0 ? s.sign : (s.distance > 0. ? 1 : -1);
+    };
+    constexpr double near_end = Incidence::near_end;
+    const auto      &ends = nonmortar.edges[edge], &mortar_ends = mortar.edges[mortar_edge];
+    if (crossing.t < near_end && sign_of(side(ends[0], mortar_edge)) != crossing.low_side)
+      return false;
+    if (crossing.t > 1. - near_end && sign_of(side(ends[1], mortar_edge)) == crossing.low_side)
+      return false;
+    if (crossing.s < near_end &&
+        incidence.of_mortar_vertex(mortar_ends[0], edge).sign != -crossing.low_side)
+      return false;
+    return !(crossing.s > 1. - near_end &&
+             incidence.of_mortar_vertex(mortar_ends[1], edge).sign != crossing.low_side);
+  }
+
+
+
   PlaneGraph::State PlaneGraph::trace_by_roots(Walk &walk, const SurfacePoint &start)
   {
     std::vector<unsigned int> triangles, passed;
@@ -295,6 +318,12 @@ namespace Signorini
           for (const unsigned int i : {corner, (corner + 2) % 3})
             passed.push_back(nonmortar.triangle_edges[nonmortar.fan[k]][i]);
         }
+    // Where on an edge that it has passed: there it does not cross it again.
+    double     passed_at = start.x[0];
+    const auto place_on  = [&](const unsigned int e) {
+      return start.on != On::vertex || passed.size() == 1 ? passed_at
+                                                          : (nonmortar.edges[e][0] == start.index ? 0. : 1.);
+    };
     constexpr double rounding = 1e-9;
     for (std::size_t step = 0; step < 2 * nonmortar.triangles.size(); ++step)
       {
@@ -309,8 +338,12 @@ namespace Signorini
           for (const unsigned int e : nonmortar.triangle_edges[t])
             for (const auto &crossing : incidence.all_crossings(e, walk.edge))
               {
+                if (!is_between_ends(crossing, e, walk.edge))
+                  continue;
                 const double position = walk.forward(crossing.s);
                 const bool   was_here = std::find(passed.begin(), passed.end(), e) != passed.end();
+                if (was_here && std::abs(crossing.t - place_on(e)) < Incidence::near_end)
+                  continue;
                 if (position >= walk.position + (was_here ? 1e3 : -1.) * rounding && position < nearest)
                   {
                     nearest = position;
@@ -328,6 +361,7 @@ namespace Signorini
           return State::left;
         triangles = {through};
         passed    = {out};
+        passed_at = next.t;
       }
     return State::lost;
   }
@@ -368,41 +402,106 @@ namespace Signorini
   {
     if (unfinished.empty())
       return;
-    const SurfaceMesh &non = incidence.nonmortar, &mor = incidence.mortar;
-    // How far along the normals: twice as far as the images of vertices are, or, if there are none, anywhere.
-    double far = 2. * reach;
-    for (const auto &e : nonmortar.edges)
-      far = std::max(far, non.vertices[e[0]].distance(non.vertices[e[1]]));
-    if (reach == 0.)
-      {
-        BoxTree::Box all{non.vertices[0], non.vertices[0]};
-        for (const auto &v : non.vertices)
-          all.include(v);
-        for (const auto &v : mor.vertices)
-          all.include(v);
-        far = std::max(far, all.low.distance(all.high));
-      }
+    const SurfaceMesh        &non = incidence.nonmortar;
+    std::vector<unsigned int> border;
     std::vector<BoxTree::Box> boxes;
-    for (const unsigned int f : unfinished)
-      {
-        BoxTree::Box box{mor.vertices[mortar.edges[f][0]], mor.vertices[mortar.edges[f][0]]};
-        for (const unsigned int v : mortar.edges[f])
-          for (const double eta : {-far, far})
-            box.include(mor.vertices[v] + eta * mor.vertex_normals[v]);
-        boxes.push_back(box);
-      }
-    const BoxTree             tree(boxes);
-    std::vector<unsigned int> candidates;
     for (unsigned int e = 0; e < nonmortar.edges.size(); ++e)
       if (nonmortar.is_border(e))
         {
           BoxTree::Box box{non.vertices[nonmortar.edges[e][0]], non.vertices[nonmortar.edges[e][0]]};
           box.include(non.vertices[nonmortar.edges[e][1]]);
-          tree.find_overlapping(candidates, box);
-          std::sort(candidates.begin(), candidates.end());
-          for (const unsigned int i : candidates)
-            enter_at(e, unfinished[i]);
+          border.push_back(e);
+          boxes.push_back(box);
         }
+    if (border.empty())
+      return;
+    BoxTree::Box all = boxes[0];
+    for (const BoxTree::Box &box : boxes)
+      for (const Point<3> &p : {box.low, box.high})
+        all.include(p);
+    const BoxTree                                      tree(boxes);
+    std::vector<std::pair<unsigned int, unsigned int>> meetings;
+    std::vector<unsigned int>                          found;
+    for (const unsigned int f : unfinished)
+      {
+        found.clear();
+        find_below_curtain(found, tree, all, f);
+        for (const unsigned int i : found)
+          meetings.emplace_back(border[i], f);
+      }
+    std::sort(meetings.begin(), meetings.end());
+    meetings.erase(std::unique(meetings.begin(), meetings.end()), meetings.end());
+    for (const auto &[e, f] : meetings)
+      enter_at(e, f);
+  }
+
+
+
+  // The curtain of a mortar edge, the points along its normals at any distance, in pieces: each is halved as long
+  // as its box is much longer than the curtain is wide and still meets more than a few boxes.
+  void PlaneGraph::find_below_curtain(std::vector<unsigned int> &found, const BoxTree &tree,
+                                      const BoxTree::Box &all, const unsigned int f) const
+  {
+    const auto [v, w]       = mortar.edges[f];
+    const Point<3>     &p   = incidence.mortar.vertices[v], &q = incidence.mortar.vertices[w];
+    const Tensor<1, 3> &n   = incidence.mortar.vertex_normals[v], &m = incidence.mortar.vertex_normals[w];
+    // As far as the boxes are away, along normals that are shortest in the middle of the edge.
+    const double distance = all.low.distance(all.high) + std::max(p.distance(all.low), q.distance(all.low));
+    constexpr double     shortest = .1;
+    const double         far      = distance / std::max(shortest, .5 * (n + m).norm());
+    constexpr unsigned int few    = 4;
+
+    std::vector<std::array<double, 2>> pieces = {{{-far, far}}};
+    std::vector<unsigned int>          candidates;
+    while (!pieces.empty())
+      {
+        const auto [low, high] = pieces.back();
+        pieces.pop_back();
+        BoxTree::Box box{p + low * n, p + low * n};
+        for (const Point<3> &x : {p + high * n, q + low * m, q + high * m})
+          box.include(x);
+        tree.find_overlapping(candidates, box, few + 1);
+        if (candidates.empty())
+          continue;
+        const double width = p.distance(q) + std::max(std::abs(low), std::abs(high)) * (m - n).norm();
+        if (candidates.size() > few && high - low > 2. * width)
+          {
+            const double middle = .5 * (low + high);
+            pieces.push_back({{low, middle}});
+            pieces.push_back({{middle, high}});
+            continue;
+          }
+        if (candidates.size() > few)
+          tree.find_overlapping(candidates, box);
+        found.insert(found.end(), candidates.begin(), candidates.end());
+      }
+  }
+
+
+
+  // Nearly parallel edges cross at an ill-conditioned place. Whether they do at all is known: not if the mortar
+  // edge has an end on the other one, and not if it runs close beside it, with no ends on different sides.
+  bool PlaneGraph::runs_along(const unsigned int mortar_edge, const unsigned int edge) const
+  {
+    const auto &x         = incidence.nonmortar.vertices;
+    const auto &ends      = nonmortar.edges[edge];
+    int         product   = 1;
+    bool        are_close = true;
+    for (const unsigned int v : mortar.edges[mortar_edge])
+      {
+        if (mortar_vertex_node[v] != none)
+          {
+            const SurfacePoint &place = nodes[mortar_vertex_node[v]].nonmortar;
+            if ((place.on == On::edge && place.index == edge) ||
+                (place.on == On::vertex && (place.index == ends[0] || place.index == ends[1])))
+              return true;
+          }
+        const Incidence::Side s = incidence.of_mortar_vertex(v, edge);
+        product *= s.sign;
+        are_close =
+            are_close && std::abs(s.distance) < Incidence::near_end * x[ends[0]].distance(x[ends[1]]);
+      }
+    return are_close && product >= 0;
   }
 
 
@@ -430,18 +529,20 @@ namespace Signorini
               }
           return;
         }
-    if (s[0].sign == s[1].sign)
+    if (s[0].sign == s[1].sign || runs_along(f, e))
       return;
     // Inwards.
     const int  direction = (only == 0 ? s[0].sign : s[1].sign) > 0 ? 1 : -1;
     double     at_e, at_f;
     const bool crosses = incidence.cross(at_e, at_f, e, f, s[0], s[1]);
     Walk       walk{f, direction, mortar_vertex_node[direction > 0 ? q : p]};
-    // Right at an end: inwards only from an end outside. An end inside has been followed already.
-    constexpr double at_end = 1e-6;
-    const double     come   = walk.forward(at_f);
-    if (!crosses || come > 1. - at_end ||
-        (come < at_end && mortar_vertex_node[direction > 0 ? p : q] != none))
+    // Right at an end of the mortar edge the side on which that end lies decides, as where its vertex was placed.
+    const double come   = walk.forward(at_f);
+    const auto   inside = [&](const unsigned int v) {
+      return (only == 0 ? 1 : -1) * incidence.of_mortar_vertex(v, e).sign;
+    };
+    if (!crosses || (come < Incidence::near_end && inside(direction > 0 ? p : q) >= 0) ||
+        (come > 1. - Incidence::near_end && inside(direction > 0 ? q : p) <= 0))
       return;
     walk.position    = come;
     walk.triangle    = t;

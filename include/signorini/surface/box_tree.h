@@ -31,8 +31,9 @@ namespace Signorini
     void find_along_line(std::vector<unsigned int> &found, const dealii::Point<3> &p,
                          const dealii::Tensor<1, 3> &direction) const;
 
-    /// The boxes that overlap another one.
-    void find_overlapping(std::vector<unsigned int> &found, const Box &box) const;
+    /// The boxes that overlap another one, or as many of them as are wanted.
+    void find_overlapping(std::vector<unsigned int> &found, const Box &box,
+                          const unsigned int at_most = static_cast<unsigned int>(-1)) const;
 
     /// The `number` boxes nearest to a point.
     void find_nearest(std::vector<unsigned int> &found, const dealii::Point<3> &p,

@@ -31,6 +31,15 @@ namespace Signorini
     /// Polygons whose orientation is turned, because a cell of the mortar surface is bent more than it is
     /// wide (their area counts negative); and pairs of triangles whose common corners make no polygon.
     std::size_t n_flips = 0, n_broken = 0;
+    /// Errors of the mapping: triangles all of whose corners have images inside of the mortar surface, but
+    /// without a polygon; and nonmortar edges along which the polygons of one triangle go farther than those
+    /// of the other, where no border of the mortar surface runs along the edge.
+    std::size_t n_lost_triangles = 0, n_torn_edges = 0;
+    /// Edges with one selected triangle, and by how much of the edge that one goes farther: until the parts
+    /// are summed.
+    std::vector<std::pair<unsigned int, double>> open_edges;
+    /// A larger part of an edge than this is torn.
+    static constexpr double torn = 1e-9;
     /// Edges of the two surfaces where triangles turn to different sides or more than two meet; they count as
     /// borders.
     std::size_t n_conflicts = 0;

@@ -52,7 +52,12 @@ namespace Signorini
       int low_side;
     };
 
-    /// All solutions of system (10) with t and s in [0,1], by ascending s: at most two. In closed form.
+    /// So close to an end of an edge, as a part of it, rounding could tell a crossing from none otherwise than
+    /// the side of the end does.
+    static constexpr double near_end = 1e-6;
+
+    /// All solutions of system (10) with t and s in [0,1] or less than near_end outside, by ascending s: at most
+    /// two. In closed form.
     std::vector<Crossing> all_crossings(const unsigned int nonmortar_edge,
                                         const unsigned int mortar_edge) const;
 
@@ -72,7 +77,7 @@ namespace Signorini
     /// Moves a nonmortar vertex onto the curtain of a mortar edge, at a parameter.
     void move_nonmortar_vertex(const unsigned int vertex, const unsigned int mortar_edge, const double s);
 
-    /// The surfaces, with the positions as moved.
+    /// The surfaces, with the positions as moved, in coordinates from the middle of the nonmortar surface.
     SurfaceMesh            nonmortar, mortar;
     const SurfaceTopology &nonmortar_topology, &mortar_topology;
     /// Normals of the triangles as they came, as long as their area.

@@ -40,6 +40,10 @@ namespace Signorini
   /// Number of unmapped vertices for each reason that occurs.
   std::map<std::string, std::size_t> count_unmapped(const MappingReport &report);
 
+  /// What is wrong with a mapping, in words: lost or turned pieces, a tiling that is not exact. Empty where
+  /// all is well.
+  std::string describe_errors(const MappingReport &report);
+
   /// A text of some lines for a person.
   void print_mapping(std::ostream &out, const MappingReport &report, const MappingQuality &quality);
 } // namespace Signorini

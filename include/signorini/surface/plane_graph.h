@@ -4,6 +4,7 @@
 #ifndef signorini_surface_plane_graph_h
 #define signorini_surface_plane_graph_h
 
+#include <signorini/surface/box_tree.h>
 #include <signorini/surface/incidence.h>
 #include <signorini/surface/part_region.h>
 #include <signorini/surface/surface_mesh.h>
@@ -16,8 +17,6 @@
 
 namespace Signorini
 {
-  class BoxTree;
-
   /// Why a mortar vertex has no image on the nonmortar surface.
   enum class Unmapped : unsigned char
   {
@@ -92,12 +91,19 @@ namespace Signorini
     State leave_through(Walk &walk, const unsigned int local_edge, const Incidence::Side &begin,
                         const Incidence::Side &end);
     State walk_to_end(Walk &walk, State state);
+    /// Whether a crossing near an end of one of the edges is none right beside it: a matter of the side on
+    /// which that end lies, as for all other decisions.
+    bool  is_between_ends(const Incidence::Crossing &crossing, const unsigned int edge,
+                          const unsigned int mortar_edge) const;
     State trace_by_roots(Walk &walk, const SurfacePoint &start);
     void  take_back(const Walk &walk, const std::size_t n_nodes);
     bool  is_reached(const Walk &walk, const unsigned int triangle) const;
 
     void enter_at_borders();
+    void find_below_curtain(std::vector<unsigned int> &found, const BoxTree &tree, const BoxTree::Box &all,
+                            const unsigned int mortar_edge) const;
     void enter_at(const unsigned int border_edge, const unsigned int mortar_edge);
+    bool runs_along(const unsigned int mortar_edge, const unsigned int edge) const;
 
     State go_to_vertex(Walk &walk, const unsigned int vertex, const double position);
     State place_crossing(Walk &walk, const unsigned int edge, const double t, const double position,
@@ -124,8 +130,6 @@ namespace Signorini
     /// For nodes where edges cross: the side of the mortar edge on which the lower end of the nonmortar edge
     /// lies.
     std::vector<signed char> low_side;
-    /// The longest way from a mortar vertex to its image, over all parts.
-    double reach = 0.;
     /// Mortar edges that were not followed from end to end, and where they are known to cross border edges.
     std::vector<unsigned int>                       unfinished;
     std::set<std::pair<unsigned int, unsigned int>> border_crossings;

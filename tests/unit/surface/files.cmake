@@ -2,6 +2,8 @@ signorini_add_unit_tests(surface RANKS "1;3"
   closed_surfaces.cc
   contact_mapping.cc
   degenerate_pairs.cc
+  layers.cc
+  matching_rims.cc
   oracle.cc
   parts.cc
   phi.cc

@@ -139,6 +139,9 @@ namespace TestSurfaces
       return std::to_string(report.lost_edges.size()) + " edges lost";
     if (report.n_broken > 0)
       return std::to_string(report.n_broken) + " pairs without a polygon";
+    if (report.n_flips == 0 && report.n_lost_triangles + report.n_torn_edges > 0)
+      return std::to_string(report.n_lost_triangles) + " triangles lost, " +
+             std::to_string(report.n_torn_edges) + " edges torn";
     // Where the mapping is turned it is not one-to-one: the report says so, and pieces need not fit exactly.
     if (report.n_flips > 0 && report.worst_tiling_defect < 1e-2)
       return "";
