@@ -5,6 +5,7 @@
 
 #include <signorini/application/contact_problem.h>
 #include <signorini/mortar/geometric_penetration.h>
+#include <signorini/surface/mapping_quality.h>
 
 #include <iomanip>
 #include <sstream>
@@ -26,8 +27,7 @@ namespace Signorini
 
 
   void ContactProblem::measure_contact(PairResult &result, const unsigned int p,
-                                       const std::vector<bool> &is_active, const double load,
-                                       const ContactForces &forces) const
+                                       const std::vector<bool> &is_active, const ContactForces &forces) const
   {
     const ContactPair &pair = discretization.pairs[p];
     if (!(result.contact_area > 0.) || pair_definitions[p].parameters.contact == "tied")
@@ -38,16 +38,15 @@ namespace Signorini
     };
     // As in Hertz' contact, from the mean pressure: single peaks of a wrong one must not hide it.
     const double width = std::sqrt(result.contact_area);
-    result.approach    = 4. / 3. * load / width *
+    result.approach    = 4. / 3. * result.load / width *
                       (compliance(pair.nonmortar_body) + (pair.obstacle ? 0. : compliance(pair.mortar_body)));
     if (!pair.prescribed_gap)
       result.gap_doubt = pair.obstacle ? sample_gap_doubt(pair.nonmortar, is_active, comm)
                                        : sample_gap_doubt(pair.nonmortar, pair.mortar,
                                                           pair.mapping->overlay(), is_active, comm);
     // With a prescribed gap the surfaces need not lie where they touch.
-    if (!pair.obstacle && !pair.prescribed_gap && result.force.norm() > 0.)
-      result.moment_balance =
-          (forces.nonmortar.moment + forces.mortar.moment).norm() / (result.force.norm() * width);
+    if (!pair.obstacle && !pair.prescribed_gap && result.load > 0.)
+      result.moment_balance = (forces.nonmortar.moment + forces.mortar.moment).norm() / (result.load * width);
   }
 
 
@@ -86,9 +85,11 @@ namespace Signorini
     for (const PairResult &pair : results.pairs)
       {
         // An obstacle takes what the body gives.
-        if (pair.force.norm() > 0. && !d.pairs[&pair - results.pairs.data()].obstacle)
+        // The forces on a closed surface may add up to nothing: their norm is no scale.
+        const double scale_of_forces = std::max(pair.load, pair.force.norm());
+        if (scale_of_forces > 0. && !d.pairs[&pair - results.pairs.data()].obstacle)
           c.force_balance =
-              std::max(c.force_balance, (pair.force + pair.force_on_mortar).norm() / pair.force.norm());
+              std::max(c.force_balance, (pair.force + pair.force_on_mortar).norm() / scale_of_forces);
         if (pair.approach > 0.)
           {
             c.geometric_penetration = std::max(c.geometric_penetration, pair.max_penetration / pair.approach);
@@ -134,6 +135,14 @@ namespace Signorini
           object(name + "between the nodes the true surfaces penetrate by " + text_of(pair.max_penetration) +
                  ", " + text_of(pair.max_penetration / pair.approach) +
                  " of what contact does there; refine the contact surfaces");
+        if (discretization.pairs[p].mapping)
+          {
+            const MappingReport report = sum_reports(discretization.pairs[p].mapping->report(), comm);
+            if (report.n_lost_triangles + report.n_torn_edges + report.lost_edges.size() + report.n_broken >
+                0)
+              object(name + "the contact mapping has errors (" + describe_errors(report) +
+                     "); look at the surfaces with signorini-map, or refine where they are bent or folded");
+          }
         if (pair.moment_balance > rule.moment_balance)
           object(name + "the moments of the contact forces on both sides differ by " +
                  text_of(pair.moment_balance) + " of force times width; refine, or give Boundary shapes");

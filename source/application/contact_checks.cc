@@ -29,6 +29,10 @@ namespace Signorini
       /// What prescribed displacements add to the overlap of two surfaces, as a share of the largest of them:
       /// more than different meshes make of the same field.
       double held_overlap = .02;
+      /// Every row of S couples all of its columns with each other. Their blocks, as a multiple of those of
+      /// the bodies' own matrix, from where on a pair is refused, unless they are few: 15 million take a
+      /// gigabyte. On matching meshes the multiple is 0.1 or less.
+      double dense_blocks = 3., few_dense_blocks = 1.5e7;
     };
 
     /// Covered areas of a pair that carry no multiplier, by who is to blame.
@@ -173,13 +177,44 @@ namespace Signorini
 
 
 
+  void ContactProblem::refuse_dense_coupling() const
+  {
+    const Discretization &d = discretization;
+    // 27 blocks a node of a regular mesh.
+    const double own = 27. * static_cast<double>(d.space->n_conforming_nodes());
+    for (unsigned int p = 0; p < d.pairs.size(); ++p)
+      {
+        const InterfaceCoupling &coupling = d.couplings[p].coupling;
+        double                   blocks = 0., columns = 0.;
+        for (std::size_t row = 0; row < coupling.n_rows(); ++row)
+          {
+            const double n = static_cast<double>(coupling.end(row) - coupling.begin(row));
+            blocks += n * n;
+            columns = std::max(columns, n);
+          }
+        if (blocks <= ContactRule().few_dense_blocks || blocks <= ContactRule().dense_blocks * own)
+          continue;
+        std::ostringstream text;
+        text << "Pair " << d.pairs[p].name << ": the nonmortar surface \"" << d.pairs[p].nonmortar_name
+             << "\" is much coarser than the mortar surface \"" << d.pairs[p].mortar_name
+             << "\" (one node faces " << columns << " nodes): the matrix would need " << std::setprecision(2)
+             << 72. * blocks / 1e9 << " GB for the contact alone. Refine \"" << d.pairs[p].nonmortar_name
+             << "\" there (Refinement/Regions), or make the finer surface the nonmortar side "
+                "(Pair/Nonmortar).";
+        throw InputError(text.str());
+      }
+  }
+
+
+
   void ContactProblem::refuse_held_overlap(const unsigned int p) const
   {
     const Discretization &d       = discretization;
     const ContactPair    &pair    = d.pairs[p];
     const auto            is_held = [](const ContactSurface &surface, const unsigned int v) {
       return surface.hanging[v].empty() &&
-             (surface.vertex_fixed[v] == all_fixed || surface.normal_share[v] < .5);
+             (surface.vertex_fixed[v] == all_fixed ||
+              project_free(surface.vertex_fixed[v], surface.mesh.vertex_normals[v]).norm() < .5);
     };
     // Faces of which both sides are held.
     std::vector<const FaceMoments *> faces;
@@ -330,9 +365,11 @@ namespace Signorini
              << "degenerating (at most " << entry.second << " away; worst quality " << m.quality_before
              << " before moving, " << m.quality_after << " after).";
         if (!pairs.empty())
-          text << " The contact of pair " << pairs
-               << " is wrong there by this distance: use a better or finer start mesh at this boundary, or "
-               << "\"Snap boundary vertices\".";
+          text << " The gap of pair " << pairs
+               << " is measured from the shape all the same, but the stiffness of the dented cells is not "
+                  "that of "
+               << "the body: use a better or finer start mesh at this boundary, or \"Snap boundary "
+                  "vertices\".";
         note(text.str());
       }
   }

@@ -124,7 +124,6 @@ namespace Signorini
               is_active[coupling.vertices[d.origin[row].second]] = d.active[row] != 0;
             }
         const auto recovered = recover_pressure(pair.nonmortar, pair.moments, coupling, pressure);
-        double     load      = 0.;
         for (std::size_t row = 0; row < d.coupling.n_rows(); ++row)
           if (d.origin[row].first == p)
             {
@@ -135,20 +134,20 @@ namespace Signorini
               if (d.active[row])
                 {
                   result.contact_area += coupling.areas[i];
-                  load += coupling.areas[i] * d.pressure[row];
+                  result.load += coupling.areas[i] * d.pressure[row];
                   result.centre += coupling.areas[i] * d.pressure[row] * Vector3(coupling.positions[i]);
                 }
               results.pressure.push_back({coupling.positions[i], coupling.areas[i], d.pressure[row],
                                           recovered[coupling.vertices[i]],
                                           coupling.mean_gap(i, d.opening[row]), d.active[row] != 0});
             }
-        if (load > 0.)
-          result.centre /= load;
+        if (result.load > 0.)
+          result.centre /= result.load;
         const ContactForces forces = compute_contact_forces(pair.nonmortar, pair.mortar, coupling, traction);
         result.force               = forces.nonmortar.force;
         result.force_on_mortar     = pair.obstacle ? -forces.nonmortar.force : forces.mortar.force;
         result.moment              = forces.nonmortar.moment;
-        measure_contact(result, p, is_active, load, forces);
+        measure_contact(result, p, is_active, forces);
 
         const auto displaced = vertex_values(pair.nonmortar, *d.partition, d.displacement);
         const auto penetration =

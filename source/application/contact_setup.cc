@@ -192,10 +192,12 @@ namespace Signorini
                        "\" do not face each other anywhere: there is not a single overlay cell.");
     pair.mapping_time = time.wall_time();
     cycle.times["mapping"] += pair.mapping_time;
-    if (const std::string errors = describe_errors(sum_reports(pair.mapping->report(), comm)); !errors.empty())
+    if (const std::string errors = describe_errors(sum_reports(pair.mapping->report(), comm));
+        !errors.empty())
       note("warning: pair " + pair.name + ", cycle " + std::to_string(cycle.cycle) +
            ": the contact mapping has errors (" + errors +
-           "): pressures and forces near those places are wrong. Look at the surfaces with signorini-map; a finer "
+           "): pressures and forces near those places are wrong. Look at the surfaces with signorini-map; a "
+           "finer "
            "or smoother mesh on the bent or folded parts, or the other side as nonmortar side, helps.");
 
     time.restart();
@@ -248,6 +250,7 @@ namespace Signorini
     while (swap_sides(cycle))
       couple_pairs();
     refuse_lost_contact();
+    refuse_dense_coupling();
     std::vector<std::string> names;
     for (unsigned int p = 0; p < d.pairs.size(); ++p)
       {

@@ -117,6 +117,7 @@ namespace Signorini
       json.vector("force_on_mortar", pair.force_on_mortar);
       json.vector("moment", pair.moment);
       json.vector("centre_of_pressure", Vector3(pair.centre));
+      json.number("load", pair.load);
       json.number("approach", pair.approach);
       json.number("gap_doubt", pair.gap_doubt);
       json.number("moment_balance", pair.moment_balance);

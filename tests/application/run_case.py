@@ -12,6 +12,7 @@ import sys
 import tempfile
 
 import geometry_cases
+import true_gap_cases
 import verification_cases
 from harness import FAILURES, TOP, Program, certificate, check, constant_pressure, iterations, near
 
@@ -561,7 +562,7 @@ def surface_map(p):
 
 
 if __name__ == '__main__':
-    case = next(getattr(m, sys.argv[2]) for m in (sys.modules[__name__], geometry_cases, verification_cases) if hasattr(m, sys.argv[2]))
+    case = next(getattr(m, sys.argv[2]) for m in (sys.modules[__name__], geometry_cases, verification_cases, true_gap_cases) if hasattr(m, sys.argv[2]))
     case(Program(sys.argv[1], int(sys.argv[3])))
     for failure in FAILURES:
         print('FAILED:', failure)

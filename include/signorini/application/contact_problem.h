@@ -135,6 +135,7 @@ namespace Signorini
     /// sense (contact_checks.cc). Turns automatic choices of sides round where that helps; whether it did.
     bool swap_sides(CycleResult &cycle);
     void refuse_lost_contact() const;
+    void refuse_dense_coupling() const;
     void refuse_held_overlap(const unsigned int pair) const;
     void refuse_large_overlap(const unsigned int pair, const double overlap) const;
     /// The other pairs that need nodes of a pair's nonmortar side.
@@ -175,9 +176,8 @@ namespace Signorini
     void                finish();
     void                certify();
     void                object();
-    /// @param load integral of the pressure
     void measure_contact(PairResult &result, const unsigned int p, const std::vector<bool> &is_active,
-                         const double load, const ContactForces &forces) const;
+                         const ContactForces &forces) const;
     /// Of the owned nodes.
     std::vector<unsigned int> bodies_of_nodes() const;
     void                      collect_pairs();

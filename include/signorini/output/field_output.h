@@ -4,6 +4,7 @@
 #ifndef signorini_output_field_output_h
 #define signorini_output_field_output_h
 
+#include <signorini/mesh/bodies.h>
 #include <signorini/mesh/contact_surface.h>
 #include <signorini/mesh/nodal_space.h>
 #include <signorini/surface/overlay.h>

@@ -55,13 +55,15 @@ namespace Signorini
     double           min_pressure = 0., max_pressure = 0., contact_area = 0., coverage = 0., min_gap = 0.,
            max_penetration     = 0.;
     double initial_penetration = 0., lost_area = 0.;
+    /// Integral of the pressure where nodes are active (force).
+    double load = 0.;
     /// What contact does (length): by how much bodies approach each other that touch on the contact area A
     /// with this force, 4/3 ∫p / (√A E*), 1/E* = sum of (1 - ν²)/E, as in Hertz' contact. Zero without
     /// contact.
     double approach = 0.;
     /// By how much the gap may be wrong where bodies touch (length).
     double gap_doubt = 0.;
-    /// |moment on nonmortar + moment on mortar| / (|force| √A).
+    /// |moment on nonmortar + moment on mortar| / (load √A).
     double      moment_balance = 0.;
     std::size_t dropped_nodes  = 0;
   };
@@ -109,7 +111,7 @@ namespace Signorini
     double complementarity = 0.;
     /// Residual of the equilibrium including contact forces, physical basis / norm of the nodal forces.
     double equilibrium = 0.;
-    /// |force on nonmortar + force on mortar| / |force|.
+    /// |force on nonmortar + force on mortar| / load.
     double force_balance = 0.;
     /// Largest PairResult::moment_balance.
     double moment_balance = 0.;

@@ -1,0 +1,75 @@
+"""Surfaces that fit into each other: the gap is that of the true bodies. The meshes come from files, do not match, and no option says what they stand
+for unless a case gives shapes."""
+import csv
+import json
+import os
+import tempfile
+
+import verification_cases as v
+from harness import TOP, check, near
+from verification_cases import PRESCRIBED_GAP, PRESCRIBED_INTERFERENCE, INTERFERENCE, tetrahedra_in
+
+GEOMETRIC = ['Pair contact/Initial gap=geometry']
+SPHERES = ['Body inner/Boundary shapes=outside: sphere: (0, 0, 0), .75', 'Body outer/Boundary shapes=inside: sphere: (0, 0, 0), .75']
+
+
+def check_fit(p, name, settings, pressure_order, sizes=(6, 12), whole=False):
+    """With the gap between the bodies errors are those with the exact gap prescribed: at most 1.2 times with shapes, 1.5 times without."""
+    reference = v.check_shells(p, f'{name}, prescribed', settings, PRESCRIBED_GAP, pressure_order, sizes, whole)
+    v.check_shells(p, f'{name}, shapes', settings, GEOMETRIC + SPHERES, pressure_order, sizes, whole, reference, 1.2)
+    v.check_shells(p, f'{name}, mesh alone', settings, GEOMETRIC, pressure_order, sizes, whole, reference, 1.5)
+
+
+def fitting_shells(p):
+    check_fit(p, 'hexahedra', [], 1.)
+
+
+def fitting_shells_tetrahedra_inside(p):
+    check_fit(p, 'tetrahedra inside', tetrahedra_in('inner'), 1.)
+
+
+def fitting_shells_tetrahedra_outside(p):
+    check_fit(p, 'tetrahedra outside', tetrahedra_in('outer'), 1.)
+
+
+def fitting_shells_tetrahedra(p):
+    check_fit(p, 'tetrahedra', tetrahedra_in('inner', 'outer'), 1.)
+
+
+def fitting_shells_turned(p):
+    check_fit(p, 'turned', ['Body inner/Rotation axis=1, 2, 3', 'Body inner/Rotation angle=25'], 1., (3, 6), True)
+
+
+def fitting_press(p):
+    """Interference that only the sizes of the bodies have."""
+    for name, kind in (('hexahedra', []), ('tetrahedra', tetrahedra_in('inner', 'outer'))):
+        v.check_press_fit(p, name, kind, GEOMETRIC, INTERFERENCE)
+
+
+def wrong_gap(p):
+    """Facets in place of the surfaces: the same problem gets the verdict NO, and exit code 3, with the results written."""
+    with tempfile.TemporaryDirectory() as folder:
+        settings = []
+        for body, (low, high), n in (('inner', (v.RINGS[0], v.RINGS[1] + INTERFERENCE), 12), ('outer', v.RINGS[1:], 16)):
+            mesh = os.path.join(folder, f'{body}.msh')
+            v.write_ring(mesh, low, high, n, n // 2, n // 6 if body == 'inner' else n // 4)
+            settings += [f'Body {body}/Mesh={mesh}', f'Body {body}/Pressures=', f'Body {body}/Dirichlet=x0: (0, *, *); y0: (*, 0, *); bottom: (*, *, 0); top: (*, *, 0)']
+        settings += ['Refinement/Global cycles=0', 'Pair contact/First=inner: outside', 'Pair contact/Second=outer: inside', *GEOMETRIC]
+        for surface, code in (('automatic', 0), ('faceted', 3)):
+            out = os.path.join(folder, surface)
+            arguments = [a for s in settings + [f'Pair contact/Surface={surface}'] for a in ('--set', s)]
+            run = p.call(v.SHELLS, '--output', out, *arguments)
+            check(run.returncode == code, f'{surface}: exit code {run.returncode}\n{run.stdout[-600:]}{run.stderr}')
+            with open(os.path.join(out, 'summary.json')) as f:
+                s = json.load(f)
+            c = s['certificate']
+            check(c['contact_conditions_hold'] == (code == 0), f'{surface}: verdict {c}')
+            check(('contact conditions hold: yes' in run.stdout) == (code == 0), f'{surface}: {run.stdout[-600:]}')
+            if code:
+                check(any('pair contact' in text and 'Surface' in text for text in c['objections']), f'{surface}: {c["objections"]}')
+            # The recovered pressure beside the raw one: the same force.
+            with open(os.path.join(out, 'pressure.csv')) as f:
+                rows = [{k: float(x) for k, x in row.items()} for row in csv.DictReader(f)]
+            raw, smooth = ([r['area'] * r[k] for r in rows] for k in ('pressure', 'recovered_pressure'))
+            near(sum(smooth), sum(raw), 2e-2 if code else 1e-3, f'{surface}: force of the recovered pressure')
+            check(min(r['recovered_pressure'] for r in rows) >= -1e-9 * max(r['pressure'] for r in rows), f'{surface}: recovered tension')
