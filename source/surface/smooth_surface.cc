@@ -197,15 +197,17 @@ namespace Signorini
           q.c                                 = x[2];
           q.d                                 = x[3];
           q.e                                 = x[4];
-          // Where the surface is wild k may do harm: a hemisphere is as far as it can reach.
-          curvature            = std::max(-1., std::min(1., q.largest_curvature()));
-          const double turn    = std::hypot(x[0], x[1]);
-          const double heights = (b - a.leftCols<2>() * x.head<2>()).norm();
-          q.residual           = heights > 0. ? (b - a * x).norm() / heights : 0.;
+          const double turn                   = std::hypot(x[0], x[1]);
+          const double heights                = (b - a.leftCols<2>() * x.head<2>()).norm();
+          q.residual                          = heights > 0. ? (b - a * x).norm() / heights : 0.;
           turn_frame(q, q.normal - x[0] * q.u - x[1] * q.v);
-          if (turn < 1e-13 || (step > 2 && turn > .7 * last))
+          // Where the surface is wild k may do harm: a hemisphere is as far as it can reach.
+          const double bend   = std::max(-1., std::min(1., q.largest_curvature()));
+          const double change = std::max(turn, std::abs(bend - curvature));
+          curvature           = bend;
+          if (change < 1e-13 || (step > 2 && change > .7 * last))
             break;
-          last = turn;
+          last = change;
         }
       q.c /= size;
       q.d /= size;

@@ -10,13 +10,12 @@ from harness import TOP, check, near
 from verification_cases import PRESCRIBED_GAP, PRESCRIBED_INTERFERENCE, INTERFERENCE, tetrahedra_in
 
 GEOMETRIC = ['Pair contact/Initial gap=geometry']
-SPHERES = ['Body inner/Boundary shapes=outside: sphere: (0, 0, 0), .75', 'Body outer/Boundary shapes=inside: sphere: (0, 0, 0), .75']
 
 
 def check_fit(p, name, settings, pressure_order, sizes=(6, 12), whole=False):
     """With the gap between the bodies errors are those with the exact gap prescribed: at most 1.2 times with shapes, 1.5 times without."""
     reference = v.check_shells(p, f'{name}, prescribed', settings, PRESCRIBED_GAP, pressure_order, sizes, whole)
-    v.check_shells(p, f'{name}, shapes', settings, GEOMETRIC + SPHERES, pressure_order, sizes, whole, reference, 1.2)
+    v.check_shells(p, f'{name}, shapes', settings, GEOMETRIC + v.SHELL_SHAPES, pressure_order, sizes, whole, reference, 1.2)
     v.check_shells(p, f'{name}, mesh alone', settings, GEOMETRIC, pressure_order, sizes, whole, reference, 1.5)
 
 
