@@ -286,60 +286,22 @@ namespace Signorini
         // K C, then Cᵀ (K C).
         for (unsigned int a = 0; a < data.n(); ++a)
           for (unsigned int b = 0; b < data.n(); ++b)
-            for (const Term &term : terms[b])
-              term.add_product(product.data() + 9 * (n * a + term.node), data.block(a, b));
+            for (const auto &[m, term] : terms[b])
+              term.add_product(product.data() + 9 * (n * a + m), data.block(a, b));
         result.assign(n * n * 9, 0.);
         load.assign(n, Vector3());
         for (unsigned int a = 0; a < data.n(); ++a)
-          for (const Term &term : terms[a])
+          for (const auto &[l, term] : terms[a])
             {
-              load[term.node] += term.transposed_product(data.load[a]);
+              load[l] += term.transposed_product(data.load[a]);
               for (std::size_t m = 0; m < n; ++m)
-                term.add_transposed_product(result.data() + 9 * (n * term.node + m),
+                term.add_transposed_product(result.data() + 9 * (n * l + m),
                                             product.data() + 9 * (n * a + m));
             }
         add_to(system);
       }
 
     private:
-      /// A term of an expansion: weight times the identity, or a block.
-      struct Term
-      {
-        std::size_t node;
-        double      weight;
-        bool        is_scalar;
-        Block       block;
-
-        /// target += source times the term, nine numbers each.
-        void add_product(double *const target, const double *const source) const
-        {
-          for (unsigned int c = 0; c < dim; ++c)
-            for (unsigned int d = 0; d < dim; ++d)
-              if (is_scalar)
-                target[dim * c + d] += source[dim * c + d] * weight;
-              else
-                for (unsigned int e = 0; e < dim; ++e)
-                  target[dim * c + d] += source[dim * c + e] * block[e][d];
-        }
-
-        /// target += transpose of the term times source.
-        void add_transposed_product(double *const target, const double *const source) const
-        {
-          for (unsigned int c = 0; c < dim; ++c)
-            for (unsigned int d = 0; d < dim; ++d)
-              if (is_scalar)
-                target[dim * c + d] += weight * source[dim * c + d];
-              else
-                for (unsigned int e = 0; e < dim; ++e)
-                  target[dim * c + d] += block[e][c] * source[dim * e + d];
-        }
-
-        Vector3 transposed_product(const Vector3 &source) const
-        {
-          return is_scalar ? weight * source : source * block;
-        }
-      };
-
       void collect(const CellData &data, const VertexExpansion &expansion)
       {
         nodes.clear();
@@ -355,12 +317,8 @@ namespace Signorini
           {
             terms[v].clear();
             for (const auto &term : buffer[v])
-              {
-                const std::size_t i = std::lower_bound(nodes.begin(), nodes.end(), term.node) - nodes.begin();
-                terms[v].push_back({i, term.weight, term.projection == nullptr, Block()});
-                if (term.projection != nullptr)
-                  terms[v].back().block = term.weight * term.projection->block();
-              }
+              terms[v].emplace_back(std::lower_bound(nodes.begin(), nodes.end(), term.node) - nodes.begin(),
+                                    term);
           }
       }
 
@@ -380,11 +338,13 @@ namespace Signorini
           }
       }
 
-      std::vector<NodeIndex>                            nodes;
-      std::array<std::vector<VertexExpansion::Term>, 8> buffer;
-      std::array<std::vector<Term>, 8>                  terms;
-      std::vector<double>                               product, result;
-      std::vector<Vector3>                              load;
+      using Term = VertexExpansion::Term;
+
+      std::vector<NodeIndex>                                   nodes;
+      std::array<std::vector<Term>, 8>                         buffer;
+      std::array<std::vector<std::pair<std::size_t, Term>>, 8> terms;
+      std::vector<double>                                      product, result;
+      std::vector<Vector3>                                     load;
     };
 
 

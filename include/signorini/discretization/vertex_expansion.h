@@ -21,6 +21,15 @@ namespace Signorini
       double    weight;
       /// A_p of the nonmortar node it comes from; null for the identity.
       const RowProjection *projection;
+
+      /// target += source W, blocks of nine numbers, with W = weight A_p.
+      void add_product(double *const target, const double *const source) const;
+
+      /// target += Wᵀ source.
+      void add_transposed_product(double *const target, const double *const source) const;
+
+      /// Wᵀ source.
+      Vector3 transposed_product(const Vector3 &source) const;
     };
 
     /// All arguments must outlive the object. projections: A_p of the rows of the coupling.
@@ -43,6 +52,44 @@ namespace Signorini
     const std::vector<RowProjection> &projections;
     std::vector<bool>                 special;
   };
+
+
+
+  inline void VertexExpansion::Term::add_product(double *const target, const double *const source) const
+  {
+    if (projection == nullptr)
+      for (unsigned int i = 0; i < dim * dim; ++i)
+        target[i] += source[i] * weight;
+    else
+      {
+        const Block product = weight * (read_block(source) * projection->block());
+        for (unsigned int i = 0; i < dim * dim; ++i)
+          target[i] += product[i / dim][i % dim];
+      }
+  }
+
+
+
+  inline void VertexExpansion::Term::add_transposed_product(double *const       target,
+                                                            const double *const source) const
+  {
+    if (projection == nullptr)
+      for (unsigned int i = 0; i < dim * dim; ++i)
+        target[i] += weight * source[i];
+    else
+      {
+        const Block product = weight * (transpose(projection->block()) * read_block(source));
+        for (unsigned int i = 0; i < dim * dim; ++i)
+          target[i] += product[i / dim][i % dim];
+      }
+  }
+
+
+
+  inline Vector3 VertexExpansion::Term::transposed_product(const Vector3 &source) const
+  {
+    return projection == nullptr ? weight * source : weight * (source * projection->block());
+  }
 } // namespace Signorini
 
 #endif
