@@ -36,7 +36,9 @@ namespace Signorini
     prm.add_parameter(
         "Nonmortar", nonmortar,
         "Which surface carries the contact pressure. auto picks the softer body (then the finer "
-        "mesh): with the stiffer one the solver needs many times more iterations.",
+        "mesh): with the stiffer one the solver needs many times more iterations; it takes the other one "
+        "where "
+        "this one could carry no contact stress (nodes of another pair, prescribed displacements).",
         Patterns::Selection("auto|first|second"));
     prm.add_parameter(
         "Initial gap", initial_gap,

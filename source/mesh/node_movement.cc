@@ -327,6 +327,38 @@ namespace Signorini
       std::vector<std::size_t>  start;
       std::vector<unsigned int> star;
     };
+
+
+
+    /// Several attempts for the vertices that are late, those of `wanted` in its order.
+    void try_again(std::vector<unsigned int> &late, std::vector<Point<3>> &positions, const Targets &wanted,
+                   const Cells &cells, const std::vector<bool> &is_fixed, std::vector<double> &reference,
+                   const MovementRule &rule)
+    {
+      if (late.empty())
+        return;
+      std::unordered_map<unsigned int, std::size_t> index;
+      std::vector<bool>                             is_free(positions.size());
+      for (std::size_t v = 0; v < is_free.size(); ++v)
+        is_free[v] = !is_fixed[v];
+      for (std::size_t i = 0; i < wanted.size(); ++i)
+        {
+          index[wanted[i].first]   = i;
+          is_free[wanted[i].first] = false;
+        }
+      std::size_t  n_attempts = 0;
+      LateVertices attempts(positions, cells, is_free, reference, rule);
+      bool         moved = true;
+      for (unsigned int round = 0; round < rule.n_rounds && moved; ++round)
+        {
+          moved = false;
+          std::vector<unsigned int> still;
+          for (const unsigned int v : late)
+            if (n_attempts++ >= rule.n_attempts || !attempts.advance(moved, v, wanted[index[v]].second))
+              still.push_back(v);
+          late = std::move(still);
+        }
+    }
   } // namespace
 
 
@@ -387,26 +419,7 @@ namespace Signorini
     for (std::size_t i = 0; i < wanted.size(); ++i)
       if (halvings[i] > 0)
         late.push_back(wanted[i].first);
-    if (!late.empty())
-      {
-        std::vector<bool> is_free(positions.size());
-        for (std::size_t v = 0; v < is_free.size(); ++v)
-          is_free[v] = !is_fixed[v];
-        for (const auto &target : wanted)
-          is_free[target.first] = false;
-        std::size_t  n_attempts = 0;
-        LateVertices attempts(positions, cells, is_free, before, rule);
-        bool         moved = true;
-        for (unsigned int round = 0; round < rule.n_rounds && moved; ++round)
-          {
-            moved = false;
-            std::vector<unsigned int> still;
-            for (const unsigned int v : late)
-              if (n_attempts++ >= rule.n_attempts || !attempts.advance(moved, v, wanted[index[v]].second))
-                still.push_back(v);
-            late = std::move(still);
-          }
-      }
+    try_again(late, positions, wanted, cells, is_fixed, before, rule);
     for (const unsigned int c : around)
       report.quality_after = std::min(report.quality_after, quality(positions, cells[c]));
     report.n_moved  = wanted.size();
