@@ -21,21 +21,22 @@ namespace
 {
   using namespace Signorini;
 
-  const char *const usage = "usage: signorini-map NONMORTAR MORTAR [--report] [--vtu FILE] [--json FILE] [--strict]\n"
-                            "\n"
-                            "Maps the mortar surface onto the nonmortar surface along its continuous normal "
-                            "field and computes the\n"
-                            "overlay. The files are triangulated surfaces: OFF, STL, OBJ, PLY or gmsh; the "
-                            "normals of the two point\n"
-                            "towards each other.\n"
-                            "\n"
-                            "  --report     what is covered, angles, gaps, and what could not be mapped (the "
-                            "default without --json)\n"
-                            "  --vtu FILE   the overlay with the way to the image and the gap, for ParaView\n"
-                            "  --json FILE  the figures\n"
-                            "  --strict     fail where the mapping has errors: lost, torn or turned pieces, a "
-                            "tiling that is not exact\n"
-                            "  --help, --version\n";
+  const char *const usage =
+      "usage: signorini-map NONMORTAR MORTAR [--report] [--vtu FILE] [--json FILE] [--strict]\n"
+      "\n"
+      "Maps the mortar surface onto the nonmortar surface along its continuous normal "
+      "field and computes the\n"
+      "overlay. The files are triangulated surfaces: OFF, STL, OBJ, PLY or gmsh; the "
+      "normals of the two point\n"
+      "towards each other.\n"
+      "\n"
+      "  --report     what is covered, angles, gaps, and what could not be mapped (the "
+      "default without --json)\n"
+      "  --vtu FILE   the overlay with the way to the image and the gap, for ParaView\n"
+      "  --json FILE  the figures\n"
+      "  --strict     fail where the mapping has errors: lost, torn or turned pieces, a "
+      "tiling that is not exact\n"
+      "  --help, --version\n";
 
   struct CommandLine
   {

@@ -185,10 +185,12 @@ namespace Signorini
                        "\" do not face each other anywhere: there is not a single overlay cell.");
     pair.mapping_time = time.wall_time();
     cycle.times["mapping"] += pair.mapping_time;
-    if (const std::string errors = describe_errors(sum_reports(pair.mapping->report(), comm)); !errors.empty())
+    if (const std::string errors = describe_errors(sum_reports(pair.mapping->report(), comm));
+        !errors.empty())
       note("warning: pair " + pair.name + ", cycle " + std::to_string(cycle.cycle) +
            ": the contact mapping has errors (" + errors +
-           "): pressures and forces near those places are wrong. Look at the surfaces with signorini-map; a finer "
+           "): pressures and forces near those places are wrong. Look at the surfaces with signorini-map; a "
+           "finer "
            "or smoother mesh on the bent or folded parts, or the other side as nonmortar side, helps.");
 
     time.restart();

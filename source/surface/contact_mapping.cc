@@ -122,7 +122,7 @@ namespace Signorini
         corners.clear();
         incident.clear();
         sides.clear();
-        faces_any = false;
+        faces_any      = false;
         covered        = 0.;
         n_broken       = 0;
         is_covered_all = true;
@@ -226,8 +226,8 @@ namespace Signorini
         list.push_back({m, share, -share_of(flat), begin, static_cast<std::ptrdiff_t>(corners.size())});
       }
 
-      // What the neighbour beyond the edge has to have as well: not where the mortar surface ends, nor what the
-      // neighbour does not face.
+      // What the neighbour beyond the edge has to have as well: not where the mortar surface ends, nor what
+      // the neighbour does not face.
       void add_sides(const unsigned int t, const unsigned int m)
       {
         for (std::size_t k = 0; k < unsorted.size(); ++k)
@@ -240,7 +240,7 @@ namespace Signorini
                     !lies_on(nonmortar, b.nonmortar, e))
                   continue;
                 const auto &beside = nonmortar.edge_triangles[e];
-                bool skip = !incidence.triangles_face(beside[beside[0] == t ? 1 : 0], m);
+                bool        skip   = !incidence.triangles_face(beside[beside[0] == t ? 1 : 0], m);
                 for (const unsigned int f : mortar.triangle_edges[m])
                   skip = skip || (mortar.is_border(f) && lies_on(mortar, a.mortar, f) &&
                                   lies_on(mortar, b.mortar, f));
@@ -253,7 +253,8 @@ namespace Signorini
       static bool lies_on(const SurfaceTopology &topology, const SurfacePoint &p, const unsigned int edge)
       {
         return (p.on == On::edge && p.index == edge) ||
-               (p.on == On::vertex && (p.index == topology.edges[edge][0] || p.index == topology.edges[edge][1]));
+               (p.on == On::vertex &&
+                (p.index == topology.edges[edge][0] || p.index == topology.edges[edge][1]));
       }
 
       double parameter_on(const SurfacePoint &p, const unsigned int edge) const
@@ -310,10 +311,11 @@ namespace Signorini
     // About as many polygons as nodes, of four to five corners.
     found.reserve(graph.nodes.size() + graph.nodes.size() / 8);
     found_corners.reserve(5 * found.capacity());
-    // Both triangles of an edge run through it in opposite directions: what they have of it adds up to nothing.
+    // Both triangles of an edge run through it in opposite directions: what they have of it adds up to
+    // nothing.
     std::vector<double> balance(nonmortar.edges.size(), 0.);
     TrianglePolygons    polygons(incidence, graph, mortar_border);
-    const auto       visit = [&](const unsigned int t) {
+    const auto          visit = [&](const unsigned int t) {
       polygons.compute(t);
       const double area = incidence.nonmortar_normal[t].norm();
       summary.area_nonmortar += area;
@@ -333,7 +335,7 @@ namespace Signorini
           summary.n_cells += polygon.last - polygon.first - 2;
           const auto first = static_cast<unsigned int>(found_corners.size());
           found_corners.insert(found_corners.end(), polygons.corners.begin() + polygon.first,
-                                     polygons.corners.begin() + polygon.last);
+                                        polygons.corners.begin() + polygon.last);
           found.push_back({polygon.mortar_triangle, first, static_cast<unsigned int>(found_corners.size())});
         }
       found_in[t].second = static_cast<unsigned int>(found.size());

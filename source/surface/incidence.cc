@@ -50,8 +50,8 @@ namespace Signorini
       return size;
     }
 
-    /// With an origin in the middle of the nonmortar surface: numbers far from theirs have few digits left for
-    /// the distances that are decided here.
+    /// With an origin in the middle of the nonmortar surface: numbers far from theirs have few digits left
+    /// for the distances that are decided here.
     SurfaceMesh near_origin(SurfaceMesh mesh, const SurfaceMesh &nonmortar)
     {
       if (nonmortar.vertices.empty())
@@ -130,9 +130,10 @@ namespace Signorini
     double             position;
     const double       distance = NormalProjection::distance_from_edge(mortar.vertices[vertex],
                                                                        mortar.vertex_normals[vertex], e, position);
-    return decide(distance, position,
-                  NormalProjection::on_nonmortar_tolerance *
-                      std::min(mortar_size[vertex], nonmortar_size[nonmortar_topology.edges[edge][position > .5]]));
+    return decide(
+        distance, position,
+        NormalProjection::on_nonmortar_tolerance *
+            std::min(mortar_size[vertex], nonmortar_size[nonmortar_topology.edges[edge][position > .5]]));
   }
 
 
@@ -142,9 +143,10 @@ namespace Signorini
     const OrientedEdge e = edge_of(mortar, mortar_topology.edges[edge]);
     double             position;
     const double distance = NormalProjection::distance_from_curtain(nonmortar.vertices[vertex], e, position);
-    return decide(distance, position,
-                  NormalProjection::on_mortar_tolerance *
-                      std::min(nonmortar_size[vertex], mortar_size[mortar_topology.edges[edge][position > .5]]));
+    return decide(
+        distance, position,
+        NormalProjection::on_mortar_tolerance *
+            std::min(nonmortar_size[vertex], mortar_size[mortar_topology.edges[edge][position > .5]]));
   }
 
 
@@ -156,12 +158,13 @@ namespace Signorini
     t                  = share != 0. ? low.distance / share : .5;
     s                  = (1. - t) * low.position + t * high.position;
     // A little outside is rounding.
-    constexpr double outside = near_end;
-    const OrientedEdge e = edge_of(nonmortar, nonmortar_topology.edges[nonmortar_edge]);
-    const double     t_first = t, s_first = s;
-    const auto       is_inside = [](const double x) { return x >= -outside && x <= 1. + outside; };
-    bool inside = NormalProjection::intersect_edges(edge_of(mortar, mortar_topology.edges[mortar_edge]), e, s, t) &&
-                  is_inside(s) && is_inside(t);
+    constexpr double   outside = near_end;
+    const OrientedEdge e       = edge_of(nonmortar, nonmortar_topology.edges[nonmortar_edge]);
+    const double       t_first = t, s_first = s;
+    const auto         is_inside = [](const double x) { return x >= -outside && x <= 1. + outside; };
+    bool               inside =
+        NormalProjection::intersect_edges(edge_of(mortar, mortar_topology.edges[mortar_edge]), e, s, t) &&
+        is_inside(s) && is_inside(t);
     if (!inside && is_inside(s_first) && std::abs(share) < near_end * e.a.distance(e.b))
       {
         // Nearly parallel edges, whose crossing is an ill-conditioned place: any between the sides will do.
@@ -216,6 +219,13 @@ namespace Signorini
                           cross_product_3d(tangent, along) * n > 0. ? 1 : -1});
       }
     return result;
+  }
+
+
+
+  bool Incidence::faces(const unsigned int triangle, const Tensor<1, 3> &direction) const
+  {
+    return facing(nonmortar_normal[triangle], direction);
   }
 
 

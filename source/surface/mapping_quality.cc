@@ -93,8 +93,8 @@ namespace Signorini
   {
     for (double *area : {&report.area_nonmortar, &report.area_covered, &report.area_mortar_covered})
       *area = Utilities::MPI::sum(*area, communicator);
-    for (std::size_t *number : {&report.n_cells, &report.n_pairs, &report.n_flips, &report.n_broken, &report.n_lost_triangles,
-                                &report.n_torn_edges})
+    for (std::size_t *number : {&report.n_cells, &report.n_pairs, &report.n_flips, &report.n_broken,
+                                &report.n_lost_triangles, &report.n_torn_edges})
       *number = Utilities::MPI::sum(*number, communicator);
     report.worst_tiling_defect = Utilities::MPI::max(report.worst_tiling_defect, communicator);
     // An edge over several parts may be lost in each of them; a vertex is told by one.
@@ -184,7 +184,8 @@ namespace Signorini
           << " edges where triangles turn to different sides or more than two meet (taken as borders)\n";
     if (const std::string errors = describe_errors(report); !errors.empty())
       out << "  errors           " << errors << ": there the mapping is not one-to-one. In a contact run\n"
-          << "                   pressures and forces near those places are wrong; the rest is not affected\n";
+          << "                   pressures and forces near those places are wrong; the rest is not "
+             "affected\n";
     if (report.n_pairs > 0)
       {
         out << "  angle            " << quality.largest_angle << " degrees at most between the normals, "

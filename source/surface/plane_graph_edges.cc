@@ -289,8 +289,7 @@ namespace Signorini
       return false;
     if (crossing.t > 1. - near_end && sign_of(side(ends[1], mortar_edge)) == crossing.low_side)
       return false;
-    if (crossing.s < near_end &&
-        incidence.of_mortar_vertex(mortar_ends[0], edge).sign != -crossing.low_side)
+    if (crossing.s < near_end && incidence.of_mortar_vertex(mortar_ends[0], edge).sign != -crossing.low_side)
       return false;
     return !(crossing.s > 1. - near_end &&
              incidence.of_mortar_vertex(mortar_ends[1], edge).sign != crossing.low_side);
@@ -322,7 +321,7 @@ namespace Signorini
     double     passed_at = start.x[0];
     const auto place_on  = [&](const unsigned int e) {
       return start.on != On::vertex || passed.size() == 1 ? passed_at
-                                                          : (nonmortar.edges[e][0] == start.index ? 0. : 1.);
+                                                           : (nonmortar.edges[e][0] == start.index ? 0. : 1.);
     };
     constexpr double rounding = 1e-9;
     for (std::size_t step = 0; step < 2 * nonmortar.triangles.size(); ++step)
@@ -437,19 +436,19 @@ namespace Signorini
 
 
 
-  // The curtain of a mortar edge, the points along its normals at any distance, in pieces: each is halved as long
-  // as its box is much longer than the curtain is wide and still meets more than a few boxes.
+  // The curtain of a mortar edge, the points along its normals at any distance, in pieces: each is halved as
+  // long as its box is much longer than the curtain is wide and still meets more than a few boxes.
   void PlaneGraph::find_below_curtain(std::vector<unsigned int> &found, const BoxTree &tree,
                                       const BoxTree::Box &all, const unsigned int f) const
   {
-    const auto [v, w]       = mortar.edges[f];
-    const Point<3>     &p   = incidence.mortar.vertices[v], &q = incidence.mortar.vertices[w];
-    const Tensor<1, 3> &n   = incidence.mortar.vertex_normals[v], &m = incidence.mortar.vertex_normals[w];
+    const auto [v, w]     = mortar.edges[f];
+    const Point<3>     &p = incidence.mortar.vertices[v], &q = incidence.mortar.vertices[w];
+    const Tensor<1, 3> &n = incidence.mortar.vertex_normals[v], &m = incidence.mortar.vertex_normals[w];
     // As far as the boxes are away, along normals that are shortest in the middle of the edge.
     const double distance = all.low.distance(all.high) + std::max(p.distance(all.low), q.distance(all.low));
-    constexpr double     shortest = .1;
-    const double         far      = distance / std::max(shortest, .5 * (n + m).norm());
-    constexpr unsigned int few    = 4;
+    constexpr double       shortest = .1;
+    const double           far      = distance / std::max(shortest, .5 * (n + m).norm());
+    constexpr unsigned int few      = 4;
 
     std::vector<std::array<double, 2>> pieces = {{{-far, far}}};
     std::vector<unsigned int>          candidates;
@@ -479,8 +478,9 @@ namespace Signorini
 
 
 
-  // Nearly parallel edges cross at an ill-conditioned place. Whether they do at all is known: not if the mortar
-  // edge has an end on the other one, and not if it runs close beside it, with no ends on different sides.
+  // Nearly parallel edges cross at an ill-conditioned place. Whether they do at all is known: not if the
+  // mortar edge has an end on the other one, and not if it runs close beside it, with no ends on different
+  // sides.
   bool PlaneGraph::runs_along(const unsigned int mortar_edge, const unsigned int edge) const
   {
     const auto &x         = incidence.nonmortar.vertices;
@@ -498,10 +498,24 @@ namespace Signorini
           }
         const Incidence::Side s = incidence.of_mortar_vertex(v, edge);
         product *= s.sign;
-        are_close =
-            are_close && std::abs(s.distance) < Incidence::near_end * x[ends[0]].distance(x[ends[1]]);
+        are_close = are_close && std::abs(s.distance) < Incidence::near_end * x[ends[0]].distance(x[ends[1]]);
       }
     return are_close && product >= 0;
+  }
+
+
+
+  bool PlaneGraph::is_hidden_at(const unsigned int mortar_edge, const double s, const unsigned int edge,
+                                const double t) const
+  {
+    const auto [p, q]      = mortar.edges[mortar_edge];
+    const auto [a, b]      = nonmortar.edges[edge];
+    const SurfaceMesh &non = incidence.nonmortar, &mor = incidence.mortar;
+    const Point<3>     foot   = mor.vertices[p] + s * (mor.vertices[q] - mor.vertices[p]);
+    const Tensor<1, 3> normal = (1. - s) * mor.vertex_normals[p] + s * mor.vertex_normals[q],
+                       along = non.vertices[b] - non.vertices[a], way = non.vertices[a] + t * along - foot;
+    return is_hidden(foot, normal, std::abs(way * normal) / normal.norm_square(),
+                     Incidence::near_end * along.norm());
   }
 
 
@@ -519,7 +533,8 @@ namespace Signorini
       if (s[i].sign == 0)
         {
           // Over a corner of the border.
-          if (s[i].position > 0. && s[i].position < 1. && nonmortar_vertex_node[ends[i]] == none)
+          if (s[i].position > 0. && s[i].position < 1. && nonmortar_vertex_node[ends[i]] == none &&
+              !is_hidden_at(f, s[i].position, e, i))
             for (const int direction : {1, -1})
               {
                 Walk walk{f, direction, mortar_vertex_node[direction > 0 ? q : p]};
@@ -536,13 +551,16 @@ namespace Signorini
     double     at_e, at_f;
     const bool crosses = incidence.cross(at_e, at_f, e, f, s[0], s[1]);
     Walk       walk{f, direction, mortar_vertex_node[direction > 0 ? q : p]};
-    // Right at an end of the mortar edge the side on which that end lies decides, as where its vertex was placed.
+    // Right at an end of the mortar edge the side on which that end lies decides, as where its vertex was
+    // placed.
     const double come   = walk.forward(at_f);
     const auto   inside = [&](const unsigned int v) {
       return (only == 0 ? 1 : -1) * incidence.of_mortar_vertex(v, e).sign;
     };
     if (!crosses || (come < Incidence::near_end && inside(direction > 0 ? p : q) >= 0) ||
         (come > 1. - Incidence::near_end && inside(direction > 0 ? q : p) <= 0))
+      return;
+    if (is_hidden_at(f, at_f, e, at_e))
       return;
     walk.position    = come;
     walk.triangle    = t;

@@ -52,17 +52,18 @@ namespace Signorini
       int low_side;
     };
 
-    /// So close to an end of an edge, as a part of it, rounding could tell a crossing from none otherwise than
-    /// the side of the end does.
+    /// So close to an end of an edge, as a part of it, rounding could tell a crossing from none otherwise
+    /// than the side of the end does.
     static constexpr double near_end = 1e-6;
 
-    /// All solutions of system (10) with t and s in [0,1] or less than near_end outside, by ascending s: at most
-    /// two. In closed form.
+    /// All solutions of system (10) with t and s in [0,1] or less than near_end outside, by ascending s: at
+    /// most two. In closed form.
     std::vector<Crossing> all_crossings(const unsigned int nonmortar_edge,
                                         const unsigned int mortar_edge) const;
 
     /// Whether a mortar vertex, or a point of a mortar edge, and a nonmortar triangle, or two triangles, face
     /// each other.
+    bool faces(const unsigned int nonmortar_triangle, const dealii::Tensor<1, 3> &mortar_direction) const;
     bool vertex_faces(const unsigned int mortar_vertex, const unsigned int nonmortar_triangle) const;
     bool edge_faces(const unsigned int mortar_edge, const double s,
                     const unsigned int nonmortar_triangle) const;

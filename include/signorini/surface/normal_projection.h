@@ -14,12 +14,12 @@ namespace Signorini
   /// cannot be computed is a returned status. Distances have the unit of the coordinates.
   namespace NormalProjection
   {
-    /// The tolerances of the surface module, relative to the local edge length: a mortar vertex that is closer
-    /// than the first to a nonmortar vertex lies at it, closer than the second to a nonmortar edge lies on it,
-    /// and a nonmortar vertex closer than the third to a mortar edge lies on it. Vertices are moved to where
-    /// they lie. They are decided in this order, each is ten times smaller than the one before: so a move
-    /// upsets no side that was told apart before, and what is not at a vertex sees it and its edges under
-    /// definite angles. Far above rounding (1e-16), far below what anybody meshes.
+    /// The tolerances of the surface module, relative to the local edge length: a mortar vertex that is
+    /// closer than the first to a nonmortar vertex lies at it, closer than the second to a nonmortar edge
+    /// lies on it, and a nonmortar vertex closer than the third to a mortar edge lies on it. Vertices are
+    /// moved to where they lie. They are decided in this order, each is ten times smaller than the one
+    /// before: so a move upsets no side that was told apart before, and what is not at a vertex sees it and
+    /// its edges under definite angles. Far above rounding (1e-16), far below what anybody meshes.
     constexpr double vertex_tolerance = 1e-10, on_nonmortar_tolerance = 1e-11, on_mortar_tolerance = 1e-12;
 
     struct OrientedEdge

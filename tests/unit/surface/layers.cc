@@ -13,7 +13,8 @@ namespace
                         const double y1, const double z, const bool up)
   {
     return grid(
-        n, [=](const double x, const double y) { return Point<3>(x0 + x * (x1 - x0), y0 + y * (y1 - y0), z); },
+        n,
+        [=](const double x, const double y) { return Point<3>(x0 + x * (x1 - x0), y0 + y * (y1 - y0), z); },
         up);
   }
 
@@ -30,8 +31,8 @@ namespace
 
 
 
-// A piece that lies much farther away than the rest, between the vertices of the other surface: only edges over
-// its border find it.
+// A piece that lies much farther away than the rest, between the vertices of the other surface: only edges
+// over its border find it.
 TEST(Layers, FarDetachedPatch)
 {
   for (const double distance : {.3, 3., 300.})
@@ -39,8 +40,8 @@ TEST(Layers, FarDetachedPatch)
       {
         const double      x = 7.1 + shift, y = 4.2 + .5 * shift;
         const SurfaceMesh near = rectangle(5, 1., 6., 1., 8., .1, true),
-                          far  = rectangle(3, x, x + .55, y, y + .45, -distance, true),
-                          both = join(near, far), plane = rectangle(10, 0., 10., 0., 10., .2, false);
+                          far = rectangle(3, x, x + .55, y, y + .45, -distance, true), both = join(near, far),
+                          plane = rectangle(10, 0., 10., 0., 10., .2, false);
         const ContactMapping mapping(both, plane), alone(far, plane), beside(near, plane);
         EXPECT_EQ(violated_invariant(both, plane, mapping, true), "") << distance << ' ' << shift;
         EXPECT_EQ(mapping.report().n_pairs, alone.report().n_pairs + beside.report().n_pairs);
@@ -71,7 +72,7 @@ TEST(Layers, FarPatchUnderACap)
   double area = 0.;
   for (const double radius : {1.1, 30., 1e4})
     {
-      const double      x = radius < 2. ? .22 : radius < 100. ? .55 : .78;
+      const double      x     = radius < 2. ? .22 : radius < 100. ? .55 : .78;
       const SurfaceMesh piece = grid(
           2,
           [=](const double u, const double v) {
@@ -89,14 +90,14 @@ TEST(Layers, FarPatchUnderACap)
 
 
 
-// Two nonmortar plates one above the other: the mortar side meets the nearer one, whole, and the farther one not
-// at all where the nearer one is.
+// Two nonmortar plates one above the other: the mortar side meets the nearer one, whole, and the farther one
+// not at all where the nearer one is.
 TEST(Layers, TwoPlatesBelowOne)
 {
   for (const unsigned int n : {3u, 4u, 7u})
     {
       const SurfaceMesh near = rectangle(n, 0., 2., 0., 2., 0., true),
-                        far  = rectangle(5, 0., 2., 0., 2., -1., true), both = join(near, far);
+                        far = rectangle(5, 0., 2., 0., 2., -1., true), both = join(near, far);
       const SurfaceMesh    plate = rectangle(4, 0., 2., 0., 2., .1, false);
       const ContactMapping mapping(both, plate), alone(near, plate);
       EXPECT_EQ(violated_invariant(both, plate, mapping, false), "");
@@ -112,7 +113,8 @@ TEST(Layers, TwoPlatesBelowOne)
 // The sheets of a folded strip lie over each other, each with a partner of its own beside it.
 TEST(Layers, FoldedSurface)
 {
-  // A strip in the form of an S: along x, round a half circle and back. The other one follows it at a distance.
+  // A strip in the form of an S: along x, round a half circle and back. The other one follows it at a
+  // distance.
   const auto strip = [](const double offset, const bool up, const unsigned int n) {
     const Shape shape = [offset](const double s, const double y) {
       const double length = 3., turn = dealii::numbers::PI, way = s * (2. * length + turn);
@@ -136,4 +138,17 @@ TEST(Layers, FoldedSurface)
       EXPECT_GT(quality.min_gap, .03) << n;
       EXPECT_LT(quality.max_gap, .07) << n;
     }
+}
+
+
+
+// Two mortar plates above one nonmortar plate both count: that is said.
+TEST(Layers, TwoMortarPlatesAreAnError)
+{
+  const SurfaceMesh upper = rectangle(3, 0., 2., 0., 2., .1, false),
+                    top   = rectangle(4, 0., 2., 0., 2., 1., false),
+                    plate = rectangle(5, 0., 2., 0., 2., 0., true);
+  const ContactMapping twice(plate, join(upper, top)), once(plate, upper);
+  EXPECT_EQ(describe_errors(once.report()), "");
+  EXPECT_NE(describe_errors(twice.report()), "");
 }

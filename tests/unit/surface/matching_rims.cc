@@ -41,13 +41,13 @@ namespace
       // Curved surfaces coincide where their meshes do.
       const bool      refine           = !curved;
       const Diagonals common_diagonals = diagonals();
-      SurfaceMesh made[2];
+      SurfaceMesh     made[2];
       for (unsigned int side = 0; side < 2; ++side)
         {
           const unsigned int cut = refine ? cuts[side] : 1;
           const Part        &p   = common[same ? 0 : side];
-          const FlatGrid     grid = flat_grid(m * cut, n * cut, 0., 0, curved ? common_diagonals : diagonals());
-          made[side] = in_space(grid, place, side == 0);
+          const FlatGrid grid = flat_grid(m * cut, n * cut, 0., 0, curved ? common_diagonals : diagonals());
+          made[side]          = in_space(grid, place, side == 0);
           if (!curved && uneven == 0. && number(0, 1))
             jitter(made[side], m * cut, n * cut, m, n);
           keep(made[side], grid, p, m, n);
@@ -63,7 +63,7 @@ namespace
       for (Point<3> &p : made[1].vertices)
         p[2] += gap;
       // Noise of one's own, of a size that is anything.
-      const double own = number(0, 1) ? std::pow(10., -16. + 11. * uniform()) : 0.;
+      const double own   = number(0, 1) ? std::pow(10., -16. + 11. * uniform()) : 0.;
       SurfaceMesh &noisy = made[number(0, 1)];
       for (Point<3> &p : noisy.vertices)
         for (unsigned int c = 0; c < 3; ++c)
@@ -71,9 +71,9 @@ namespace
       // Turned and moved, in one go for both.
       const Tensor<2, 3> rotation = random_rotation();
       const double       size     = number(0, 1) ? std::pow(10., 6. * uniform()) : 0.;
-      const Tensor<1, 3> shift = size * Point<3>(uniform() - .5, uniform() - .5, uniform() - .5);
-      const double       scale = number(0, 1) ? std::pow(10., 12. * uniform() - 6.) : 1.;
-      unsigned int       digits = number(6, 17);
+      const Tensor<1, 3> shift    = size * Point<3>(uniform() - .5, uniform() - .5, uniform() - .5);
+      const double       scale    = number(0, 1) ? std::pow(10., 12. * uniform() - 6.) : 1.;
+      unsigned int       digits   = number(6, 17);
       while (std::pow(10., 1. - digits) * (1. + size) > 1e-5)
         ++digits;
       for (SurfaceMesh &mesh : made)
@@ -89,7 +89,7 @@ namespace
            << (refine ? cuts[1] : 1) << (curved ? ", curved" : ", flat") << (same ? ", same rims" : "")
            << ", gap " << gap << ", noise " << own << ", moved by " << size << ", " << digits
            << " digits, scale " << scale;
-      description = text.str();
+      description        = text.str();
       const bool swapped = number(0, 1);
       nonmortar          = std::move(made[swapped]);
       mortar             = std::move(made[!swapped]);
@@ -226,7 +226,8 @@ TEST(MatchingRims, AreCoveredWhateverTheNoise)
       std::string          error = violated_invariant(pair.nonmortar, pair.mortar, mapping, false);
       const double         size  = std::sqrt(area_of(pair.nonmortar)),
                    difference    = mapping.report().area_covered - pair.area;
-      if (error.empty() && !(std::abs(difference) <= 1e-9 * area_of(pair.nonmortar) + 40. * pair.noise * size))
+      if (error.empty() &&
+          !(std::abs(difference) <= 1e-9 * area_of(pair.nonmortar) + 40. * pair.noise * size))
         error = "covered " + std::to_string(1e12 * difference / area_of(pair.nonmortar)) + "e-12 too much";
       if (error.empty() && mapping.report().n_flips > 0)
         error = std::to_string(mapping.report().n_flips) + " turned";
