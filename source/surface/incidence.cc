@@ -223,6 +223,13 @@ namespace Signorini
 
 
 
+  bool Incidence::faces(const unsigned int triangle, const Tensor<1, 3> &direction) const
+  {
+    return facing(nonmortar_normal[triangle], direction);
+  }
+
+
+
   bool Incidence::vertex_faces(const unsigned int vertex, const unsigned int triangle) const
   {
     return facing(nonmortar_normal[triangle], mortar.vertex_normals[vertex]);

@@ -173,14 +173,15 @@ namespace Signorini
 
   void PlaneGraph::map_mortar_vertices()
   {
-    std::vector<Unmapped>     state(mortar_order.size(), Unmapped::not_at_all);
-    const BoxTree             tree = tree_of_triangles(incidence.nonmortar);
+    std::vector<Unmapped> state(mortar_order.size(), Unmapped::not_at_all);
+    nonmortar_tree = std::make_unique<BoxTree>(tree_of_triangles(incidence.nonmortar));
     std::vector<unsigned int> candidates;
     for (const unsigned int v : mortar_order)
       {
         if (!vertex_is_needed[v] || mortar.fan_start[v] == mortar.fan_start[v + 1])
           continue;
-        tree.find_along_line(candidates, incidence.mortar.vertices[v], incidence.mortar.vertex_normals[v]);
+        nonmortar_tree->find_along_line(candidates, incidence.mortar.vertices[v],
+                                        incidence.mortar.vertex_normals[v]);
         double       nearest = std::numeric_limits<double>::max();
         SurfacePoint best;
         bool         turned_away = false;
@@ -274,6 +275,8 @@ namespace Signorini
     mortar_tree->find_nearest(candidates, incidence.nonmortar.vertices[vertex], 16);
     unsigned int best    = none;
     double       nearest = std::numeric_limits<double>::max();
+    Point<3>     foot;
+    Tensor<1, 3> normal;
     for (const unsigned int t : candidates)
       {
         std::array<double, 3> w;
@@ -289,9 +292,47 @@ namespace Signorini
           {
             nearest = std::abs(eta);
             best    = t;
+            foot    = Point<3>();
+            normal  = Tensor<1, 3>();
+            for (unsigned int i = 0; i < 3; ++i)
+              {
+                foot += w[i] * incidence.mortar.vertices[mortar.triangles[t][i]];
+                normal += w[i] * incidence.mortar.vertex_normals[mortar.triangles[t][i]];
+              }
           }
       }
-    return best;
+    const auto  &any  = nonmortar.triangles[nonmortar.fan[nonmortar.fan_start[vertex]]];
+    const double size = incidence.nonmortar.vertices[any[0]].distance(incidence.nonmortar.vertices[any[1]]);
+    return best != none && is_hidden(foot, normal, nearest, Incidence::near_end * size) ? none : best;
+  }
+
+
+
+  bool PlaneGraph::is_hidden(const Point<3> &foot, const Tensor<1, 3> &normal, const double distance,
+                             const double margin) const
+  {
+    std::vector<unsigned int> candidates;
+    nonmortar_tree->find_along_line(candidates, foot, normal);
+    return std::any_of(candidates.begin(), candidates.end(), [&](const unsigned int t) {
+      std::array<double, 3> w;
+      double                eta;
+      constexpr double      rounding = 1e-9;
+      return incidence.faces(t, normal) &&
+             NormalProjection::intersect_line(w, eta, foot, normal, corners_of(incidence.nonmortar, t)) &&
+             *std::min_element(w.begin(), w.end()) >= -rounding && std::abs(eta) + margin < distance;
+    });
+  }
+
+
+
+  bool PlaneGraph::lies_below(const unsigned int vertex, const unsigned int triangle) const
+  {
+    std::array<double, 3> w;
+    double                eta;
+    return NormalProjection::inverse_project(w, eta, incidence.nonmortar.vertices[vertex],
+                                             corners_of(incidence.mortar, triangle),
+                                             normals_of(incidence.mortar, triangle)) &&
+           *std::min_element(w.begin(), w.end()) >= -Incidence::near_end;
   }
 
 
@@ -343,7 +384,7 @@ namespace Signorini
 
     // What no node separates has the same image triangle.
     std::queue<unsigned int> front;
-    const auto               flood = [&]() {
+    const auto               flood = [&](const bool by_search) {
       while (!front.empty())
         {
           const unsigned int v = front.front();
@@ -355,7 +396,8 @@ namespace Signorini
                 {
                   const unsigned int e     = nonmortar.triangle_edges[t][j];
                   const unsigned int other = nonmortar.edges[e][nonmortar.edges[e][0] == v ? 1 : 0];
-                  if (edge_start[e] == edge_start[e + 1] && is_complete(e) && is_open(other))
+                  if (edge_start[e] == edge_start[e + 1] && is_complete(e) && is_open(other) &&
+                      (!by_search || image[v] == none || lies_below(other, image[v])))
                     {
                       image[other] = image[v];
                       front.push(other);
@@ -367,13 +409,13 @@ namespace Signorini
     for (unsigned int v = 0; v < n; ++v)
       if (nonmortar_vertex_node[v] == none && image[v] != unknown)
         front.push(v);
-    flood();
+    flood(false);
     for (unsigned int v = 0; v < n; ++v)
       if (is_open(v) && nonmortar.fan_start[v] < nonmortar.fan_start[v + 1])
         {
           image[v] = search_triangle(v);
           front.push(v);
-          flood();
+          flood(true);
         }
 
     for (unsigned int v = 0; v < n; ++v)

@@ -505,6 +505,21 @@ namespace Signorini
 
 
 
+  bool PlaneGraph::is_hidden_at(const unsigned int mortar_edge, const double s, const unsigned int edge,
+                                const double t) const
+  {
+    const auto [p, q]      = mortar.edges[mortar_edge];
+    const auto [a, b]      = nonmortar.edges[edge];
+    const SurfaceMesh &non = incidence.nonmortar, &mor = incidence.mortar;
+    const Point<3>     foot   = mor.vertices[p] + s * (mor.vertices[q] - mor.vertices[p]);
+    const Tensor<1, 3> normal = (1. - s) * mor.vertex_normals[p] + s * mor.vertex_normals[q],
+                       along = non.vertices[b] - non.vertices[a], way = non.vertices[a] + t * along - foot;
+    return is_hidden(foot, normal, std::abs(way * normal) / normal.norm_square(),
+                     Incidence::near_end * along.norm());
+  }
+
+
+
   void PlaneGraph::enter_at(const unsigned int e, const unsigned int f)
   {
     const auto        &ends = nonmortar.edges[e];
@@ -518,7 +533,8 @@ namespace Signorini
       if (s[i].sign == 0)
         {
           // Over a corner of the border.
-          if (s[i].position > 0. && s[i].position < 1. && nonmortar_vertex_node[ends[i]] == none)
+          if (s[i].position > 0. && s[i].position < 1. && nonmortar_vertex_node[ends[i]] == none &&
+              !is_hidden_at(f, s[i].position, e, i))
             for (const int direction : {1, -1})
               {
                 Walk walk{f, direction, mortar_vertex_node[direction > 0 ? q : p]};
@@ -543,6 +559,8 @@ namespace Signorini
     };
     if (!crosses || (come < Incidence::near_end && inside(direction > 0 ? p : q) >= 0) ||
         (come > 1. - Incidence::near_end && inside(direction > 0 ? q : p) <= 0))
+      return;
+    if (is_hidden_at(f, at_f, e, at_e))
       return;
     walk.position    = come;
     walk.triangle    = t;

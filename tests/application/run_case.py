@@ -539,7 +539,7 @@ def surface_map(p):
         non, mor, out, vtu = (os.path.join(folder, name) for name in ('non.off', 'mor.off', 'out.json', 'out.vtu'))
         write_square(non, 3, 0, 1, 0, True)
         write_square(mor, 4, .5, 1.5, .25, False)
-        run = call('signorini-map', non, mor, '--report', '--json', out, '--vtu', vtu)
+        run = call('signorini-map', non, mor, '--report', '--strict', '--json', out, '--vtu', vtu)
         check(run.returncode == 0, f'exit code {run.returncode}: {run.stderr}')
         check('covered          25 % of the nonmortar, 25 % of the mortar' in run.stdout, f'report: {run.stdout}')
         check('gap              from 0.25 to 0.25' in run.stdout, f'report: {run.stdout}')

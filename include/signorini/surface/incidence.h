@@ -63,6 +63,7 @@ namespace Signorini
 
     /// Whether a mortar vertex, or a point of a mortar edge, and a nonmortar triangle, or two triangles, face
     /// each other.
+    bool faces(const unsigned int nonmortar_triangle, const dealii::Tensor<1, 3> &mortar_direction) const;
     bool vertex_faces(const unsigned int mortar_vertex, const unsigned int nonmortar_triangle) const;
     bool edge_faces(const unsigned int mortar_edge, const double s,
                     const unsigned int nonmortar_triangle) const;

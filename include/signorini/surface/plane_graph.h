@@ -103,6 +103,8 @@ namespace Signorini
     void find_below_curtain(std::vector<unsigned int> &found, const BoxTree &tree, const BoxTree::Box &all,
                             const unsigned int mortar_edge) const;
     void enter_at(const unsigned int border_edge, const unsigned int mortar_edge);
+    bool is_hidden_at(const unsigned int mortar_edge, const double s, const unsigned int edge,
+                      const double t) const;
     bool runs_along(const unsigned int mortar_edge, const unsigned int edge) const;
 
     State go_to_vertex(Walk &walk, const unsigned int vertex, const double position);
@@ -118,6 +120,12 @@ namespace Signorini
     unsigned int triangle_beside(const unsigned int vertex, const MappingNode &node) const;
     SurfacePoint image_in(const unsigned int vertex, const unsigned int triangle) const;
     unsigned int search_triangle(const unsigned int vertex);
+    bool         lies_below(const unsigned int vertex, const unsigned int triangle) const;
+
+    /// Whether another layer of the nonmortar surface lies nearer to a point of the mortar surface than
+    /// `distance` along its normal: then what is there belongs to that one.
+    bool is_hidden(const dealii::Point<3> &foot, const dealii::Tensor<1, 3> &normal, const double distance,
+                   const double margin) const;
 
     Incidence             &incidence;
     const PartRegion      &region;
@@ -133,7 +141,7 @@ namespace Signorini
     /// Mortar edges that were not followed from end to end, and where they are known to cross border edges.
     std::vector<unsigned int>                       unfinished;
     std::set<std::pair<unsigned int, unsigned int>> border_crossings;
-    std::unique_ptr<BoxTree>                        mortar_tree;
+    std::unique_ptr<BoxTree>                        nonmortar_tree, mortar_tree;
   };
 } // namespace Signorini
 

@@ -139,3 +139,16 @@ TEST(Layers, FoldedSurface)
       EXPECT_LT(quality.max_gap, .07) << n;
     }
 }
+
+
+
+// Two mortar plates above one nonmortar plate both count: that is said.
+TEST(Layers, TwoMortarPlatesAreAnError)
+{
+  const SurfaceMesh upper = rectangle(3, 0., 2., 0., 2., .1, false),
+                    top   = rectangle(4, 0., 2., 0., 2., 1., false),
+                    plate = rectangle(5, 0., 2., 0., 2., 0., true);
+  const ContactMapping twice(plate, join(upper, top)), once(plate, upper);
+  EXPECT_EQ(describe_errors(once.report()), "");
+  EXPECT_NE(describe_errors(twice.report()), "");
+}
