@@ -7,6 +7,7 @@
 #include <signorini/algebra/input_error.h>
 #include <signorini/algebra/replicated_data.h>
 #include <signorini/application/contact_problem.h>
+#include <signorini/mortar/geometric_penetration.h>
 
 #include <Eigen/Dense>
 
@@ -329,12 +330,28 @@ namespace Signorini
 
 
 
+  // Weighted gaps may be far below all gaps where the surfaces bend within a face: what counts is the gap
+  // itself.
+  double ContactProblem::initial_overlap(const ContactPair &pair) const
+  {
+    const std::vector<Vector3> at_rest(pair.nonmortar.mesh.vertices.size()),
+        mortar_at_rest(pair.mortar.mesh.vertices.size());
+    const auto penetration =
+        pair.obstacle ? sample_rigid_penetration(pair.nonmortar, *pair.obstacle, at_rest, comm)
+                      : sample_geometric_penetration(pair.nonmortar, pair.mortar, pair.mapping->overlay(),
+                                                     at_rest, mortar_at_rest, pair.prescribed_gap, comm);
+    return -penetration.min_initial_gap;
+  }
+
+
+
   void ContactProblem::refuse_large_overlap(const unsigned int p, const double overlap) const
   {
     const ContactPair &pair = discretization.pairs[p];
     for (const unsigned int body : {pair.nonmortar_body, pair.mortar_body})
       if (body != numbers::invalid_unsigned_int)
-        if (const double width = width_of(body); overlap > ContactRule().overlap * width)
+        if (const double width = width_of(body);
+            overlap > ContactRule().overlap * width && initial_overlap(pair) > ContactRule().overlap * width)
           {
             std::ostringstream text;
             text << "Pair " << pair.name << ": \"" << pair.nonmortar_name << "\" and \"" << pair.mortar_name

@@ -50,7 +50,8 @@ namespace Signorini
         moment += cross_product_3d(Vector3(x), f);
       }
 
-      void sum(const MPI_Comm comm)
+      /// Over all ranks. Returns the sum of the norms of the nodal forces.
+      double sum(const MPI_Comm comm)
       {
         force   = Signorini::sum(force, comm);
         moment  = Signorini::sum(moment, comm);
@@ -60,14 +61,15 @@ namespace Signorini
         square  = Utilities::MPI::sum(square, comm);
         if (n_nodes > 0.)
           centre /= n_nodes;
+        return scale;
       }
 
-      double relative_force() const
+      double relative_force(const double scale) const
       {
         return scale > 0. ? force.norm() / scale : 0.;
       }
 
-      double relative_moment() const
+      double relative_moment(const double scale) const
       {
         // Root mean square of the distances from the centre.
         const double size =
@@ -212,13 +214,16 @@ namespace Signorini
         if (body_of_node[i] != numbers::invalid_unsigned_int)
           balance[body_of_node[i]].add_rest(d.space->position(d.partition->to_global(i)), rest);
       }
+    results.largest_nodal_force = scale;
+    double largest              = 0.;
     for (BodyBalance &b : balance)
+      largest = std::max(largest, b.sum(comm));
+    for (const BodyBalance &b : balance)
       {
-        b.sum(comm);
         results.certificate.body_force_balance =
-            std::max(results.certificate.body_force_balance, b.relative_force());
+            std::max(results.certificate.body_force_balance, b.relative_force(largest));
         results.certificate.body_moment_balance =
-            std::max(results.certificate.body_moment_balance, b.relative_moment());
+            std::max(results.certificate.body_moment_balance, b.relative_moment(largest));
       }
     results.certificate.equilibrium =
         scale > 0. ? std::sqrt(Utilities::MPI::sum(unbalanced, comm)) / scale : 0.;

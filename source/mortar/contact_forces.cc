@@ -105,9 +105,28 @@ namespace Signorini
                   weight[face.corners[a]] += m.mass[4 * a + b];
                 }
         }
+    // A vertex that only a sliver of the covered part touches has a multiplier that means nothing by itself.
+    const double        smallest_share = RecoveryRule().smallest_share;
+    std::vector<double> patch_sum(n, 0.), patch_weight(n, 0.), n_near(n, 0.);
+    for (const FaceMoments &m : moments)
+      if (m.covered > 0.)
+        {
+          const ContactSurface::Face &face = nonmortar.faces[m.face];
+          for (unsigned int a = 0; a < face.n_corners; ++a)
+            for (unsigned int b = 0; b < face.n_corners; ++b)
+              {
+                patch_sum[face.corners[a]] += sum[face.corners[b]];
+                patch_weight[face.corners[a]] += weight[face.corners[b]];
+                n_near[face.corners[a]] += 1.;
+              }
+        }
+    std::vector<double> recovered(n, 0.);
     for (std::size_t v = 0; v < n; ++v)
-      sum[v] = weight[v] > 0. ? sum[v] / weight[v] : 0.;
-    return sum;
+      if (patch_weight[v] > 0. && weight[v] * n_near[v] < smallest_share * patch_weight[v])
+        recovered[v] = patch_sum[v] / patch_weight[v];
+      else if (weight[v] > 0.)
+        recovered[v] = sum[v] / weight[v];
+    return recovered;
   }
 
 

@@ -322,6 +322,12 @@ namespace Signorini
       summary.area_covered += polygons.covered * area;
       summary.n_broken += polygons.n_broken;
       summary.n_lost_triangles += polygons.is_lost();
+      const bool is_wrong = polygons.is_lost() || polygons.n_broken > 0 ||
+                            polygons.defect() > MappingReport::torn ||
+                            std::any_of(polygons.list.begin(), polygons.list.end(),
+                                                 [](const auto &polygon) { return polygon.share < -1e-12; });
+      if (is_wrong)
+        summary.wrong_triangles.push_back(t);
       for (const auto &side : polygons.sides)
         balance[side.edge] += side.length;
       summary.worst_tiling_defect = std::max(summary.worst_tiling_defect, polygons.defect());
@@ -354,8 +360,11 @@ namespace Signorini
         {
           const auto        &beside     = nonmortar.edge_triangles[e];
           const unsigned int n_selected = !is_selected ? 2 : is_selected(beside[0]) + is_selected(beside[1]);
-          if (n_selected == 2)
-            summary.n_torn_edges += std::abs(balance[e]) > MappingReport::torn;
+          if (n_selected == 2 && std::abs(balance[e]) > MappingReport::torn)
+            {
+              ++summary.n_torn_edges;
+              summary.torn_edges.push_back(e);
+            }
           else if (n_selected == 1)
             summary.open_edges.emplace_back(e, balance[e]);
         }

@@ -7,6 +7,7 @@ signorini_add_layer(surface
   normal_projection.cc
   part_region.cc
   plane_graph.cc
+  plane_graph_borders.cc
   plane_graph_edges.cc
   smooth_surface.cc
   surface_feet.cc

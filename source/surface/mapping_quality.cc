@@ -110,9 +110,15 @@ namespace Signorini
     for (const auto &part : Utilities::MPI::all_gather(communicator, report.open_edges))
       for (const auto &[edge, length] : part)
         balance[edge] += length;
+    std::vector<unsigned int> torn_between_parts;
     for (const auto &[edge, length] : balance)
-      report.n_torn_edges += std::abs(length) > MappingReport::torn;
+      if (std::abs(length) > MappingReport::torn)
+        torn_between_parts.push_back(edge);
+    report.n_torn_edges += torn_between_parts.size();
+    report.torn_edges.insert(report.torn_edges.end(), torn_between_parts.begin(), torn_between_parts.end());
     report.open_edges.clear();
+    gather(report.torn_edges);
+    gather(report.wrong_triangles);
     gather(report.lost_edges);
     gather(report.unmapped);
     return report;

@@ -1,36 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
-#include <signorini/surface/box_tree.h>
-#include <signorini/surface/plane_graph.h>
+#include "plane_graph_walk.h"
 
 namespace Signorini
 {
   using namespace dealii;
   using On = SurfacePoint::On;
-
-  struct PlaneGraph::Walk
-  {
-    unsigned int edge;
-    /// 1 from its lower to its higher vertex, -1 the other way.
-    int direction;
-    /// The node where it ends, or none.
-    unsigned int target;
-
-    /// Where it is: at a vertex, or in a triangle that it has entered through a local edge (with the sides of
-    /// the corners at the beginning and the end of that edge).
-    unsigned int                   vertex = none, triangle = none, entry = none;
-    std::array<Incidence::Side, 2> entry_sides;
-    /// How far it has come, in its direction.
-    double position = 0.;
-
-    double forward(const double parameter) const
-    {
-      return direction > 0 ? parameter : 1. - parameter;
-    }
-  };
-
-
 
   Incidence::Side PlaneGraph::side(const unsigned int vertex, const unsigned int mortar_edge) const
   {
@@ -395,89 +371,6 @@ namespace Signorini
 
 
 
-  // What comes in over the border of the nonmortar surface from outside: both ends without an image, or in
-  // again after having left over a hole or a bay.
-  void PlaneGraph::enter_at_borders()
-  {
-    if (unfinished.empty())
-      return;
-    const SurfaceMesh        &non = incidence.nonmortar;
-    std::vector<unsigned int> border;
-    std::vector<BoxTree::Box> boxes;
-    for (unsigned int e = 0; e < nonmortar.edges.size(); ++e)
-      if (nonmortar.is_border(e))
-        {
-          BoxTree::Box box{non.vertices[nonmortar.edges[e][0]], non.vertices[nonmortar.edges[e][0]]};
-          box.include(non.vertices[nonmortar.edges[e][1]]);
-          border.push_back(e);
-          boxes.push_back(box);
-        }
-    if (border.empty())
-      return;
-    BoxTree::Box all = boxes[0];
-    for (const BoxTree::Box &box : boxes)
-      for (const Point<3> &p : {box.low, box.high})
-        all.include(p);
-    const BoxTree                                      tree(boxes);
-    std::vector<std::pair<unsigned int, unsigned int>> meetings;
-    std::vector<unsigned int>                          found;
-    for (const unsigned int f : unfinished)
-      {
-        found.clear();
-        find_below_curtain(found, tree, all, f);
-        for (const unsigned int i : found)
-          meetings.emplace_back(border[i], f);
-      }
-    std::sort(meetings.begin(), meetings.end());
-    meetings.erase(std::unique(meetings.begin(), meetings.end()), meetings.end());
-    for (const auto &[e, f] : meetings)
-      enter_at(e, f);
-  }
-
-
-
-  // The curtain of a mortar edge, the points along its normals at any distance, in pieces: each is halved as
-  // long as its box is much longer than the curtain is wide and still meets more than a few boxes.
-  void PlaneGraph::find_below_curtain(std::vector<unsigned int> &found, const BoxTree &tree,
-                                      const BoxTree::Box &all, const unsigned int f) const
-  {
-    const auto [v, w]     = mortar.edges[f];
-    const Point<3>     &p = incidence.mortar.vertices[v], &q = incidence.mortar.vertices[w];
-    const Tensor<1, 3> &n = incidence.mortar.vertex_normals[v], &m = incidence.mortar.vertex_normals[w];
-    // As far as the boxes are away, along normals that are shortest in the middle of the edge.
-    const double distance = all.low.distance(all.high) + std::max(p.distance(all.low), q.distance(all.low));
-    constexpr double       shortest = .1;
-    const double           far      = distance / std::max(shortest, .5 * (n + m).norm());
-    constexpr unsigned int few      = 4;
-
-    std::vector<std::array<double, 2>> pieces = {{{-far, far}}};
-    std::vector<unsigned int>          candidates;
-    while (!pieces.empty())
-      {
-        const auto [low, high] = pieces.back();
-        pieces.pop_back();
-        BoxTree::Box box{p + low * n, p + low * n};
-        for (const Point<3> &x : {p + high * n, q + low * m, q + high * m})
-          box.include(x);
-        tree.find_overlapping(candidates, box, few + 1);
-        if (candidates.empty())
-          continue;
-        const double width = p.distance(q) + std::max(std::abs(low), std::abs(high)) * (m - n).norm();
-        if (candidates.size() > few && high - low > 2. * width)
-          {
-            const double middle = .5 * (low + high);
-            pieces.push_back({{low, middle}});
-            pieces.push_back({{middle, high}});
-            continue;
-          }
-        if (candidates.size() > few)
-          tree.find_overlapping(candidates, box);
-        found.insert(found.end(), candidates.begin(), candidates.end());
-      }
-  }
-
-
-
   // Nearly parallel edges cross at an ill-conditioned place. Whether they do at all is known: not if the
   // mortar edge has an end on the other one, and not if it runs close beside it, with no ends on different
   // sides.
@@ -501,72 +394,5 @@ namespace Signorini
         are_close = are_close && std::abs(s.distance) < Incidence::near_end * x[ends[0]].distance(x[ends[1]]);
       }
     return are_close && product >= 0;
-  }
-
-
-
-  bool PlaneGraph::is_hidden_at(const unsigned int mortar_edge, const double s, const unsigned int edge,
-                                const double t) const
-  {
-    const auto [p, q]      = mortar.edges[mortar_edge];
-    const auto [a, b]      = nonmortar.edges[edge];
-    const SurfaceMesh &non = incidence.nonmortar, &mor = incidence.mortar;
-    const Point<3>     foot   = mor.vertices[p] + s * (mor.vertices[q] - mor.vertices[p]);
-    const Tensor<1, 3> normal = (1. - s) * mor.vertex_normals[p] + s * mor.vertex_normals[q],
-                       along = non.vertices[b] - non.vertices[a], way = non.vertices[a] + t * along - foot;
-    return is_hidden(foot, normal, std::abs(way * normal) / normal.norm_square(),
-                     Incidence::near_end * along.norm());
-  }
-
-
-
-  void PlaneGraph::enter_at(const unsigned int e, const unsigned int f)
-  {
-    const auto        &ends = nonmortar.edges[e];
-    const unsigned int p = mortar.edges[f][0], q = mortar.edges[f][1];
-    const unsigned int only = nonmortar.edge_triangles[e][0] != none ? 0 : 1;
-    const unsigned int t    = nonmortar.edge_triangles[e][only];
-    if (!incidence.vertex_faces(p, t) || !incidence.vertex_faces(q, t) || border_crossings.count({f, e}) > 0)
-      return;
-    const Incidence::Side s[2] = {side(ends[0], f), side(ends[1], f)};
-    for (unsigned int i = 0; i < 2; ++i)
-      if (s[i].sign == 0)
-        {
-          // Over a corner of the border.
-          if (s[i].position > 0. && s[i].position < 1. && nonmortar_vertex_node[ends[i]] == none &&
-              !is_hidden_at(f, s[i].position, e, i))
-            for (const int direction : {1, -1})
-              {
-                Walk walk{f, direction, mortar_vertex_node[direction > 0 ? q : p]};
-                walk.position = walk.forward(s[i].position);
-                if (walk_to_end(walk, go_to_vertex(walk, ends[i], s[i].position)) == State::lost)
-                  lost_edges.push_back(f);
-              }
-          return;
-        }
-    if (s[0].sign == s[1].sign || runs_along(f, e))
-      return;
-    // Inwards.
-    const int  direction = (only == 0 ? s[0].sign : s[1].sign) > 0 ? 1 : -1;
-    double     at_e, at_f;
-    const bool crosses = incidence.cross(at_e, at_f, e, f, s[0], s[1]);
-    Walk       walk{f, direction, mortar_vertex_node[direction > 0 ? q : p]};
-    // Right at an end of the mortar edge the side on which that end lies decides, as where its vertex was
-    // placed.
-    const double come   = walk.forward(at_f);
-    const auto   inside = [&](const unsigned int v) {
-      return (only == 0 ? 1 : -1) * incidence.of_mortar_vertex(v, e).sign;
-    };
-    if (!crosses || (come < Incidence::near_end && inside(direction > 0 ? p : q) >= 0) ||
-        (come > 1. - Incidence::near_end && inside(direction > 0 ? q : p) <= 0))
-      return;
-    if (is_hidden_at(f, at_f, e, at_e))
-      return;
-    walk.position    = come;
-    walk.triangle    = t;
-    walk.entry       = nonmortar.local_edge(t, e);
-    walk.entry_sides = {{s[only], s[1 - only]}};
-    if (walk_to_end(walk, add_crossing(walk, e, s[0], s[1])) == State::lost)
-      lost_edges.push_back(f);
   }
 } // namespace Signorini

@@ -513,7 +513,9 @@ def ring_errors(p, name, settings, sizes, oversize=0.):
 
 def check_press_fit(p, name, settings, gap, oversize=0.):
     errors = ring_errors(p, name, settings + gap, (12, 24), oversize)
-    check_orders(name, errors, {'L2': 1.9, 'energy': .95, 'pressure': 1.})
+    # With the oversize in the mesh linear elasticity itself is off by a thousandth of the displacement, which is all that is left in L2.
+    check_orders(name, errors, {**({} if oversize else {'L2': 1.9}), 'energy': .95, 'pressure': 1.})
+    check(errors[-1]['L2'] < .001, f'{name}: L2 error {errors[-1]["L2"]}')
     check(errors[-1]['force'] < .005, f'{name}: error of the force {errors[-1]["force"]}')
     check(errors[-1]['inner'] < .05, f'{name}: error of a nodal pressure away from the ends {errors[-1]["inner"]}')
 

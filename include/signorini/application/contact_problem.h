@@ -133,11 +133,12 @@ namespace Signorini
     void couple_pairs();
     /// Pairs that lose contact because of conditions or other pairs, or begin with an overlap that makes no
     /// sense (contact_checks.cc). Turns automatic choices of sides round where that helps; whether it did.
-    bool swap_sides(CycleResult &cycle);
-    void refuse_lost_contact() const;
-    void refuse_dense_coupling() const;
-    void refuse_held_overlap(const unsigned int pair) const;
-    void refuse_large_overlap(const unsigned int pair, const double overlap) const;
+    bool   swap_sides(CycleResult &cycle);
+    void   refuse_lost_contact() const;
+    void   refuse_dense_coupling() const;
+    void   refuse_held_overlap(const unsigned int pair) const;
+    double initial_overlap(const ContactPair &pair) const;
+    void   refuse_large_overlap(const unsigned int pair, const double overlap) const;
     /// The other pairs that need nodes of a pair's nonmortar side.
     std::string            rivals_of(const unsigned int pair) const;
     double                 width_of(const unsigned int body) const;
@@ -176,8 +177,12 @@ namespace Signorini
     void                finish();
     void                certify();
     void                object();
-    void measure_contact(PairResult &result, const unsigned int p, const std::vector<bool> &is_active,
-                         const ContactForces &forces) const;
+    /// In words; empty if there are none.
+    std::string errors_in_contact(const unsigned int pair) const;
+    /// E times largest displacement times width of the contact surfaces (force).
+    double force_scale() const;
+    void   measure_contact(PairResult &result, const unsigned int p, const std::vector<bool> &is_active,
+                           const ContactForces &forces) const;
     /// Of the owned nodes.
     std::vector<unsigned int> bodies_of_nodes() const;
     void                      collect_pairs();

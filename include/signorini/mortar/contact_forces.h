@@ -38,6 +38,14 @@ namespace Signorini
   ContactForces compute_contact_forces(const ContactSurface &nonmortar, const ContactSurface &mortar,
                                        const PairCoupling &pair, const std::vector<Vector3> &traction);
 
+  /// When a recovered pressure is that of a whole patch. Pure number.
+  struct RecoveryRule
+  {
+    /// Of the integral of a vertex's function, to the mean of those on its faces: at the edge of a sharp
+    /// punch a node with 5e-4 of its neighbours' area had a multiplier 200 times theirs.
+    double smallest_share = .05;
+  };
+
   /// A smoother contact pressure than the multipliers, by vertex of the nonmortar surface: the means
   /// int phi_v lambda_h / int phi_v over the covered part, with lambda_h = sum lambda_p phi_p. The total
   /// force and constants stay, what jumps from node to node goes. Vertices without a multiplier do not count;

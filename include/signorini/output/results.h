@@ -90,7 +90,9 @@ namespace Signorini
     /// Of the discretization, relative to the approach. A pressure is wrong by about this share at single
     /// nodes.
     double gap_doubt             = .1;
-    double geometric_penetration = .25;
+    double geometric_penetration = .5;
+    /// Forces that are smaller than this part of E·u·width are rounding.
+    double rounding = 1e-11;
     /// Directions that contradict each other.
     double moment_balance = .05;
   };
@@ -157,8 +159,10 @@ namespace Signorini
     std::vector<BoundaryResult> boundaries;
     std::vector<ProbeResult>    probes;
     Certificate                 certificate;
-    std::vector<PressureRow>    pressure;
-    std::vector<std::string>    notes;
+    /// Norm of the nodal forces before reactions and contact forces are taken off (force).
+    double                   largest_nodal_force = 0.;
+    std::vector<PressureRow> pressure;
+    std::vector<std::string> notes;
   };
 } // namespace Signorini
 

@@ -35,6 +35,8 @@ namespace Signorini
     /// without a polygon; and nonmortar edges along which the polygons of one triangle go farther than those
     /// of the other, where no border of the mortar surface runs along the edge.
     std::size_t n_lost_triangles = 0, n_torn_edges = 0;
+    /// Where: nonmortar triangles with an error of their own (turned or broken polygons, too), torn edges.
+    std::vector<unsigned int> wrong_triangles, torn_edges;
     /// Edges with one selected triangle, and by how much of the edge that one goes farther: until the parts
     /// are summed.
     std::vector<std::pair<unsigned int, double>> open_edges;

@@ -70,6 +70,47 @@ TEST(ContactForces, BalanceOfForcesAndMoments)
                             [&](const auto &f) { return f.node == node; }));
 }
 
+TEST(ContactForces, RecoveredPressureKeepsConstantsAndForceAndHidesNoSliver)
+{
+  Surfaces s;
+  // The mortar surface ends just beyond a line of nonmortar vertices: the next line is covered by slivers.
+  const double beyond = .5 + 1e-4;
+  for (Point<3> &x : s.mor.mesh.vertices)
+    x[0] *= beyond / .8;
+  const auto moments = compute_face_moments(s.non, s.mor, make_overlay(s.non, s.mor), {}, MPI_COMM_SELF);
+  const auto pair    = couple(s.non, s.mor, moments, {}, false, DroppingRule{1e-12, 1e12});
+  std::vector<double> pressure(pair.gaps.size(), 3.);
+  for (const double p : recover_pressure(s.non, moments, pair, pressure))
+    EXPECT_TRUE(std::abs(p - 3.) < 1e-12 || p == 0.) << p;
+  double force = 0., peak = 0.;
+  for (std::size_t row = 0; row < pressure.size(); ++row)
+    {
+      const bool is_sliver = pair.positions[row][0] > beyond;
+      pressure[row]        = is_sliver ? 500. : 2. + pair.positions[row][1];
+      force += pressure[row] * pair.areas[row];
+    }
+  const auto recovered = recover_pressure(s.non, moments, pair, pressure);
+  double     sum       = 0.;
+  for (const FaceMoments &m : moments)
+    for (unsigned int a = 0; a < 4; ++a)
+      for (unsigned int b = 0; b < 4; ++b)
+        sum += m.mass[4 * a + b] * recovered[s.non.faces[m.face].corners[a]];
+  for (const double p : recovered)
+    peak = std::max(peak, p);
+  EXPECT_LT(peak, 4.);
+  EXPECT_NEAR(sum, force, .05 * force);
+}
+
+TEST(ContactForces, StressOnTheMortarSide)
+{
+  Surfaces   s;
+  const auto moments = compute_face_moments(s.non, s.mor, make_overlay(s.non, s.mor), {}, MPI_COMM_SELF);
+  const auto pair    = couple(s.non, s.mor, moments, {}, false);
+  std::vector<Vector3> traction(pair.gaps.size(), Point<3>(.5, 0., 2.));
+  for (const Vector3 &t : mortar_stress(s.mor, pair, traction))
+    EXPECT_LT((t - Point<3>(.5, 0., 2.)).norm(), 1e-12);
+}
+
 TEST(GeometricPenetration, ConstantAndBilinearDisplacements)
 {
   const int  rank = static_cast<int>(dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD));

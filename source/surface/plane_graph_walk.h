@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_source_surface_plane_graph_walk_h
+#define signorini_source_surface_plane_graph_walk_h
+
+#include <signorini/surface/plane_graph.h>
+
+namespace Signorini
+{
+  /// The way of the image of a mortar edge over the nonmortar surface.
+  struct PlaneGraph::Walk
+  {
+    unsigned int edge;
+    /// 1 from its lower to its higher vertex, -1 the other way.
+    int direction;
+    /// The node where it ends, or none.
+    unsigned int target;
+
+    /// Where it is: at a vertex, or in a triangle that it has entered through a local edge (with the sides of
+    /// the corners at the beginning and the end of that edge).
+    unsigned int                   vertex = none, triangle = none, entry = none;
+    std::array<Incidence::Side, 2> entry_sides = {};
+    /// How far it has come, in its direction.
+    double position = 0.;
+
+    double forward(const double parameter) const
+    {
+      return direction > 0 ? parameter : 1. - parameter;
+    }
+  };
+} // namespace Signorini
+
+#endif
