@@ -21,14 +21,15 @@ namespace Signorini
       return {{1., s, t, s * s, s * t, t * t, s * s * s, s * s * t, s * t * t, t * t * t}};
     }
 
-    /// Points (i/3, j/3) of the unit triangle.
-    std::array<std::array<double, 2>, n_terms> lattice()
+    /// Points (i/3, j/3) of the unit triangle, as three corners whose mean they are.
+    std::array<std::array<unsigned int, 3>, n_terms> lattice()
     {
-      std::array<std::array<double, 2>, n_terms> points;
-      unsigned int                               n = 0;
-      for (unsigned int i = 0; i <= 3; ++i)
-        for (unsigned int j = 0; i + j <= 3; ++j)
-          points[n++] = {{i / 3., j / 3.}};
+      std::array<std::array<unsigned int, 3>, n_terms> points;
+      unsigned int                                     n = 0;
+      for (unsigned int i = 0; i < 3; ++i)
+        for (unsigned int j = i; j < 3; ++j)
+          for (unsigned int k = j; k < 3; ++k)
+            points[n++] = {{i, j, k}};
       return points;
     }
 
@@ -42,7 +43,8 @@ namespace Signorini
         const auto    points = lattice();
         for (unsigned int i = 0; i < n_terms; ++i)
           {
-            const auto m = monomials(points[i][0], points[i][1]);
+            const auto m = monomials(std::count(points[i].begin(), points[i].end(), 1u) / 3.,
+                                     std::count(points[i].begin(), points[i].end(), 2u) / 3.);
             for (unsigned int j = 0; j < n_terms; ++j)
               a(i, j) = m[j];
           }
@@ -59,8 +61,29 @@ namespace Signorini
     : shapes(std::move(shape_list))
     , shape_of_triangle(std::move(of_triangle))
     , is_used(is_used)
+    , known(shapes.size())
     , index_of_cubic(shape_of_triangle.size(), no_shape)
   {
+  }
+
+
+
+  Vector3 TrueShape::lattice_value(const SurfaceMesh &mesh, const unsigned int triangle,
+                                   LatticePoint point) const
+  {
+    std::sort(point.begin(), point.end());
+    auto                &values  = known[shape_of_triangle[triangle]];
+    const BoundaryShape &shape   = *shapes[shape_of_triangle[triangle]];
+    const auto           compute = [&]() -> Vector3 {
+      const Point<3> x((Tensor<1, 3>(mesh.vertices[point[0]]) + Tensor<1, 3>(mesh.vertices[point[1]]) +
+                        Tensor<1, 3>(mesh.vertices[point[2]])) /
+                                 3.);
+      return shape.project(x) - x;
+    };
+    if (point[0] != point[1] && point[1] != point[2])
+      return compute();
+    const auto it = values.find(point);
+    return it != values.end() ? it->second : (values[point] = compute());
   }
 
 
@@ -69,17 +92,11 @@ namespace Signorini
   {
     if (index_of_cubic[triangle] == no_shape)
       {
-        const auto          &v     = mesh.triangles[triangle];
-        const BoundaryShape &shape = *shapes[shape_of_triangle[triangle]];
-        Cubic                values, coefficients;
-        const auto           points = lattice();
+        const auto &v = mesh.triangles[triangle];
+        Cubic       values, coefficients;
+        const auto  points = lattice();
         for (unsigned int i = 0; i < n_terms; ++i)
-          {
-            const auto [s, t] = points[i];
-            const Point<3> x((1. - s - t) * mesh.vertices[v[0]] + s * mesh.vertices[v[1]] +
-                             t * mesh.vertices[v[2]]);
-            values[i] = shape.project(x) - x;
-          }
+          values[i] = lattice_value(mesh, triangle, {{v[points[i][0]], v[points[i][1]], v[points[i][2]]}});
         const LatticeMatrix &matrix = interpolation();
         for (unsigned int j = 0; j < n_terms; ++j)
           for (unsigned int i = 0; i < n_terms; ++i)

@@ -94,7 +94,7 @@ namespace Signorini
     Foot   best;
     double distance = std::numeric_limits<double>::max();
     // Boxes come nearest first or not: ask for more until the nearest point cannot improve.
-    for (unsigned int n = 16;; n *= 4)
+    for (unsigned int n = 8;; n *= 4)
       {
         tree.find_nearest(found, p, n);
         double farthest = 0.;

@@ -10,6 +10,7 @@
 
 #include <limits>
 #include <map>
+#include <unordered_map>
 #include <vector>
 
 namespace Signorini
@@ -73,6 +74,22 @@ namespace Signorini
     std::vector<BoundaryShapePointer> shapes;
     std::vector<unsigned int>         shape_of_triangle;
     bool                              is_used = false;
+    /// A point of the lattice by the three vertices, in ascending order, whose mean it is: neighbours share
+    /// it.
+    using LatticePoint = std::array<unsigned int, 3>;
+
+    struct LatticeHash
+    {
+      std::size_t operator()(const LatticePoint &p) const
+      {
+        return (std::size_t(p[0]) * 0x9e3779b97f4a7c15ULL ^ p[1]) * 0xc2b2ae3d27d4eb4fULL ^ p[2];
+      }
+    };
+
+    Vector3 lattice_value(const SurfaceMesh &mesh, const unsigned int triangle, LatticePoint point) const;
+
+    /// By shape: offsets at points of the lattice that lie on edges.
+    mutable std::vector<std::unordered_map<LatticePoint, Vector3, LatticeHash>> known;
     /// Cubics made so far; of a triangle index_of_cubic, or no_shape.
     mutable std::vector<Cubic>        cubics;
     mutable std::vector<unsigned int> index_of_cubic;
