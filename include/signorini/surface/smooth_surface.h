@@ -16,12 +16,12 @@ namespace Signorini
     /// Edges whose triangles meet at a larger angle (degrees) are creases. A circle of twelve edges has 30,
     /// chamfers have 45.
     double crease_angle = 40.;
-    /// What the quadratic surfaces at the corners of a triangle may leave over, relative to the heights of the
-    /// neighbours (root mean squares), for the triangle to count as a piece of a smooth surface; and the
-    /// disagreement of the estimates of a height, relative to the height that the largest curvature there gives.
-    /// Both are nothing on spheres and cylinders. With these limits all triangles of spheres and cylinders of six
-    /// cells across pass, and less than a quarter where noise is as large as the heights of facets
-    /// (tests/unit/surface/smooth_surface.cc); on the bones of a knee the residual is 0.11 (median).
+    /// What the quadratic surfaces at the corners of a triangle may leave over, relative to the heights of
+    /// the neighbours (root mean squares), for the triangle to count as a piece of a smooth surface; and the
+    /// disagreement of the estimates of a height, relative to the height that the largest curvature there
+    /// gives. Both are nothing on spheres and cylinders. With these limits all triangles of spheres and
+    /// cylinders of six cells across pass, and less than a quarter where noise is as large as the heights of
+    /// facets (tests/unit/surface/smooth_surface.cc); on the bones of a knee the residual is 0.11 (median).
     double largest_residual     = .1;
     double largest_disagreement = .35;
     /// Triangles that lie in one plane up to this share of their size are flat: noise of files with eight
