@@ -22,6 +22,24 @@ namespace Signorini
       text << std::setprecision(3) << x;
       return text.str();
     }
+
+    double largest_modulus(const std::vector<BodyParameters> &bodies)
+    {
+      double young = 0.;
+      for (const BodyParameters &body : bodies)
+        young = std::max(young, body.young);
+      return young;
+    }
+
+    /// Of the surfaces with contact nodes.
+    double largest_width(const std::vector<PairCoupling> &couplings)
+    {
+      double size = 0.;
+      for (const PairCoupling &coupling : couplings)
+        for (const Point<3> &x : coupling.positions)
+          size = std::max(size, x.distance(coupling.positions[0]));
+      return size;
+    }
   } // namespace
 
 
@@ -69,12 +87,7 @@ namespace Signorini
         product     = std::max(product, std::abs(d.pressure[row] * d.opening[row]));
       }
     // Where nothing touches: the stress of such displacements over such a length.
-    double young = 0., size = 0.;
-    for (const BodyParameters &body : parameters.bodies)
-      young = std::max(young, body.young);
-    for (const PairCoupling &coupling : d.couplings)
-      for (const Point<3> &x : coupling.positions)
-        size = std::max(size, x.distance(coupling.positions[0]));
+    const double young = largest_modulus(parameters.bodies), size = largest_width(d.couplings);
     const double scale = largest > 0. ? largest : size > 0. ? young * u / size : 0.;
     c.penetration      = u > 0. ? penetration / u : 0.;
     c.tension          = scale > 0. ? tension / scale : 0.;
@@ -109,14 +122,8 @@ namespace Signorini
 
   double ContactProblem::force_scale() const
   {
-    const double u     = discretization.displacement.linfty_norm();
-    double       young = 0., size = 0.;
-    for (const BodyParameters &body : parameters.bodies)
-      young = std::max(young, body.young);
-    for (const PairCoupling &coupling : discretization.couplings)
-      for (const Point<3> &x : coupling.positions)
-        size = std::max(size, x.distance(coupling.positions[0]));
-    return young * u * size;
+    return largest_modulus(parameters.bodies) * discretization.displacement.linfty_norm() *
+           largest_width(discretization.couplings);
   }
 
 

@@ -45,10 +45,10 @@ namespace Signorini
     /// Largest row sum of |S|.
     double largest_row_sum = 5.;
     /// Least length |m| of the part of the normal in free directions (blocks under pressure, the border of
-    /// one fixed in x only, normal at acos |m| to x: with |m| = .34, .26, .17, .10 accelerated takes 10, 11,
-    /// 17, 41 iterations, truncated Newton 10, 17, 76, 310, without these nodes 11 and 11; the forces differ
-    /// by less than a tenth of their errors). Where a covered face would have no multiplier left its best
-    /// node keeps it down to RowProjection::smallest_share.
+    /// one fixed in x only, normal at acos |m| to x: with |m| = .42, .31, .26, .17, .10 accelerated takes
+    /// 10, 12, 12, 17, 42 iterations, truncated Newton 10, 14, 18, 76, 310, without these nodes 11 and 14;
+    /// the forces differ by about a tenth of their errors, 16 % at most). Where a covered face would have no
+    /// multiplier left its best node keeps it down to RowProjection::smallest_share.
     double smallest_free_normal = .25;
   };
 
