@@ -178,8 +178,9 @@ namespace Signorini
         equilibrium > std::max(rule.equilibrium, asked))
       object("the solver left " + text_of(std::max({c.penetration, c.tension, equilibrium})) +
              " of penetration, tension or forces; try a smaller Solver/Tolerance");
-    if (has_forces && std::max({c.force_balance, c.body_force_balance, c.body_moment_balance}) >
-                          std::max(rule.balance, asked))
+    if (results.converged && has_forces &&
+        std::max({c.force_balance, c.body_force_balance, c.body_moment_balance}) >
+            std::max(rule.balance, asked))
       object("forces or moments on a body do not balance; please report this");
     for (unsigned int p = 0; p < results.pairs.size(); ++p)
       {
