@@ -1,0 +1,17 @@
+# Signorini::dealii: what the headers and archives need of deal.II, in the flavour (DEBUG or RELEASE) that the
+# library is built with; mixing flavours in one program breaks it. Used by the build and by the installed package.
+function(signorini_add_dealii_target flavour)
+  if(TARGET Signorini::dealii)
+    return()
+  endif()
+  if(NOT TARGET ${DEAL_II_TARGET_${flavour}})
+    # Up to deal.II 9.4 its own targets are read by deal_ii_setup_target() only.
+    include(${DEAL_II_TARGET_CONFIG})
+    set(DEAL_II_TARGET_CONFIG_INCLUDED TRUE PARENT_SCOPE)
+  endif()
+  add_library(Signorini::dealii INTERFACE IMPORTED GLOBAL)
+  target_include_directories(Signorini::dealii SYSTEM INTERFACE ${DEAL_II_INCLUDE_DIRS})
+  target_compile_definitions(Signorini::dealii INTERFACE ${DEAL_II_USER_DEFINITIONS}
+                                                         ${DEAL_II_USER_DEFINITIONS_${flavour}})
+  target_link_libraries(Signorini::dealii INTERFACE ${DEAL_II_TARGET_${flavour}})
+endfunction()
