@@ -13,7 +13,8 @@ install(TARGETS signorini_program signorini_map_program RUNTIME DESTINATION ${CM
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/signorini DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
         FILES_MATCHING PATTERN "*.h")
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/prm DESTINATION ${data_folder} PATTERN "output*" EXCLUDE)
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/doc/tutorial DESTINATION ${data_folder} PATTERN "build*" EXCLUDE)
+file(GLOB tutorials CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/doc/tutorial/step-*)
+install(DIRECTORY ${tutorials} DESTINATION ${data_folder}/tutorial PATTERN "build*" EXCLUDE)
 install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/CHANGELOG.md
         DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
