@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include "gmsh_session.h"
+
 #include <signorini/algebra/input_error.h>
 #include <signorini/mesh/abaqus_input.h>
 #include <signorini/mesh/gmsh_file.h>
-#include <signorini/mesh/gmsh_session.h>
 #include <signorini/mesh/mesh_input.h>
 
 #include <deal.II/base/mpi.h>

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include "gmsh_session.h"
+
 #include <signorini/algebra/input_error.h>
-#include <signorini/mesh/gmsh_session.h>
 #include <signorini/mesh/surface_file.h>
 
 #include <CGAL/IO/polygon_soup_io.h>

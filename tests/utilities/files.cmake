@@ -1,0 +1,4 @@
+# The checks of contrib/utilities, and that they see what they should.
+add_test(NAME utilities/check_layers COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/contrib/utilities/check_layers.py)
+add_test(NAME utilities/check_layers.planted
+         COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/utilities/check_layers_cases.py)
