@@ -2,3 +2,6 @@
 add_test(NAME utilities/check_layers COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/contrib/utilities/check_layers.py)
 add_test(NAME utilities/check_layers.planted
          COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/utilities/check_layers_cases.py)
+add_test(NAME utilities/headers_alone
+         COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/utilities/headers_alone.py ${PROJECT_BINARY_DIR})
+set_tests_properties(utilities/headers_alone PROPERTIES PROCESSORS 2)
