@@ -5,3 +5,7 @@ add_test(NAME utilities/check_layers.planted
 add_test(NAME utilities/headers_alone
          COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/utilities/headers_alone.py ${PROJECT_BINARY_DIR})
 set_tests_properties(utilities/headers_alone PROPERTIES PROCESSORS 2)
+if(DOXYGEN_FOUND)
+  add_test(NAME utilities/doxygen COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/utilities/doxygen_log.py
+                                          $<TARGET_FILE:Doxygen::doxygen> ${PROJECT_BINARY_DIR}/doc/Doxyfile)
+endif()

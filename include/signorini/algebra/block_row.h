@@ -25,8 +25,10 @@ namespace Signorini
   /// Positions of consecutive blocks.
   struct BlockRange
   {
+    /// The blocks from begin to end - 1, as numbers of the arrays of a matrix.
     std::size_t begin = 0, end = 0;
 
+    /// Number of blocks.
     std::size_t size() const
     {
       return end - begin;

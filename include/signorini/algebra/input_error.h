@@ -14,6 +14,7 @@ namespace Signorini
   class InputError : public std::runtime_error
   {
   public:
+    /// @param message what is wrong, where, and what to do, in full sentences
     explicit InputError(const std::string &message)
       : std::runtime_error(message)
     {

@@ -20,8 +20,10 @@ namespace Signorini
   /// all ranks (its size is that of a surface) and ordered the same way on all of them.
   struct InterfaceCoupling
   {
+    /// A node of the other side, or in R, with its weight (pure number).
     struct Entry
     {
+      /// The node, and its weight (pure number).
       NodeIndex node;
       double    weight;
     };
@@ -30,10 +32,12 @@ namespace Signorini
     std::vector<NodeIndex> rows;
     /// CSR: entries of row i are entries[row_start[i]] ... entries[row_start[i+1]-1], sorted by node.
     std::vector<std::size_t> row_start = {0};
-    std::vector<Entry>       entries;
+    /// The entries of all rows, one row after the other.
+    std::vector<Entry> entries;
     /// D_kk: integral of the dual basis function (area).
     std::vector<double> weight;
 
+    /// Number of rows: nodes with a multiplier.
     std::size_t n_rows() const
     {
       return rows.size();
@@ -46,11 +50,13 @@ namespace Signorini
       return it != rows.end() && *it == node ? it - rows.begin() : -1;
     }
 
+    /// First entry of a row.
     const Entry *begin(const std::size_t row) const
     {
       return entries.data() + row_start[row];
     }
 
+    /// The entry behind the last one of a row.
     const Entry *end(const std::size_t row) const
     {
       return entries.data() + row_start[row + 1];

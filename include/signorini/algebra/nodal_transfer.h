@@ -35,6 +35,7 @@ namespace Signorini
     /// two for each of them.
     struct BlockRow
     {
+      /// Number of the row: a local node of the fine partition.
       unsigned int           row;
       std::vector<NodeIndex> columns;
       std::vector<Block>     blocks;
@@ -55,6 +56,7 @@ namespace Signorini
     /// Gives the columns local numbers of a partition that knows all of them.
     void localize(std::shared_ptr<const NodePartition> coarse);
 
+    /// The nodes of the coarse level.
     const NodePartition &coarse_partition() const
     {
       return *coarse;
@@ -66,31 +68,37 @@ namespace Signorini
     /// coarse += P^T fine, owned rows of all ranks.
     void restrict_and_add(Vector &coarse, const Vector &fine) const;
 
+    /// Rows of owned nodes, which come first.
     unsigned int n_owned_rows() const
     {
       return n_owned;
     }
 
+    /// Rows of all local nodes of the fine partition.
     unsigned int n_rows() const
     {
       return static_cast<unsigned int>(row_start.size()) - 1;
     }
 
+    /// First entry of a row.
     std::size_t row_begin(const unsigned int row) const
     {
       return row_start[row];
     }
 
+    /// The entry behind the last one of a row.
     std::size_t row_end(const unsigned int row) const
     {
       return row_start[row + 1];
     }
 
+    /// Local node of the coarse partition to which entry k belongs.
     unsigned int column(const std::size_t k) const
     {
       return columns[k];
     }
 
+    /// Scalar weight of entry k (pure number).
     double weight(const std::size_t k) const
     {
       return weights[k];
@@ -102,11 +110,13 @@ namespace Signorini
       return row_start.data();
     }
 
+    /// column() of all entries, as an array for kernels.
     const unsigned int *column_data() const
     {
       return columns.data();
     }
 
+    /// weight() of all entries.
     const double *weight_data() const
     {
       return weights.data();

@@ -18,7 +18,8 @@ namespace Signorini
   {
     /// Owned rows first (in order), then the foreign rows.
     std::vector<std::size_t> row_start = {0};
-    std::vector<NodeIndex>   columns;
+    /// Node numbers of the columns, row by row.
+    std::vector<NodeIndex> columns;
     /// Global numbers of the foreign rows (owned by other ranks), sorted.
     std::vector<NodeIndex> foreign_rows;
   };
@@ -39,11 +40,13 @@ namespace Signorini
     void reinit(const dealii::IndexSet &owned, const NodePattern &pattern,
                 const dealii::IndexSet &extra_ghosts, const MPI_Comm communicator);
 
+    /// The nodes of rows and columns.
     const NodePartition &partition() const
     {
       return *nodes;
     }
 
+    /// The same, to be kept.
     std::shared_ptr<const NodePartition> shared_partition() const
     {
       return nodes;
@@ -61,6 +64,7 @@ namespace Signorini
       return columns.size();
     }
 
+    /// Number of blocks in owned rows.
     std::size_t n_owned_blocks() const
     {
       return upper_start[n_rows()];
@@ -78,6 +82,7 @@ namespace Signorini
       return {lower_start[row], lower_start[row + 1]};
     }
 
+    /// Blocks of a row behind the diagonal one.
     BlockRange upper(const unsigned int row) const
     {
       return {upper_start[row], upper_start[row + 1]};
@@ -108,11 +113,13 @@ namespace Signorini
       return n;
     }
 
+    /// Local node of the column of block k.
     unsigned int column(const std::size_t k) const
     {
       return columns[k];
     }
 
+    /// column() of all blocks, as an array for kernels.
     const unsigned int *column_data() const
     {
       return columns.data();
@@ -136,6 +143,7 @@ namespace Signorini
       return values.data() + 9 * k;
     }
 
+    /// The nine numbers of block k.
     const double *block(const std::size_t k) const
     {
       return values.data() + 9 * k;
@@ -206,6 +214,7 @@ namespace Signorini
     /// Collective. residual = rhs - A src on owned rows, in the same way.
     void symmetric_residual(Vector &residual, const Vector &src, const Vector &rhs) const;
 
+    /// Bytes of this rank's part.
     std::size_t memory_consumption() const;
 
   private:

@@ -24,6 +24,7 @@ namespace Signorini
     /// Collective. ghosts may contain owned nodes; they are ignored.
     NodePartition(const dealii::IndexSet &owned, const dealii::IndexSet &ghosts, const MPI_Comm communicator);
 
+    /// Number of nodes that this rank owns.
     unsigned int n_owned() const
     {
       return owned_size;
@@ -35,16 +36,19 @@ namespace Signorini
       return owned_size + static_cast<unsigned int>(ghost_list.size());
     }
 
+    /// Number of nodes of all ranks.
     NodeIndex n_global() const
     {
       return rank_begin.back();
     }
 
+    /// The owned nodes are first_owned() ... first_owned() + n_owned() - 1.
     NodeIndex first_owned() const
     {
       return begin;
     }
 
+    /// Whether this rank owns a node.
     bool owns(const NodeIndex node) const
     {
       return node >= begin && node < begin + owned_size;
@@ -53,6 +57,7 @@ namespace Signorini
     /// Local number of a global node, or dealii::numbers::invalid_unsigned_int if it is not here.
     unsigned int to_local(const NodeIndex node) const;
 
+    /// The global number of a local node, owned or ghost.
     NodeIndex to_global(const unsigned int local) const
     {
       return local < owned_size ? begin + local : ghost_list[local - owned_size];
@@ -67,11 +72,13 @@ namespace Signorini
     /// The rank that owns a node.
     unsigned int owner(const NodeIndex node) const;
 
+    /// The ranks that share the nodes.
     MPI_Comm communicator() const
     {
       return comm;
     }
 
+    /// Number of ranks of the communicator.
     unsigned int n_ranks() const
     {
       return static_cast<unsigned int>(rank_begin.size()) - 1;

@@ -13,21 +13,25 @@ namespace Signorini
   /// Sparse rows with global columns and scalar weights (a weight w stands for w times the identity).
   struct NodeRows
   {
+    /// Row i has the entries start[i] ... start[i + 1] - 1 of columns and weights (pure numbers).
     std::vector<std::size_t> start = {0};
     std::vector<NodeIndex>   columns;
     std::vector<double>      weights;
 
+    /// Number of finished rows.
     std::size_t n_rows() const
     {
       return start.size() - 1;
     }
 
+    /// Appends an entry to the row that is being written.
     void add(const NodeIndex column, const double weight)
     {
       columns.push_back(column);
       weights.push_back(weight);
     }
 
+    /// Ends the row that is being written.
     void finish_row()
     {
       start.push_back(columns.size());

@@ -15,6 +15,7 @@ namespace Signorini
   class RoundedVector
   {
   public:
+    /// Zero at n_nodes local nodes.
     explicit RoundedVector(const unsigned int n_nodes)
       : values(4 * (static_cast<std::size_t>(n_nodes) + 2))
     {
@@ -27,6 +28,7 @@ namespace Signorini
       return values.data() + 4 * (static_cast<std::size_t>(i) + 1);
     }
 
+    /// The three numbers of local node i.
     const float *node(const unsigned int i) const
     {
       return values.data() + 4 * (static_cast<std::size_t>(i) + 1);
@@ -63,8 +65,10 @@ namespace Signorini
     /// backward and passes all on.
     void start(const Vector &v, const Vector &rhs);
 
+    /// What a sweep does.
     struct Options
     {
+      /// From the last node to the first.
       bool backward = false;
       /// Whether all of the new values is passed on, not their change: in the first sweep if v was not zero.
       bool passes_all = false;

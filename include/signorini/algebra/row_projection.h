@@ -64,11 +64,13 @@ namespace Signorini
       return result;
     }
 
+    /// Whether no component is prescribed: the projection is the identity then.
     bool is_identity() const
     {
       return mask == 0;
     }
 
+    /// The prescribed components.
     FixedMask fixed() const
     {
       return mask;

@@ -21,6 +21,7 @@ namespace Signorini
   /// What acts on a body, as a user writes it, in the subsection of the body.
   struct LoadParameters
   {
+    /// Lists as the parameter file has them, one condition after the other.
     std::string dirichlet, tractions, pressures, volume_force;
 
     /// Declares the parameters in the current subsection.
@@ -30,6 +31,7 @@ namespace Signorini
   /// Prescribed displacement on a boundary; components without a value are free.
   struct DirichletCondition
   {
+    /// Which boundary of which body; values by component, where prescribed (length).
     unsigned int                             body;
     std::string                              boundary;
     std::set<dealii::types::boundary_id>     ids;
@@ -39,6 +41,7 @@ namespace Signorini
   /// Force per area on a boundary: a vector, or a pressure against the outward normal.
   struct Traction
   {
+    /// Where; and whether it is a pressure.
     std::set<dealii::types::boundary_id> ids;
     bool                                 is_pressure;
     /// Three components, or the pressure in the first one.
@@ -51,6 +54,7 @@ namespace Signorini
   /// All conditions and loads of all bodies.
   struct Loads
   {
+    /// The conditions, in the order of the parameter file.
     std::vector<DirichletCondition> dirichlet;
     std::vector<Traction>           tractions;
     /// Force per volume of each body; an entry for all of them is needed, so add() every body.

@@ -28,6 +28,7 @@ namespace Signorini
   /// A half-space for each row of a coupling, on all ranks; no half-space where the normal is zero.
   struct RowHalfSpaces
   {
+    /// By row of the coarse problem: unit normals, and how far the node may move along them (length).
     std::vector<Vector3> normals;
     std::vector<double>  bounds;
   };

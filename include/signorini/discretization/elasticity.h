@@ -20,6 +20,7 @@ namespace Signorini
   /// b̂ = Tᵀ (b - A u_D), where u_D is the Dirichlet lift that is zero at free components.
   struct LinearSystem
   {
+    /// Â and b̂ on a partition of the nodes.
     NodeBlockMatrix matrix;
     Vector          rhs;
     /// Fixed components of all local nodes of the matrix; hanging nodes are fixed altogether.

@@ -15,21 +15,26 @@ namespace Signorini
   class Element
   {
   public:
+    /// Values of the functions of the vertices at a point; zero beyond n_vertices().
     using Shape = std::array<double, CellShape::max_vertices>;
 
     Element() = default;
+    /// A copy of the corners of a cell of the space.
     Element(const NodalSpace &space, const NodalSpace::Cell &cell);
 
+    /// 4 or 8.
     unsigned int n_vertices() const
     {
       return n;
     }
 
+    /// Position of a vertex (length).
     const dealii::Point<3> &corner(const unsigned int v) const
     {
       return corners[v];
     }
 
+    /// Mean of the corners.
     dealii::Point<3> centre() const;
 
     /// Stiffness of isotropic linear elasticity: blocks[n_vertices * a + b], nine numbers each, row by row
@@ -46,8 +51,10 @@ namespace Signorini
     /// Jacobian determinant times weight, and the point in space.
     std::pair<double, dealii::Point<3>> volume_element(const unsigned int point) const;
 
+    /// Values of the shape functions at a point of the rule.
     Shape shape_at_point(const unsigned int point) const;
 
+    /// Values of the shape functions at reference coordinates.
     Shape shape_values(const dealii::Point<3> &reference) const;
 
     /// Gradients of the shape functions in space. False if the Jacobian is not positive there.
@@ -60,11 +67,13 @@ namespace Signorini
     /// How far reference coordinates lie outside of the cell; 0 inside.
     double outside(const dealii::Point<3> &reference) const;
 
+    /// Of the cell (length^3).
     double volume() const;
 
     /// Length of the longest edge or diagonal.
     double diameter() const;
 
+    /// Reference coordinates of a point of the rule.
     dealii::Point<3> reference_point(const unsigned int point) const;
 
   private:
@@ -87,11 +96,13 @@ namespace Signorini
     /// Jacobian is not positive.
     Block gradient(const dealii::Point<3> &reference) const;
 
+    /// Stress (force per area) at reference coordinates.
     Block stress(const dealii::Point<3> &reference) const
     {
       return Signorini::stress(gradient(reference), material);
     }
 
+    /// What it was made from.
     const Element                                      element;
     const Material                                    &material;
     const std::array<Vector3, CellShape::max_vertices> u;
@@ -108,10 +119,13 @@ namespace Signorini
   class ElementFace
   {
   public:
+    /// @param face as in CellShape::face
     ElementFace(const Element &cell, const unsigned int face);
 
+    /// What an integrand needs at a point.
     struct PointData
     {
+      /// In space (length).
       dealii::Point<3> position;
       /// Outward normal times area times weight.
       Vector3 area;
@@ -119,6 +133,7 @@ namespace Signorini
       std::array<double, 4> shape;
     };
 
+    /// 3 or 4.
     unsigned int n_corners() const
     {
       return static_cast<unsigned int>(vertices.size());
@@ -130,11 +145,13 @@ namespace Signorini
       return vertices[corner];
     }
 
+    /// Number of points of the rule.
     unsigned int n_points() const
     {
       return n_corners();
     }
 
+    /// A point of the rule, 0 ... n_points() - 1.
     PointData point(const unsigned int q) const;
 
     /// Length of the longest edge.

@@ -15,6 +15,7 @@ namespace Signorini
   /// Kernels of the trilinear hexahedron (deal.II's vertex order) with 2x2x2 Gauss points.
   namespace Hexahedron
   {
+    /// Corners in deal.II's (lexicographic) order.
     using Corners = std::array<dealii::Point<3>, 8>;
 
     /// Stiffness of isotropic linear elasticity: blocks[8 * a + b] is the 3x3 block of corners a and b,

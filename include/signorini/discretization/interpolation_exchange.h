@@ -17,11 +17,13 @@ namespace Signorini
   /// and weights it depends on (hanging vertices resolved).
   struct CellInterpolation
   {
+    /// Vertex v depends on nodes[start[v]] ... nodes[start[v + 1] - 1], with these weights.
     std::array<unsigned int, 9> start;
     std::vector<NodeIndex>      nodes;
     std::vector<double>         weights;
 
     template <class Archive>
+    /// For messages between ranks.
     void serialize(Archive &archive, const unsigned int)
     {
       for (unsigned int &s : start)
@@ -45,22 +47,27 @@ namespace Signorini
     /// A cell's name: coarse cell and path of children, with a leading 1.
     struct Key
     {
+      /// As NodalSpace::Cell has it.
       std::uint64_t coarse_cell, path;
 
+      /// Whether it is the same cell.
       bool operator==(const Key &other) const
       {
         return coarse_cell == other.coarse_cell && path == other.path;
       }
 
       template <class Archive>
+      /// For messages between ranks.
       void serialize(Archive &archive, const unsigned int)
       {
         archive &coarse_cell &path;
       }
     };
 
+    /// Spreads names over tables and ranks.
     struct Hash
     {
+      /// The same number on all ranks.
       std::size_t operator()(const Key &key) const
       {
         // Multiplicative mixing (constants of splitmix64).

@@ -16,6 +16,7 @@ namespace Signorini
   /// translation + rotation x (x - centre) / length.
   struct FreeMotion
   {
+    /// Number of the body; middle and half diagonal of its part (lengths); the motion.
     unsigned int     body;
     dealii::Point<3> centre;
     double           length;
@@ -23,6 +24,7 @@ namespace Signorini
     /// Of Bodies::part().
     unsigned int part = 0;
 
+    /// The displacement at a point, of the size of the translation.
     Vector3 operator()(const dealii::Point<3> &x) const
     {
       return translation + cross_product_3d(rotation, (x - centre) / length);

@@ -15,6 +15,7 @@ namespace Signorini
   /// What is known at the contact of two neighbouring levels, the same on all ranks.
   struct ContactOfLevels
   {
+    /// The coupling of the finer level.
     const InterfaceCoupling &fine;
     /// One per row of the coupling.
     const std::vector<RowProjection> &fine_projections;

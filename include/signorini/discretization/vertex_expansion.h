@@ -15,8 +15,10 @@ namespace Signorini
   class VertexExpansion
   {
   public:
+    /// One term of u at a vertex: W û, with a block W.
     struct Term
     {
+      /// Whose unknown û, and a scalar (pure number).
       NodeIndex node;
       double    weight;
       /// A_p of the nonmortar node it comes from; null for the identity.
@@ -42,6 +44,7 @@ namespace Signorini
       return !special[space.relevant().index_within_set(node)];
     }
 
+    /// The terms of the displacement of a relevant node; replaces what is in the list.
     void expand(const NodeIndex node, std::vector<Term> &terms) const;
 
   private:

@@ -29,6 +29,8 @@ namespace Signorini
   /// Shape, place and material of a body, as a user writes them.
   struct BodyParameters
   {
+    /// As the parameters of the same names say (add_parameters()): lengths in the unit of the problem,
+    /// Young's modulus as force per area, angles in degrees.
     std::string name;
     std::string mesh   = "block";
     double      radius = 1., inner_radius = .5, height = 1.;
@@ -49,6 +51,7 @@ namespace Signorini
   /// Isotropic linear elastic material of a part of a body.
   struct Material
   {
+    /// Number of the body.
     unsigned int body;
     /// Young's modulus (force per area) and Poisson's ratio.
     double young, poisson;
@@ -61,6 +64,7 @@ namespace Signorini
   /// A connected part of a body: most bodies have one.
   struct BodyPart
   {
+    /// Number of the body.
     unsigned int body;
     /// Of its box, on the start mesh.
     dealii::Point<3> centre;
@@ -79,6 +83,7 @@ namespace Signorini
     Bodies(const MPI_Comm communicator, const std::vector<BodyParameters> &parameters,
            const std::string &base_folder);
 
+    /// The ranks among which the meshes are distributed.
     MPI_Comm communicator() const
     {
       return comm;
@@ -94,6 +99,7 @@ namespace Signorini
       return *tria;
     }
 
+    /// The same, to look at.
     const dealii::parallel::distributed::Triangulation<3> &triangulation() const
     {
       AssertThrow(tria, dealii::ExcMessage("There are no hexahedra."));
@@ -110,11 +116,13 @@ namespace Signorini
     /// and others as the two kinds of meshes need it. False if nothing is marked on any rank.
     bool refine(const NodalSpace &space, const std::vector<bool> &marked);
 
+    /// Number of bodies.
     unsigned int n_bodies() const
     {
       return static_cast<unsigned int>(names.size());
     }
 
+    /// The name that the user gave to a body.
     const std::string &body_name(const unsigned int body) const
     {
       return names[body];
@@ -123,6 +131,7 @@ namespace Signorini
     /// Errors: InputError listing the bodies; `where` names the parameter.
     unsigned int body_index(const std::string &name, const std::string &where) const;
 
+    /// The material of cells with an id.
     const Material &material(const dealii::types::material_id id) const
     {
       return materials[id];
@@ -135,6 +144,7 @@ namespace Signorini
                            [body](const Material &m) { return m.body == body; });
     }
 
+    /// The body that cells with an id belong to.
     unsigned int body_of_material(const dealii::types::material_id id) const
     {
       return materials[id].body;
@@ -146,11 +156,13 @@ namespace Signorini
       return static_cast<unsigned int>(parts.size());
     }
 
+    /// The i-th connected part.
     const BodyPart &part(const unsigned int i) const
     {
       return parts[i];
     }
 
+    /// The part that cells with an id belong to.
     unsigned int part_of_material(const dealii::types::material_id id) const
     {
       return materials[id].part;
@@ -162,6 +174,7 @@ namespace Signorini
     /// "body NAME, boundary NAME".
     std::string boundary_name(const dealii::types::boundary_id id) const;
 
+    /// Names of the boundaries of a body.
     const std::vector<std::string> &boundary_names(const unsigned int body) const
     {
       return boundaries[body];

@@ -47,9 +47,11 @@ namespace Signorini
   /// How a body was put into its place: rotation, then translation.
   struct Placement
   {
+    /// Turns first, then moves (length).
     dealii::Tensor<2, 3> rotation = dealii::unit_symmetric_tensor<3>();
     dealii::Tensor<1, 3> translation;
 
+    /// The image of a point.
     dealii::Point<3> operator()(const dealii::Point<3> &p) const
     {
       return dealii::Point<3>(rotation * p + translation);
@@ -77,16 +79,19 @@ namespace Signorini
   class ShapeManifold : public dealii::Manifold<3>
   {
   public:
+    /// Points lie on all of the shapes.
     explicit ShapeManifold(const std::vector<BoundaryShapePointer> &shapes)
       : shapes(shapes)
     {
     }
 
+    /// deal.II's copy.
     std::unique_ptr<dealii::Manifold<3>> clone() const override
     {
       return std::make_unique<ShapeManifold>(shapes);
     }
 
+    /// The weighted mean of the points around, moved to the shapes.
     dealii::Point<3> get_new_point(const dealii::ArrayView<const dealii::Point<3>> &surrounding,
                                    const dealii::ArrayView<const double>           &weights) const override;
 

@@ -12,8 +12,10 @@ namespace Signorini
   /// deal.II's lexicographic order).
   namespace CellShape
   {
+    /// Numbers of vertices: of the two kinds of cells, and the largest of a cell and of a face.
     constexpr unsigned int tetrahedron = 4, hexahedron = 8, max_vertices = 8, max_face_vertices = 4;
 
+    /// Number of faces of a cell with so many vertices.
     inline unsigned int n_faces(const unsigned int n_vertices)
     {
       return n_vertices == tetrahedron ? 4 : 6;

@@ -27,6 +27,7 @@ namespace Signorini
   class CoarseningSequence
   {
   public:
+    /// The p4est forest of all hexahedra.
     using DistributedMesh = dealii::parallel::distributed::Triangulation<3>;
 
     /// Collective.

@@ -39,6 +39,7 @@ namespace Signorini
     /// the plane (project_onto_symmetry_planes()).
     SurfaceMesh mesh;
 
+    /// In an order that does not depend on the ranks.
     std::vector<Face> faces;
     /// The face of each triangle of mesh.
     std::vector<unsigned int> triangle_face;

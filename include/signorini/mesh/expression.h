@@ -28,11 +28,13 @@ namespace Signorini
     /// Errors: InputError where the value is not finite (not collective: one rank alone may throw).
     double operator()(const dealii::Point<3> &p) const;
 
+    /// Whether it is the constant 0.
     bool is_zero() const
     {
       return !parser && constant == 0.;
     }
 
+    /// As it was written.
     const std::string &text() const
     {
       return source;

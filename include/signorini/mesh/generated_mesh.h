@@ -22,20 +22,24 @@ namespace Signorini
     {
       sphere,
       cylinder
-    } shape;
+    } shape; ///< Which of them.
   };
 
   /// What a generator needs to know. Lengths in the units of the problem.
   struct GeneratedMeshParameters
   {
+    /// One of generated_mesh_kinds(), and what that kind needs: radii and height of round ones, corners and
+    /// numbers of cells of a block.
     std::string                 kind;
     double                      radius = 1., inner_radius = .5, height = 1.;
     dealii::Point<3>            lower_corner, upper_corner = dealii::Point<3>(1., 1., 1.);
     std::array<unsigned int, 3> divisions = {{1, 1, 1}};
   };
 
+  /// A mesh with the boundaries that are curved.
   struct GeneratedMesh
   {
+    /// As generate_mesh() describes it.
     VolumeMesh                  mesh;
     std::vector<CurvedBoundary> curved;
   };

@@ -21,6 +21,7 @@ namespace Signorini
   /// One mesh of the hierarchy: hexahedra, tetrahedra or both. What is missing is null.
   struct MeshView
   {
+    /// The meshes; they must outlive the view.
     const dealii::parallel::distributed::Triangulation<3> *hexahedra  = nullptr;
     const TetrahedralForest                               *tetrahedra = nullptr;
     /// Which mesh of the forest.
@@ -37,6 +38,7 @@ namespace Signorini
   class NodalSpace
   {
   public:
+    /// An owned or a ghost cell.
     struct Cell
     {
       /// A name that does not depend on the number of ranks: coarse cell and path of children with a leading
@@ -53,6 +55,7 @@ namespace Signorini
     /// A face of an owned or ghost cell on the boundary.
     struct BoundaryFace
     {
+      /// Index of the cell in cells(), number of the face in it, and the boundary.
       unsigned int               cell;
       unsigned char              face;
       dealii::types::boundary_id id;
@@ -65,6 +68,7 @@ namespace Signorini
     /// smaller cell.
     struct InnerFace
     {
+      /// Indices of the two cells in cells(), and number of the face in the first.
       unsigned int  cell, other;
       unsigned char face;
     };
@@ -72,6 +76,7 @@ namespace Signorini
     /// Collective. Inner faces are listed if they are wanted.
     NodalSpace(const MPI_Comm communicator, const MeshView &mesh, const bool with_inner_faces = false);
 
+    /// The ranks that share the space.
     MPI_Comm communicator() const
     {
       return comm;
@@ -89,6 +94,7 @@ namespace Signorini
       return {cell_nodes.data() + cell.first_node, cell.n_vertices};
     }
 
+    /// Of owned and ghost cells.
     const std::vector<BoundaryFace> &boundary_faces() const
     {
       return boundary;
@@ -106,6 +112,7 @@ namespace Signorini
       return constraints;
     }
 
+    /// Number of nodes of all ranks, hanging ones included.
     NodeIndex n_nodes() const
     {
       return owned_nodes.size();
@@ -123,6 +130,7 @@ namespace Signorini
       return n_cells_of_all;
     }
 
+    /// The nodes of this rank: a range.
     const dealii::IndexSet &owned() const
     {
       return owned_nodes;

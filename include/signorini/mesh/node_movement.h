@@ -19,11 +19,14 @@ namespace Signorini
   /// tetrahedra; 1 is best) of those around moved nodes, and the numbers of nodes.
   struct MovementReport
   {
+    /// Least quality of a cell before and after; nodes that were moved, and those of them that did not go the
+    /// whole way.
     double      quality_before = 1., quality_after = 1.;
     std::size_t n_moved = 0, n_damped = 0;
     /// Of each boundary with vertices that are not on its shape: their number, and the largest distance.
     std::map<dealii::types::boundary_id, std::pair<std::size_t, double>> late;
 
+    /// Joins the reports of two movements.
     void add(const MovementReport &other);
   };
 

@@ -16,6 +16,7 @@ namespace Signorini
   /// Prescribed refinement, worked through one level per cycle of the nested iteration.
   struct RefinementParameters
   {
+    /// As the parameters of the same names say (add_parameters()).
     unsigned int initial_global = 0, global_cycles = 0, adaptive_cycles = 0, final_global_cycles = 0;
     std::string  regions;
     std::string  marking          = "error";
@@ -23,12 +24,14 @@ namespace Signorini
     double       max_dofs         = 0.;
     bool         compare_cycles   = false;
 
+    /// Declares the parameters in the current subsection.
     void add_parameters(dealii::ParameterHandler &prm);
   };
 
   /// A ball or box and how many times cells in it are refined beyond the coarse mesh and the global levels.
   struct RefinementRegion
   {
+    /// A ball (centre and radius) or a box (two corners), in lengths, and how often cells in it are refined.
     bool             is_ball;
     dealii::Point<3> centre_or_lower, upper;
     double           radius;
@@ -38,6 +41,7 @@ namespace Signorini
     bool touches(const dealii::Point<3> &lower_corner, const dealii::Point<3> &upper_corner) const;
   };
 
+  /// Which cells are refined from one mesh of the nested iteration to the next.
   class Refinement
   {
   public:

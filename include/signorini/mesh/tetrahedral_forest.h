@@ -23,8 +23,10 @@ namespace Signorini
   class TetrahedralForest
   {
   public:
+    /// The id of a face between two cells.
     static constexpr dealii::types::boundary_id inner = dealii::numbers::internal_face_boundary_id;
 
+    /// A tetrahedron of one of the meshes.
     struct Cell
     {
       /// Positive orientation. Face f is opposite to vertex f.
@@ -41,6 +43,7 @@ namespace Signorini
     /// Cells of positive orientation, conforming (every face belongs to two cells or carries a boundary id).
     TetrahedralForest(const std::vector<dealii::Point<3>> &vertices, const std::vector<Cell> &cells);
 
+    /// Number of meshes.
     unsigned int n_levels() const
     {
       return static_cast<unsigned int>(levels.size());
@@ -58,6 +61,7 @@ namespace Signorini
       return levels[level].n_vertices;
     }
 
+    /// Positions (length) of the vertices of all meshes.
     const std::vector<dealii::Point<3>> &vertices() const
     {
       return points;

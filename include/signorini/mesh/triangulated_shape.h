@@ -14,6 +14,7 @@ namespace Signorini
   class TriangulatedShape : public BoundaryShape
   {
   public:
+    /// @param remark how messages call it
     TriangulatedShape(SurfaceMesh surface, std::string remark);
 
     dealii::Point<3>     project(const dealii::Point<3> &p) const override;

@@ -19,6 +19,7 @@ namespace Signorini
   /// them or between facets.
   struct SurfaceShapes
   {
+    /// The shapes, and whether gaps and normals are taken from them.
     std::map<dealii::types::boundary_id, BoundaryShapePointer> by_boundary;
     bool                                                       are_used = true;
   };
@@ -29,6 +30,7 @@ namespace Signorini
   class TrueShape
   {
   public:
+    /// A facet without a shape.
     static constexpr unsigned int no_shape = std::numeric_limits<unsigned int>::max();
 
     /// The facets are the true surface.

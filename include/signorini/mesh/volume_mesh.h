@@ -19,6 +19,7 @@ namespace Signorini
     using Face                              = std::array<unsigned int, 4>;
     static constexpr unsigned int no_vertex = static_cast<unsigned int>(-1);
 
+    /// A hexahedron or a tetrahedron.
     struct Cell
     {
       /// 8 in deal.II's order (lexicographic), or 4.
@@ -28,39 +29,47 @@ namespace Signorini
       unsigned int volume;
 
       template <class Archive>
+      /// For messages between ranks.
       void serialize(Archive &archive, const unsigned int)
       {
         archive &vertices &n_vertices &volume;
       }
     };
 
+    /// A face that belongs to a named boundary.
     struct BoundaryFace
     {
+      /// As in find_boundary_faces().
       Face vertices;
       /// Index into boundary_names.
       unsigned int name;
 
       template <class Archive>
+      /// For messages between ranks.
       void serialize(Archive &archive, const unsigned int)
       {
         archive &vertices &name;
       }
     };
 
+    /// The mesh: positions (length), cells, and the faces of its boundaries.
     std::vector<dealii::Point<3>> vertices;
     std::vector<Cell>             cells;
     std::vector<BoundaryFace>     faces;
-    std::vector<std::string>      boundary_names;
-    std::vector<std::string>      volume_names;
+    /// Names that faces and cells refer to.
+    std::vector<std::string> boundary_names;
+    std::vector<std::string> volume_names;
     /// Remarks for the user, e.g. on mended cells.
     std::vector<std::string> notes;
 
     template <class Archive>
+    /// For messages between ranks.
     void serialize(Archive &archive, const unsigned int)
     {
       archive &vertices &cells &faces &boundary_names &volume_names &notes;
     }
 
+    /// Positions of the vertices of a cell; the rest is zero.
     std::array<dealii::Point<3>, 8> corners(const Cell &cell) const;
   };
 

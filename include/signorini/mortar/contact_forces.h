@@ -13,8 +13,10 @@ namespace Signorini
   /// The forces of a contact stress on the nodes of both sides of a pair.
   struct ContactForces
   {
+    /// A force on a node (force).
     struct NodalForce
     {
+      /// Which node, and where (length).
       NodeIndex        node;
       dealii::Point<3> position;
       Vector3          force;
@@ -23,10 +25,12 @@ namespace Signorini
     /// One side, sorted by node, with the sum of the forces and of their moments about the origin.
     struct Side
     {
+      /// The forces, their sum, and the sum of their moments (force, force times length).
       std::vector<NodalForce> nodes;
       Vector3                 force, moment;
     };
 
+    /// Of the two sides.
     Side nonmortar, mortar;
   };
 

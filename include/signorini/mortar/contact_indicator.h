@@ -16,6 +16,8 @@ namespace Signorini
   class ContactFaces
   {
   public:
+    /// Space and surface must outlive the object.
+    /// @param ids the boundaries that the surface was extracted from
     ContactFaces(const NodalSpace &space, const ContactSurface &surface,
                  const std::set<dealii::types::boundary_id> &ids);
 

@@ -17,6 +17,7 @@ namespace Signorini
   /// A node of the nonmortar surface that touches the covered part but carries no multiplier.
   struct DroppedNode
   {
+    /// Why: displacements or the normal are prescribed, another pair needs the node, or the rule drops it.
     enum Reason
     {
       fixed,
@@ -26,6 +27,7 @@ namespace Signorini
       large_row
     };
 
+    /// Which node, where (length), and why.
     NodeIndex        node;
     dealii::Point<3> position;
     Reason           reason;
@@ -80,6 +82,7 @@ namespace Signorini
       return areas[row] > .1 * weight ? value * weight / areas[row] : value;
     }
 
+    /// Nodes without a multiplier.
     std::vector<DroppedNode> dropped;
     /// Areas: of the nonmortar surface, of its covered part, and of the covered part without any multiplier.
     double area = 0., covered_area = 0., lost_area = 0.;

@@ -37,6 +37,7 @@ namespace Signorini
     /// in it (length). `size` is a length of the problem. False if the line does not enter it.
     bool gap(double &distance, const dealii::Point<3> &x, const Vector3 &n, const double size) const;
 
+    /// The text that it was made from.
     const std::string &description() const
     {
       return text;

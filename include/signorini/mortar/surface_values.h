@@ -29,6 +29,7 @@ namespace Signorini
   class SurfaceValues
   {
   public:
+    /// The surface must outlive the object.
     explicit SurfaceValues(const ContactSurface &surface);
 
     /// The point with given barycentric coordinates, on the facet.
@@ -44,6 +45,7 @@ namespace Signorini
     Vector3 value(const std::vector<Vector3> &field, const unsigned int triangle,
                   const std::array<double, 4> &shape) const;
 
+    /// A field given by vertices at a point of a triangle.
     Vector3 value(const std::vector<Vector3> &field, const unsigned int triangle,
                   const dealii::Point<3> &p) const
     {

@@ -18,6 +18,7 @@ namespace Signorini
   /// Values at nodes or vertices: n_components numbers each, in the order of the list they belong to.
   struct OutputField
   {
+    /// As ParaView shows it, and 1 or 3.
     std::string  name;
     unsigned int n_components;
     /// Fields of three components become vectors for ParaView, others single scalars.

@@ -16,11 +16,13 @@ namespace Signorini
   class JsonWriter
   {
   public:
+    /// Writes to a stream that outlives the object.
     explicit JsonWriter(std::ostream &out)
       : out(out)
     {
     }
 
+    /// Begins an object '{' or a list '[', in an object with its key.
     void begin(const char bracket, const std::string &key = "")
     {
       item(key);
@@ -29,6 +31,7 @@ namespace Signorini
       ++depth;
     }
 
+    /// Ends what the last begin() began, with '}' or ']'.
     void end(const char bracket)
     {
       --depth;
@@ -36,6 +39,7 @@ namespace Signorini
       first = false;
     }
 
+    /// An entry of an object; numbers with all digits, not finite ones as null.
     void number(const std::string &key, const double value)
     {
       item(key);
@@ -45,12 +49,14 @@ namespace Signorini
         out << "null";
     }
 
+    /// An entry of an object, with special characters escaped.
     void text(const std::string &key, const std::string &value)
     {
       item(key);
       out << quoted(value);
     }
 
+    /// An entry of an object.
     void boolean(const std::string &key, const bool value)
     {
       item(key);
@@ -58,6 +64,7 @@ namespace Signorini
     }
 
     template <typename V>
+    /// An entry of an object: a list of numbers.
     void vector(const std::string &key, const V &v)
     {
       begin('[', key);

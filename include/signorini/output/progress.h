@@ -14,6 +14,7 @@ namespace Signorini
   class Progress
   {
   public:
+    /// @param enabled on the rank that writes
     Progress(std::ostream &out, const bool enabled);
 
     /// Clears the line.

@@ -22,9 +22,12 @@ namespace Signorini
   /// What one cycle of the nested iteration produced.
   struct CycleResult
   {
-    unsigned int      cycle = 0;
-    std::size_t       cells = 0, dofs = 0, contact_nodes = 0, active_nodes = 0;
-    unsigned int      levels = 0;
+    /// Number of the mesh in the nested iteration, what it has (cells, unknowns, contact nodes,
+    /// those of them with an active condition), and levels of the hierarchy.
+    unsigned int cycle = 0;
+    std::size_t  cells = 0, dofs = 0, contact_nodes = 0, active_nodes = 0;
+    unsigned int levels = 0;
+    /// Of the contact problem.
     ConvergenceReport nonlinear;
     /// The linear problem by multigrid and by conjugate gradients with it, from the same start.
     ConvergenceReport linear, linear_cg;
@@ -38,7 +41,8 @@ namespace Signorini
     /// Energy norm of the difference to the solution of the last cycle, if cycles are compared.
     double error_to_last = 0.;
     /// ½uᵀAu - fᵀu, lifts included; where the indicator was computed and on the last mesh.
-    double           potential_energy = 0.;
+    double potential_energy = 0.;
+    /// What the parts of a cycle took.
     SweepMeasurement sweeps;
     /// By body, where a known displacement was given.
     std::map<std::string, ExactError> exact_errors;
@@ -46,8 +50,10 @@ namespace Signorini
     std::map<std::string, double> times;
   };
 
+  /// What a contact pair does, after the last solve.
   struct PairResult
   {
+    /// Of the pair, and of its two boundaries.
     std::string name, nonmortar, mortar;
     /// Force on either side; moment of the first about the origin; its centre of pressure.
     Vector3          force, force_on_mortar, moment;
@@ -64,18 +70,23 @@ namespace Signorini
     /// By how much the gap may be wrong where bodies touch (length).
     double gap_doubt = 0.;
     /// |moment on nonmortar + moment on mortar| / (load √A).
-    double      moment_balance = 0.;
-    std::size_t dropped_nodes  = 0;
+    double moment_balance = 0.;
+    /// Nodes without a multiplier although covered.
+    std::size_t dropped_nodes = 0;
   };
 
+  /// The forces that hold a boundary with prescribed displacements.
   struct BoundaryResult
   {
+    /// Of the body and the boundary; sum of the nodal forces.
     std::string body, name;
     Vector3     reaction;
   };
 
+  /// The displacement at a point of a body (lengths).
   struct ProbeResult
   {
+    /// As the parameter file names it; where; displacement.
     std::string      name;
     dealii::Point<3> point;
     Vector3          displacement;
@@ -131,6 +142,7 @@ namespace Signorini
   /// One row of pressure.csv.
   struct PressureRow
   {
+    /// Of the node (lengths).
     dealii::Point<3> position;
     /// area: integral of the node's dual function; area times pressure sums up to the force.
     double area, pressure, recovered_pressure, gap;
@@ -140,6 +152,7 @@ namespace Signorini
   /// The contact mapping of a pair, over all ranks.
   struct MappingResult
   {
+    /// Name of the pair and what its mapping covers.
     std::string    pair;
     MappingReport  report;
     MappingQuality quality;
@@ -147,12 +160,16 @@ namespace Signorini
     double time = 0.;
   };
 
+  /// All that is reported about a run.
   struct Results
   {
-    std::string                 version, parameter_file, title;
-    unsigned int                ranks     = 1;
-    bool                        converged = true;
-    double                      wall_time = 0., peak_memory = 0.;
+    /// What was run, and on how many ranks.
+    std::string  version, parameter_file, title;
+    unsigned int ranks = 1;
+    /// Whether the iteration converged on all meshes; time (s), peak memory of all ranks together (bytes).
+    bool   converged = true;
+    double wall_time = 0., peak_memory = 0.;
+    /// A line for each mesh, and the results on the last one.
     std::vector<CycleResult>    cycles;
     std::vector<PairResult>     pairs;
     std::vector<MappingResult>  mappings;
@@ -162,6 +179,7 @@ namespace Signorini
     /// Norm of the nodal forces before reactions and contact forces are taken off (force).
     double                   largest_nodal_force = 0.;
     std::vector<PressureRow> pressure;
+    /// Remarks and warnings for the user.
     std::vector<std::string> notes;
   };
 } // namespace Signorini

@@ -16,14 +16,19 @@ namespace Signorini
   class BoxTree
   {
   public:
+    /// A box along the axes.
     struct Box
     {
+      /// Lower and upper corner (length).
       dealii::Point<3> low, high;
 
+      /// Makes the box large enough for a point.
       void include(const dealii::Point<3> &p);
     };
 
+    /// Boxes are called by their index from then on.
     explicit BoxTree(const std::vector<Box> &boxes);
+    /// Moves the tree.
     BoxTree(BoxTree &&) noexcept;
     ~BoxTree();
 

@@ -18,12 +18,15 @@ namespace Signorini
     /// with the way along it; feature -1 inside.
     struct Position
     {
+      /// As said above; `along` in [0,1].
       int    feature = -1;
       double along   = 0.;
     };
 
+    /// A corner of the polygon.
     struct Corner
     {
+      /// Number of the node in the plane graph.
       unsigned int node;
       /// Counterclockwise on the nonmortar triangle, and on the mortar triangle as seen from the nonmortar
       /// side.

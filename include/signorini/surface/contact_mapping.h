@@ -66,6 +66,7 @@ namespace Signorini
                    const std::function<bool(const unsigned int)> &is_selected  = {},
                    const MPI_Comm                                 communicator = MPI_COMM_SELF);
 
+    /// Number of polygons in which triangles meet.
     std::size_t n_polygons() const
     {
       return polygon_triangles.size();
@@ -82,16 +83,19 @@ namespace Signorini
     SurfacePoint image(const unsigned int nonmortar_triangle, const std::array<double, 3> &weights) const;
     SurfacePoint preimage(const unsigned int mortar_triangle, const std::array<double, 3> &weights) const;
 
+    /// Over the selected triangles of this rank; sum_reports() has those of all.
     const MappingReport &report() const
     {
       return summary;
     }
 
+    /// Triangles, edges and vertices of the nonmortar surface.
     const SurfaceTopology &nonmortar_topology() const
     {
       return nonmortar;
     }
 
+    /// The same of the mortar surface.
     const SurfaceTopology &mortar_topology() const
     {
       return mortar;

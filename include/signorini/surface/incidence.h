@@ -21,6 +21,7 @@ namespace Signorini
   class Incidence
   {
   public:
+    /// Where a vertex lies beside an edge.
     struct Side
     {
       /// 1 on the left of the edge from its lower to its higher vertex number, -1 on the right, 0 on it.
@@ -29,6 +30,7 @@ namespace Signorini
       double distance, position;
     };
 
+    /// Copies the surfaces; the topologies must outlive the object.
     Incidence(const SurfaceMesh &nonmortar, const SurfaceMesh &mortar,
               const SurfaceTopology &nonmortar_topology, const SurfaceTopology &mortar_topology);
 
@@ -47,6 +49,7 @@ namespace Signorini
     /// A solution of system (10).
     struct Crossing
     {
+      /// Parameters on the nonmortar and on the mortar edge.
       double t, s;
       /// Whether the lower vertex of the nonmortar edge lies left (1) or right (-1) of the mortar edge there.
       int low_side;

@@ -22,8 +22,10 @@ namespace Signorini
     /// its edges under definite angles. Far above rounding (1e-16), far below what anybody meshes.
     constexpr double vertex_tolerance = 1e-10, on_nonmortar_tolerance = 1e-11, on_mortar_tolerance = 1e-12;
 
+    /// An edge with the normals at its ends.
     struct OrientedEdge
     {
+      /// The ends (length).
       dealii::Point<3> a, b;
       /// Normals at the ends; used for mortar edges only.
       dealii::Tensor<1, 3> normal_a, normal_b;

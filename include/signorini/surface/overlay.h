@@ -14,6 +14,7 @@ namespace Signorini
   /// weights of the corners on the mortar side.
   struct OverlayTriangle
   {
+    /// The triangles of either surface in which it lies.
     unsigned int nonmortar_triangle;
     unsigned int mortar_triangle;
     /// Barycentric coordinates (three per corner, sum 1, in [0,1]) of the corners in the nonmortar triangle.

@@ -19,6 +19,7 @@ namespace Signorini
     /// @param is_selected the triangles of the part; empty for all of them, then the region is all of space
     PartRegion(const SurfaceMesh &nonmortar, const std::function<bool(const unsigned int)> &is_selected);
 
+    /// Whether nothing is left out.
     bool is_everything() const
     {
       return everything;

@@ -33,6 +33,7 @@ namespace Signorini
   /// A node of the plane graph with its places on both surfaces: Phi takes the first to the second.
   struct MappingNode
   {
+    /// Places on either surface.
     SurfacePoint nonmortar, mortar;
   };
 
@@ -51,8 +52,10 @@ namespace Signorini
     PlaneGraph(Incidence &incidence, const PartRegion &region, const MPI_Comm communicator);
     ~PlaneGraph();
 
+    /// No node.
     static constexpr unsigned int none = SurfaceTopology::none;
 
+    /// In the order in which they were found.
     std::vector<MappingNode> nodes;
     /// The node at each vertex, or none.
     std::vector<unsigned int> nonmortar_vertex_node, mortar_vertex_node;

@@ -42,6 +42,7 @@ namespace Signorini
   class SmoothSurface
   {
   public:
+    /// The curved patch over a triangle.
     struct Patch
     {
       /// Unit normals at the corners, those of this side of creases.
@@ -60,11 +61,13 @@ namespace Signorini
     /// @param wanted the triangles that need patches; the others are neighbours only
     SmoothSurface(SurfaceMesh mesh, const std::vector<bool> &wanted, const SmoothingRule &rule = {});
 
+    /// The facets.
     const SurfaceMesh &mesh() const
     {
       return surface;
     }
 
+    /// The patch over a triangle that was wanted.
     const Patch &patch(const unsigned int triangle) const
     {
       return patches[triangle];

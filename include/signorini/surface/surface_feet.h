@@ -17,14 +17,17 @@ namespace Signorini
   class SurfaceFeet
   {
   public:
+    /// The point that belongs to another one.
     struct Foot
     {
+      /// Where it lies.
       unsigned int triangle = SurfaceTopology::none;
       /// Barycentric coordinates, in [0,1].
       std::array<double, 3> weights = {};
       dealii::Point<3>      point;
     };
 
+    /// Unit normals at the corners of a triangle.
     using CornerNormals = std::array<dealii::Tensor<1, 3>, 3>;
 
     /// The surface must outlive the object.
@@ -33,6 +36,7 @@ namespace Signorini
     SurfaceFeet(const SurfaceMesh &mesh, std::vector<unsigned int> triangles,
                 std::vector<CornerNormals> normals);
 
+    /// The foot of a point.
     Foot find(const dealii::Point<3> &p) const;
 
     /// The normal of the surface at the foot of a point (unit length). Where several triangles are equally

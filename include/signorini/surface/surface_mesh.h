@@ -15,6 +15,7 @@ namespace Signorini
   /// (b - a) x (c - a) of a triangle (a, b, c) points out of the body.
   struct SurfaceMesh
   {
+    /// Points (length), and vertex numbers of the triangles.
     std::vector<dealii::Point<3>>            vertices;
     std::vector<std::array<unsigned int, 3>> triangles;
     /// One unit vector per vertex, pointing out of the body; linear in between. May be left empty:
@@ -29,6 +30,7 @@ namespace Signorini
   /// once.
   struct SurfaceTopology
   {
+    /// No triangle, edge or vertex.
     static constexpr unsigned int none = static_cast<unsigned int>(-1);
 
     /// Vertex numbers below n_vertices.
@@ -41,17 +43,20 @@ namespace Signorini
       return e[0] == edge ? 0 : (e[1] == edge ? 1 : 2);
     }
 
+    /// Of a vertex the number of the corner in one of its triangles.
     unsigned int local_corner(const unsigned int triangle, const unsigned int vertex) const
     {
       const auto &t = triangles[triangle];
       return t[0] == vertex ? 0 : (t[1] == vertex ? 1 : 2);
     }
 
+    /// Whether an edge has a triangle on one side only.
     bool is_border(const unsigned int edge) const
     {
       return edge_triangles[edge][0] == none || edge_triangles[edge][1] == none;
     }
 
+    /// Vertex numbers of the triangles.
     std::vector<std::array<unsigned int, 3>> triangles;
     /// Edge i of a triangle goes from corner i to corner i + 1.
     std::vector<std::array<unsigned int, 3>> triangle_edges;
@@ -75,6 +80,7 @@ namespace Signorini
   /// everything that is built on it agrees.
   struct SurfacePoint
   {
+    /// On what it lies.
     enum class On : unsigned char
     {
       nothing,
@@ -83,12 +89,15 @@ namespace Signorini
       triangle
     };
 
+    /// Number of the vertex, edge or triangle.
     On           on    = On::nothing;
     unsigned int index = SurfaceTopology::none;
     /// On an edge: the parameter from the lower to the higher vertex number (first); in a triangle: the
     /// barycentric coordinates of corners 1 and 2.
     std::array<double, 2> x = {{0., 0.}};
 
+    /// A place at a vertex, on an edge (parameter from the lower to the higher vertex number), in a triangle
+    /// (barycentric coordinates; negative ones count as zero).
     static SurfacePoint at_vertex(const unsigned int vertex);
     static SurfacePoint on_edge(const unsigned int edge, const double parameter);
     static SurfacePoint in_triangle(const unsigned int triangle, const std::array<double, 3> &weights);
