@@ -6,6 +6,9 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
+#include <iterator>
+
 namespace Signorini
 {
   using namespace dealii;
@@ -28,6 +31,108 @@ namespace Signorini
         }
       return packets;
     }
+
+    /// Columns by owned row, besides those of a rank's own pattern.
+    using Additions = std::map<unsigned int, std::vector<NodeIndex>>;
+
+    /// Collective. What other ranks put into the rows of this one.
+    Additions receive_additions(const NodePattern &pattern, const NodePartition &numbering)
+    {
+      Additions additions;
+      if (numbering.n_ranks() == 1)
+        return additions;
+      for (const auto &[rank, packet] : Utilities::MPI::some_to_some(
+               numbering.communicator(), pack_foreign_rows(pattern, numbering.n_owned(), numbering)))
+        for (std::size_t i = 0; i < packet.size(); i += 2 + packet[i + 1])
+          {
+            auto &row = additions[static_cast<unsigned int>(packet[i] - numbering.first_owned())];
+            row.insert(row.end(), packet.begin() + i + 2, packet.begin() + i + 2 + packet[i + 1]);
+          }
+      return additions;
+    }
+
+    /// Foreign rows, columns of other ranks, and the extra ones.
+    IndexSet find_ghosts(const NodePattern &pattern, const Additions &additions, const IndexSet &extra_ghosts,
+                         const NodePartition &numbering)
+    {
+      std::vector<NodeIndex> nodes(pattern.foreign_rows);
+      const auto             add = [&](const std::vector<NodeIndex> &columns) {
+        std::copy_if(columns.begin(), columns.end(), std::back_inserter(nodes),
+                                 [&](const NodeIndex column) { return !numbering.owns(column); });
+      };
+      add(pattern.columns);
+      for (const auto &[row, columns] : additions)
+        add(columns);
+      std::sort(nodes.begin(), nodes.end());
+      nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+      IndexSet ghosts(numbering.n_global());
+      ghosts.add_indices(nodes.begin(), nodes.end());
+      ghosts.add_indices(extra_ghosts);
+      ghosts.compress();
+      return ghosts;
+    }
+
+    /// The local columns of all rows in the order of the matrix, and where the parts of the rows begin.
+    struct SplitRows
+    {
+      SplitRows(const NodePattern &pattern, const Additions &additions, const NodePartition &nodes)
+        : nodes(nodes)
+      {
+        std::vector<unsigned int> lower, upper;
+        for (auto *part : {&lower, &upper})
+          part->reserve(pattern.columns.size() / 2);
+        for (std::size_t r = 0; r + 1 < pattern.row_start.size(); ++r)
+          split(lower, upper, pattern, additions, r);
+        // So far lengths; all diagonal blocks come first, then the lower, then the upper parts.
+        const unsigned int n_owned = nodes.n_owned();
+        for (std::size_t &start : lower_start)
+          start += n_owned;
+        for (std::size_t &start : upper_start)
+          start += lower_start.back();
+        columns.reserve(upper_start.back());
+        for (unsigned int r = 0; r < n_owned; ++r)
+          columns.push_back(r);
+        for (auto *part : {&lower, &upper})
+          {
+            columns.insert(columns.end(), part->begin(), part->end());
+            *part = std::vector<unsigned int>();
+          }
+      }
+
+      std::vector<std::size_t>  lower_start = {0}, upper_start = {0};
+      std::vector<unsigned int> columns;
+
+    private:
+      void split(std::vector<unsigned int> &lower, std::vector<unsigned int> &upper,
+                 const NodePattern &pattern, const Additions &additions, const std::size_t r)
+      {
+        row.clear();
+        for (std::size_t k = pattern.row_start[r]; k < pattern.row_start[r + 1]; ++k)
+          row.push_back(nodes.to_local(pattern.columns[k]));
+        const unsigned int n_owned  = nodes.n_owned();
+        const bool         is_owned = r < n_owned;
+        if (const auto it = additions.find(r); is_owned && it != additions.end())
+          for (const NodeIndex column : it->second)
+            row.push_back(nodes.to_local(column));
+        const unsigned int diagonal = is_owned ? r : nodes.to_local(pattern.foreign_rows[r - n_owned]);
+        row.push_back(diagonal);
+        std::sort(row.begin(), row.end());
+        row.erase(std::unique(row.begin(), row.end()), row.end());
+        auto begin_of_upper = row.begin();
+        if (is_owned)
+          {
+            const auto place = std::lower_bound(row.begin(), row.end(), diagonal);
+            lower.insert(lower.end(), row.begin(), place);
+            lower_start.push_back(lower.size());
+            begin_of_upper = place + 1;
+          }
+        upper.insert(upper.end(), begin_of_upper, row.end());
+        upper_start.push_back(upper.size());
+      }
+
+      const NodePartition      &nodes;
+      std::vector<unsigned int> row;
+    };
   } // namespace
 
 
@@ -38,79 +143,14 @@ namespace Signorini
     const NodePartition numbering(owned, IndexSet(owned.size()), communicator);
     const unsigned int  n_owned = numbering.n_owned();
     AssertDimension(pattern.row_start.size(), n_owned + pattern.foreign_rows.size() + 1);
+    const Additions additions = receive_additions(pattern, numbering);
+    nodes = std::make_shared<NodePartition>(owned, find_ghosts(pattern, additions, extra_ghosts, numbering),
+                                            communicator);
 
-    std::map<unsigned int, std::vector<NodeIndex>> received;
-    if (numbering.n_ranks() > 1)
-      received = Utilities::MPI::some_to_some(communicator, pack_foreign_rows(pattern, n_owned, numbering));
-
-    // Rows that other ranks contribute to: columns besides our own pattern.
-    std::map<unsigned int, std::vector<NodeIndex>> additions;
-    for (const auto &[rank, packet] : received)
-      for (std::size_t i = 0; i < packet.size(); i += 2 + packet[i + 1])
-        {
-          auto &row = additions[static_cast<unsigned int>(packet[i] - numbering.first_owned())];
-          row.insert(row.end(), packet.begin() + i + 2, packet.begin() + i + 2 + packet[i + 1]);
-        }
-
-    std::vector<NodeIndex> ghost_columns(pattern.foreign_rows);
-    for (const NodeIndex column : pattern.columns)
-      if (!numbering.owns(column))
-        ghost_columns.push_back(column);
-    for (const auto &[row, columns] : additions)
-      for (const NodeIndex column : columns)
-        if (!numbering.owns(column))
-          ghost_columns.push_back(column);
-    std::sort(ghost_columns.begin(), ghost_columns.end());
-    ghost_columns.erase(std::unique(ghost_columns.begin(), ghost_columns.end()), ghost_columns.end());
-    IndexSet ghosts(numbering.n_global());
-    ghosts.add_indices(ghost_columns.begin(), ghost_columns.end());
-    ghosts.add_indices(extra_ghosts);
-    ghosts.compress();
-    nodes = std::make_shared<NodePartition>(owned, ghosts, communicator);
-
-    // Lengths first, shifted to their places in the array of all blocks below.
-    lower_start.assign(1, 0);
-    upper_start.assign(1, 0);
-    std::vector<unsigned int> lower_columns, upper_columns, row;
-    for (auto *part : {&lower_columns, &upper_columns})
-      part->reserve(pattern.columns.size() / 2);
-    for (std::size_t r = 0; r + 1 < pattern.row_start.size(); ++r)
-      {
-        row.clear();
-        for (std::size_t k = pattern.row_start[r]; k < pattern.row_start[r + 1]; ++k)
-          row.push_back(nodes->to_local(pattern.columns[k]));
-        const bool is_owned = r < n_owned;
-        if (const auto it = additions.find(r); is_owned && it != additions.end())
-          for (const NodeIndex column : it->second)
-            row.push_back(nodes->to_local(column));
-        const unsigned int diagonal = is_owned ? r : nodes->to_local(pattern.foreign_rows[r - n_owned]);
-        row.push_back(diagonal);
-        std::sort(row.begin(), row.end());
-        row.erase(std::unique(row.begin(), row.end()), row.end());
-        auto upper = row.begin();
-        if (is_owned)
-          {
-            const auto place = std::lower_bound(row.begin(), row.end(), diagonal);
-            lower_columns.insert(lower_columns.end(), row.begin(), place);
-            lower_start.push_back(lower_columns.size());
-            upper = place + 1;
-          }
-        upper_columns.insert(upper_columns.end(), upper, row.end());
-        upper_start.push_back(upper_columns.size());
-      }
-    for (std::size_t &start : lower_start)
-      start += n_owned;
-    for (std::size_t &start : upper_start)
-      start += lower_start.back();
-    columns.clear();
-    columns.reserve(upper_start.back());
-    for (unsigned int r = 0; r < n_owned; ++r)
-      columns.push_back(r);
-    for (auto *part : {&lower_columns, &upper_columns})
-      {
-        columns.insert(columns.end(), part->begin(), part->end());
-        *part = std::vector<unsigned int>();
-      }
+    SplitRows rows(pattern, additions, *nodes);
+    lower_start = std::move(rows.lower_start);
+    upper_start = std::move(rows.upper_start);
+    columns     = std::move(rows.columns);
     // One more than there are: see block_row.h.
     values.assign(9 * columns.size() + 1, 0.);
 

@@ -87,9 +87,9 @@ namespace Signorini
         const auto  mortar_displacement = vertex_values(pair.mortar, *d.partition, d.displacement);
         const auto &overlay             = pair.mapping->overlay();
         add(pair_definitions[p].parameters.contact == "tied"
-                ? tie_violation(pair.nonmortar, pair.mortar, overlay, displacement, mortar_displacement,
+                ? tie_violation({pair.nonmortar, pair.mortar, overlay}, displacement, mortar_displacement,
                                 shear_modulus)
-                : contact_violation(pair.nonmortar, pair.mortar, overlay, stress, displacement,
+                : contact_violation({pair.nonmortar, pair.mortar, overlay}, stress, displacement,
                                     mortar_displacement, pair.prescribed_gap, shear_modulus));
       }
     std::vector<double> indicator =

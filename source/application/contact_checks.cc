@@ -338,7 +338,7 @@ namespace Signorini
         mortar_at_rest(pair.mortar.mesh.vertices.size());
     const auto penetration =
         pair.obstacle ? sample_rigid_penetration(pair.nonmortar, *pair.obstacle, at_rest, comm)
-                      : sample_geometric_penetration(pair.nonmortar, pair.mortar, pair.mapping->overlay(),
+                      : sample_geometric_penetration({pair.nonmortar, pair.mortar, pair.mapping->overlay()},
                                                      at_rest, mortar_at_rest, pair.prescribed_gap, comm);
     return -penetration.min_initial_gap;
   }

@@ -156,7 +156,7 @@ namespace Signorini
             pair.obstacle
                 ? sample_rigid_penetration(pair.nonmortar, *pair.obstacle, displaced, comm)
                 : sample_geometric_penetration(
-                      pair.nonmortar, pair.mortar, pair.mapping->overlay(), displaced,
+                      {pair.nonmortar, pair.mortar, pair.mapping->overlay()}, displaced,
                       vertex_values(pair.mortar, *d.partition, d.displacement), pair.prescribed_gap, comm);
         result.min_gap             = penetration.min_gap;
         result.max_penetration     = std::max(0., penetration.max_penetration());

@@ -2,6 +2,7 @@ signorini_add_layer(mesh
   abaqus_input.cc
   bodies.cc
   body_elements.cc
+  body_input.cc
   body_parts.cc
   body_shapes.cc
   boundary_shape.cc

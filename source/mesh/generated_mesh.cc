@@ -201,6 +201,94 @@ namespace Signorini
       if (!(value > 0.) || !std::isfinite(value))
         throw InputError(name + " must be positive.");
     }
+
+    GeneratedMesh generate_block(const GeneratedMeshParameters &p)
+    {
+      for (unsigned int c = 0; c < 3; ++c)
+        {
+          require_positive(p.upper_corner[c] - p.lower_corner[c], "Upper corner minus Lower corner");
+          require_positive(p.divisions[c], "Divisions");
+        }
+      const double size = p.lower_corner.distance(p.upper_corner);
+      // Relative to the lower corner, so that joining and naming do not suffer from an offset.
+      Cells cells = block(p);
+      for (auto &cell : cells)
+        for (Point<3> &v : cell)
+          v = Point<3>(v - p.lower_corner);
+      VolumeMesh     mesh = join(cells, size);
+      const Point<3> up   = Point<3>(p.upper_corner - p.lower_corner);
+      name_boundaries(mesh, first_match({{"left", plane(0, 0.)},
+                                         {"right", plane(0, up[0])},
+                                         {"front", plane(1, 0.)},
+                                         {"back", plane(1, up[1])},
+                                         {"bottom", plane(2, 0.)},
+                                         {"top", plane(2, up[2])}},
+                                        size));
+      for (Point<3> &v : mesh.vertices)
+        v += p.lower_corner;
+      return {mesh, {}};
+    }
+
+    bool has(const GeneratedMeshParameters &p, const char *word)
+    {
+      return p.kind.find(word) != std::string::npos;
+    }
+
+    GeneratedMesh generate_cylinder(const GeneratedMeshParameters &p)
+    {
+      require_positive(p.radius, "Radius");
+      require_positive(p.height, "Height");
+      Cells cells = cylinder_quarter(p.radius, p.height);
+      if (!has(p, "quarter"))
+        {
+          mirror(cells, 0);
+          mirror(cells, 1);
+        }
+      VolumeMesh mesh = join(cells, p.radius);
+      name_boundaries(
+          mesh, first_match({{"top", plane(2, 0.)},
+                             {"bottom", plane(2, -p.height)},
+                             {"side", [&](const Point<3> &v) { return std::hypot(v[0], v[1]) - p.radius; }},
+                             {"symmetry x", plane(0, 0.)},
+                             {"symmetry y", plane(1, 0.)}},
+                            p.radius));
+      return {mesh, {{"side", CurvedBoundary::cylinder}}};
+    }
+
+    /// Balls and spherical shells.
+    GeneratedMesh generate_ball(const GeneratedMeshParameters &p)
+    {
+      require_positive(p.radius, "Radius");
+      const bool shell = has(p, "shell"), half = has(p, "half"), eighth = has(p, "eighth");
+      if (shell)
+        {
+          require_positive(p.inner_radius, "Inner radius");
+          require_positive(p.radius - p.inner_radius, "Radius minus Inner radius");
+        }
+      Cells cells = shell ? shell_octant(p.inner_radius, p.radius) : ball_octant(p.radius);
+      if (half)
+        turn_down(cells);
+      if (!has(p, "quarter") && !eighth)
+        {
+          mirror(cells, 0);
+          mirror(cells, 1);
+        }
+      if (!half && !eighth)
+        mirror(cells, 2);
+      VolumeMesh        mesh  = join(cells, p.radius);
+      const std::string outer = shell ? "outer" : "sphere", flat = half ? "top" : "symmetry z";
+      name_boundaries(mesh,
+                      first_match({{outer, [&](const Point<3> &v) { return v.norm() - p.radius; }},
+                                   {"inner", [&](const Point<3> &v) { return v.norm() - p.inner_radius; }},
+                                   {flat, plane(2, 0.)},
+                                   {"symmetry x", plane(0, 0.)},
+                                   {"symmetry y", plane(1, 0.)}},
+                                  p.radius));
+      GeneratedMesh result{mesh, {{outer, CurvedBoundary::sphere}}};
+      if (shell)
+        result.curved.push_back({"inner", CurvedBoundary::sphere});
+      return result;
+    }
   } // namespace
 
 
@@ -216,87 +304,8 @@ namespace Signorini
 
   GeneratedMesh generate_mesh(const GeneratedMeshParameters &p)
   {
-    GeneratedMesh result;
-    const auto    has = [&](const char *text) { return p.kind.find(text) != std::string::npos; };
     if (p.kind == "block")
-      {
-        for (unsigned int c = 0; c < 3; ++c)
-          {
-            require_positive(p.upper_corner[c] - p.lower_corner[c], "Upper corner minus Lower corner");
-            require_positive(p.divisions[c], "Divisions");
-          }
-        const double size = p.lower_corner.distance(p.upper_corner);
-        // Relative to the lower corner, so that joining and naming do not suffer from an offset.
-        Cells cells = block(p);
-        for (auto &cell : cells)
-          for (Point<3> &v : cell)
-            v = Point<3>(v - p.lower_corner);
-        result.mesh       = join(cells, size);
-        const Point<3> up = Point<3>(p.upper_corner - p.lower_corner);
-        name_boundaries(result.mesh, first_match({{"left", plane(0, 0.)},
-                                                  {"right", plane(0, up[0])},
-                                                  {"front", plane(1, 0.)},
-                                                  {"back", plane(1, up[1])},
-                                                  {"bottom", plane(2, 0.)},
-                                                  {"top", plane(2, up[2])}},
-                                                 size));
-        for (Point<3> &v : result.mesh.vertices)
-          v += p.lower_corner;
-        return result;
-      }
-    require_positive(p.radius, "Radius");
-    const bool quarter = has("quarter"), eighth = has("eighth");
-    Cells      cells;
-    if (has("cylinder"))
-      {
-        require_positive(p.height, "Height");
-        cells = cylinder_quarter(p.radius, p.height);
-        if (!quarter)
-          {
-            mirror(cells, 0);
-            mirror(cells, 1);
-          }
-        result.mesh = join(cells, p.radius);
-        name_boundaries(
-            result.mesh,
-            first_match({{"top", plane(2, 0.)},
-                         {"bottom", plane(2, -p.height)},
-                         {"side", [&](const Point<3> &v) { return std::hypot(v[0], v[1]) - p.radius; }},
-                         {"symmetry x", plane(0, 0.)},
-                         {"symmetry y", plane(1, 0.)}},
-                        p.radius));
-        result.curved.push_back({"side", CurvedBoundary::cylinder});
-        return result;
-      }
-    const bool shell = has("shell"), half = has("half");
-    if (shell)
-      {
-        require_positive(p.inner_radius, "Inner radius");
-        require_positive(p.radius - p.inner_radius, "Radius minus Inner radius");
-      }
-    cells = shell ? shell_octant(p.inner_radius, p.radius) : ball_octant(p.radius);
-    if (half)
-      turn_down(cells);
-    if (!quarter && !eighth)
-      {
-        mirror(cells, 0);
-        mirror(cells, 1);
-      }
-    if (!half && !eighth)
-      mirror(cells, 2);
-    result.mesh            = join(cells, p.radius);
-    const std::string flat = half ? "top" : "symmetry z";
-    name_boundaries(
-        result.mesh,
-        first_match({{shell ? "outer" : "sphere", [&](const Point<3> &v) { return v.norm() - p.radius; }},
-                     {"inner", [&](const Point<3> &v) { return v.norm() - p.inner_radius; }},
-                     {flat, plane(2, 0.)},
-                     {"symmetry x", plane(0, 0.)},
-                     {"symmetry y", plane(1, 0.)}},
-                    p.radius));
-    result.curved.push_back({shell ? "outer" : "sphere", CurvedBoundary::sphere});
-    if (shell)
-      result.curved.push_back({"inner", CurvedBoundary::sphere});
-    return result;
+      return generate_block(p);
+    return has(p, "cylinder") ? generate_cylinder(p) : generate_ball(p);
   }
 } // namespace Signorini

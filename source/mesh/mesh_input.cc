@@ -12,6 +12,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 
 namespace Signorini
 {
@@ -103,21 +104,23 @@ namespace Signorini
                          " could be read. Are there numbers of elements that occur twice?");
     }
 
-    VolumeMesh read_with_gmsh(const std::string &file)
+    /// The nodes of the open file, of which a mesh gets those that its cells use.
+    class GmshNodes
     {
-      const std::size_t n_in_file = count_volume_elements(file);
-      const GmshSession session(file);
-      VolumeMesh        mesh;
+    public:
+      explicit GmshNodes(const std::string &file)
+        : file(file)
+      {
+        std::vector<std::size_t> tags;
+        std::vector<double>      parametric;
+        gmsh::model::mesh::getNodes(tags, coordinates, parametric);
+        for (std::size_t i = 0; i < tags.size(); ++i)
+          position[tags[i]] = i;
+      }
 
-      std::vector<std::size_t> tags;
-      std::vector<double>      coordinates, parametric;
-      gmsh::model::mesh::getNodes(tags, coordinates, parametric);
-      std::unordered_map<std::size_t, std::size_t> position;
-      for (std::size_t i = 0; i < tags.size(); ++i)
-        position[tags[i]] = i;
-      std::unordered_map<std::size_t, unsigned int> number;
-
-      const auto vertex = [&](const std::size_t tag) {
+      /// The vertex of the mesh for a node of a cell.
+      unsigned int vertex(VolumeMesh &mesh, const std::size_t tag)
+      {
         const auto at = position.find(tag);
         if (at == position.end())
           throw InputError("Mesh file \"" + file +
@@ -127,7 +130,36 @@ namespace Signorini
           mesh.vertices.emplace_back(coordinates[3 * at->second], coordinates[3 * at->second + 1],
                                      coordinates[3 * at->second + 2]);
         return it->second;
-      };
+      }
+
+      /// The key of a face, if all of its nodes belong to cells.
+      std::optional<VolumeMesh::Face> face(const std::size_t *const tags, const unsigned int n) const
+      {
+        VolumeMesh::Face face;
+        face.fill(VolumeMesh::no_vertex);
+        for (unsigned int v = 0; v < n; ++v)
+          {
+            const auto it = number.find(tags[v]);
+            if (it == number.end())
+              return std::nullopt;
+            face[v] = it->second;
+          }
+        return face_key(face);
+      }
+
+    private:
+      const std::string                             file;
+      std::vector<double>                           coordinates;
+      std::unordered_map<std::size_t, std::size_t>  position;
+      std::unordered_map<std::size_t, unsigned int> number;
+    };
+
+    VolumeMesh read_with_gmsh(const std::string &file)
+    {
+      const std::size_t n_in_file = count_volume_elements(file);
+      const GmshSession session(file);
+      GmshNodes         gmsh_nodes(file);
+      VolumeMesh        mesh;
       for (const auto &[entity, n, nodes] : elements(3, gmsh_tetrahedron, 4, gmsh_hexahedron, 8, file))
         {
           const unsigned int volume = index_of(mesh.volume_names, group_name(3, entity, "unnamed"));
@@ -135,7 +167,8 @@ namespace Signorini
             {
               mesh.cells.push_back({{}, n, volume});
               for (unsigned int v = 0; v < n; ++v)
-                mesh.cells.back().vertices[v] = vertex(nodes[k + (n == 8 ? gmsh_corner[v] : v)]);
+                mesh.cells.back().vertices[v] =
+                    gmsh_nodes.vertex(mesh, nodes[k + (n == 8 ? gmsh_corner[v] : v)]);
             }
         }
       if (mesh.cells.empty())
@@ -145,19 +178,8 @@ namespace Signorini
       std::map<VolumeMesh::Face, std::string> named;
       for (const auto &[entity, n, nodes] : elements(2, gmsh_triangle, 3, gmsh_quadrilateral, 4, file))
         for (std::size_t k = 0; k + n <= nodes.size(); k += n)
-          {
-            VolumeMesh::Face face;
-            face.fill(VolumeMesh::no_vertex);
-            bool known = true;
-            for (unsigned int v = 0; v < n; ++v)
-              {
-                const auto it = number.find(nodes[k + v]);
-                known         = known && it != number.end();
-                face[v]       = known ? it->second : 0;
-              }
-            if (known)
-              named[face_key(face)] = group_name(2, entity, "unnamed");
-          }
+          if (const auto face = gmsh_nodes.face(nodes.data() + k, n))
+            named[*face] = group_name(2, entity, "unnamed");
       name_faces(mesh, named);
       return mesh;
     }

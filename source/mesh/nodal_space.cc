@@ -140,6 +140,28 @@ namespace Signorini
       return hexahedral_begin.back() == 0 ? n : n + hexahedral_begin[rank_of(tetrahedral_begin, n) + 1];
     }
 
+    /// Appends the hanging nodes and their parents.
+    void add_constrained(std::vector<NodeIndex> &nodes, const Hexahedra &part) const
+    {
+      for (const auto &line : part.constraints.get_lines())
+        {
+          nodes.push_back(of_hexahedra(line.index));
+          for (const auto &entry : line.entries)
+            nodes.push_back(of_hexahedra(entry.first));
+        }
+    }
+
+    void copy_constraints(AffineConstraints<double> &constraints, const Hexahedra &part) const
+    {
+      for (const auto &line : part.constraints.get_lines())
+        {
+          const NodeIndex node = of_hexahedra(line.index);
+          constraints.add_line(node);
+          for (const auto &[parent, weight] : line.entries)
+            constraints.add_entry(node, of_hexahedra(parent), weight);
+        }
+    }
+
     std::vector<NodeIndex> hexahedral_begin, tetrahedral_begin;
   };
 
@@ -186,25 +208,14 @@ namespace Signorini
       if (node < begin || node >= end)
         relevant.push_back(node);
     if (hexahedra)
-      for (const auto &line : hexahedra->constraints.get_lines())
-        {
-          relevant.push_back(numbering.of_hexahedra(line.index));
-          for (const auto &entry : line.entries)
-            relevant.push_back(numbering.of_hexahedra(entry.first));
-        }
+      numbering.add_constrained(relevant, *hexahedra);
     make_unique(relevant);
     relevant_nodes = owned_nodes;
     relevant_nodes.add_indices(relevant.begin(), relevant.end());
     relevant_nodes.compress();
     constraints.reinit(relevant_nodes);
     if (hexahedra)
-      for (const auto &line : hexahedra->constraints.get_lines())
-        {
-          const NodeIndex node = numbering.of_hexahedra(line.index);
-          constraints.add_line(node);
-          for (const auto &[parent, weight] : line.entries)
-            constraints.add_entry(node, numbering.of_hexahedra(parent), weight);
-        }
+      numbering.copy_constraints(constraints, *hexahedra);
     constraints.close();
     set_positions(corner_points);
 

@@ -47,17 +47,16 @@ namespace Signorini
   {
     using Targets = std::vector<std::pair<unsigned int, Point<3>>>;
     using Cells   = std::vector<ArrayView<const unsigned int>>;
+    using Near    = std::vector<const ArrayView<const unsigned int> *>;
 
-    /// Adds targets for free vertices in the `n_layers` layers of cells around the moved ones: their
-    /// displacements are means of those of their neighbours.
-    Targets let_others_follow(const std::vector<Point<3>> &positions, const Targets &targets,
-                              const Cells &cells, const std::vector<bool> &is_fixed)
+    /// The cells in the `n_layers` layers around vertices with targets.
+    Near cells_near(const std::size_t n_vertices, const Targets &targets, const Cells &cells)
     {
-      constexpr unsigned int n_layers = 3, n_sweeps = 20;
-      std::vector<bool>      near(positions.size(), false);
+      constexpr unsigned int n_layers = 3;
+      std::vector<bool>      near(n_vertices, false);
       for (const auto &target : targets)
         near[target.first] = true;
-      std::vector<const ArrayView<const unsigned int> *> around;
+      Near around;
       for (unsigned int layer = 0; layer < n_layers; ++layer)
         {
           around.clear();
@@ -68,44 +67,68 @@ namespace Signorini
             for (const unsigned int v : *cell)
               near[v] = true;
         }
+      return around;
+    }
 
+    /// Displacements of the vertices that move and of free ones near them.
+    struct Displacements
+    {
       std::unordered_map<unsigned int, std::size_t> index;
-      std::vector<Tensor<1, 3>>                     displacement;
+      std::vector<Tensor<1, 3>>                     values;
+
+      void add(const unsigned int v, const Tensor<1, 3> &value)
+      {
+        index[v] = values.size();
+        values.push_back(value);
+      }
+
+      /// Gauss-Seidel sweeps: each vertex from number n_given on takes the mean of its neighbours, where
+      /// those without a displacement count as zero.
+      void spread(const Near &around, const std::size_t n_given)
+      {
+        constexpr unsigned int                             n_sweeps = 20;
+        std::vector<std::pair<unsigned int, unsigned int>> edges;
+        for (const auto *cell : around)
+          for (const unsigned int v : *cell)
+            if (const auto it = index.find(v); it != index.end() && it->second >= n_given)
+              for (const unsigned int w : *cell)
+                if (w != v)
+                  edges.emplace_back(v, w);
+        std::sort(edges.begin(), edges.end());
+        edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+        for (unsigned int sweep = 0; sweep < n_sweeps; ++sweep)
+          for (std::size_t i = 0, j; i < edges.size(); i = j)
+            {
+              Tensor<1, 3> sum;
+              for (j = i; j < edges.size() && edges[j].first == edges[i].first; ++j)
+                if (const auto it = index.find(edges[j].second); it != index.end())
+                  sum += values[it->second];
+              values[index[edges[i].first]] = sum / static_cast<double>(j - i);
+            }
+      }
+    };
+
+    /// Adds targets for free vertices around the moved ones: their displacements are means of those of their
+    /// neighbours.
+    Targets let_others_follow(const std::vector<Point<3>> &positions, const Targets &targets,
+                              const Cells &cells, const std::vector<bool> &is_fixed)
+    {
+      const Near    around = cells_near(positions.size(), targets, cells);
+      Displacements displacement;
       for (const auto &[v, target] : targets)
-        {
-          index[v] = displacement.size();
-          displacement.push_back(target - positions[v]);
-        }
-      std::vector<std::pair<unsigned int, unsigned int>> edges;
-      std::vector<unsigned int>                          free;
+        displacement.add(v, target - positions[v]);
+      std::vector<unsigned int> free;
       for (const auto *cell : around)
         for (const unsigned int v : *cell)
-          if (!is_fixed[v] && index.count(v) == 0)
+          if (!is_fixed[v] && displacement.index.count(v) == 0)
             {
-              index[v] = displacement.size();
-              displacement.emplace_back();
+              displacement.add(v, Tensor<1, 3>());
               free.push_back(v);
             }
-      for (const auto *cell : around)
-        for (const unsigned int v : *cell)
-          if (const auto it = index.find(v); it != index.end() && it->second >= targets.size())
-            for (const unsigned int w : *cell)
-              if (w != v)
-                edges.emplace_back(v, w);
-      std::sort(edges.begin(), edges.end());
-      edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-      for (unsigned int sweep = 0; sweep < n_sweeps; ++sweep)
-        for (std::size_t i = 0, j; i < edges.size(); i = j)
-          {
-            Tensor<1, 3> sum;
-            for (j = i; j < edges.size() && edges[j].first == edges[i].first; ++j)
-              if (const auto it = index.find(edges[j].second); it != index.end())
-                sum += displacement[it->second];
-            displacement[index[edges[i].first]] = sum / static_cast<double>(j - i);
-          }
+      displacement.spread(around, targets.size());
       Targets all = targets;
       for (const unsigned int v : free)
-        if (const Tensor<1, 3> &d = displacement[index[v]]; d.norm() > 0.)
+        if (const Tensor<1, 3> &d = displacement.values[displacement.index[v]]; d.norm() > 0.)
           all.emplace_back(v, positions[v] + d);
       return all;
     }
@@ -140,12 +163,11 @@ namespace Signorini
     {
     public:
       LateVertices(std::vector<Point<3>> &positions, const Cells &cells, const std::vector<bool> &is_free,
-                   std::vector<double> &reference, const MovementRule &rule)
+                   std::vector<double> &reference)
         : positions(positions)
         , cells(cells)
         , is_free(is_free)
         , reference(reference)
-        , rule(rule)
         , start(positions.size() + 1, 0)
       {
         for (const auto &cell : cells)
@@ -323,17 +345,109 @@ namespace Signorini
       const std::vector<bool> &is_free;
       /// The quality that each cell had at the start; zero where it is not known yet.
       std::vector<double>      &reference;
-      const MovementRule       &rule;
+      const MovementRule        rule;
       std::vector<std::size_t>  start;
       std::vector<unsigned int> star;
     };
 
 
 
+    /// Moves all vertices with targets at once. Those at cells that suffer go half of the way, then a
+    /// quarter, and so on, at last none of it, until all cells keep the tolerated share of their quality.
+    class CommonMovement
+    {
+    public:
+      CommonMovement(std::vector<Point<3>> &positions, const Cells &cells, const Targets &targets)
+        : quality_before(cells.size(), 0.)
+        , positions(positions)
+        , cells(cells)
+        , targets(targets)
+        , moves(positions.size(), false)
+        , halvings(targets.size(), 0)
+      {
+        for (std::size_t i = 0; i < targets.size(); ++i)
+          {
+            index[targets[i].first] = i;
+            moves[targets[i].first] = true;
+            start.push_back(positions[targets[i].first]);
+          }
+        for (unsigned int c = 0; c < cells.size(); ++c)
+          if (std::any_of(cells[c].begin(), cells[c].end(), [&](const unsigned int v) { return moves[v]; }))
+            {
+              around.push_back(c);
+              quality_before[c] = quality(positions, cells[c]);
+            }
+      }
+
+      void run()
+      {
+        for (std::size_t i = 0; i < targets.size(); ++i)
+          place(i);
+        while (damp())
+          {
+          }
+      }
+
+      /// Whether a vertex did not go the whole way.
+      bool is_damped(const std::size_t target) const
+      {
+        return halvings[target] > 0;
+      }
+
+      /// Of the cells at vertices with targets, now; 1 if there are none.
+      double worst_quality() const
+      {
+        double worst = 1.;
+        for (const unsigned int c : around)
+          worst = std::min(worst, quality(positions, cells[c]));
+        return worst;
+      }
+
+      /// By cell; zero where no vertex has a target.
+      std::vector<double> quality_before;
+
+    private:
+      void place(const std::size_t i)
+      {
+        const auto &[v, target] = targets[i];
+        const double share =
+            halvings[i] > rule.n_halvings ? 0. : std::ldexp(1., -static_cast<int>(halvings[i]));
+        positions[v] = start[i] + share * (target - start[i]);
+      }
+
+      /// Takes the vertices of cells that suffer back by one halving; false if there are none.
+      bool damp()
+      {
+        std::vector<bool> goes_back(targets.size(), false);
+        for (const unsigned int c : around)
+          if (!(quality(positions, cells[c]) >= rule.tolerated * quality_before[c]))
+            for (const unsigned int v : cells[c])
+              if (moves[v] && halvings[index[v]] <= rule.n_halvings)
+                goes_back[index[v]] = true;
+        for (std::size_t i = 0; i < targets.size(); ++i)
+          if (goes_back[i])
+            {
+              ++halvings[i];
+              place(i);
+            }
+        return std::find(goes_back.begin(), goes_back.end(), true) != goes_back.end();
+      }
+
+      const MovementRule                            rule;
+      std::vector<Point<3>>                        &positions;
+      const Cells                                  &cells;
+      const Targets                                &targets;
+      std::unordered_map<unsigned int, std::size_t> index;
+      std::vector<bool>                             moves;
+      std::vector<unsigned int>                     halvings, around;
+      std::vector<Point<3>>                         start;
+    };
+
+
+
     /// Several attempts for the vertices that are late, those of `wanted` in its order.
     void try_again(std::vector<unsigned int> &late, std::vector<Point<3>> &positions, const Targets &wanted,
-                   const Cells &cells, const std::vector<bool> &is_fixed, std::vector<double> &reference,
-                   const MovementRule &rule)
+                   const Cells &cells, const std::vector<bool> &is_fixed, std::vector<double> &reference)
     {
       if (late.empty())
         return;
@@ -346,9 +460,10 @@ namespace Signorini
           index[wanted[i].first]   = i;
           is_free[wanted[i].first] = false;
         }
-      std::size_t  n_attempts = 0;
-      LateVertices attempts(positions, cells, is_free, reference, rule);
-      bool         moved = true;
+      const MovementRule rule;
+      std::size_t        n_attempts = 0;
+      LateVertices       attempts(positions, cells, is_free, reference);
+      bool               moved = true;
       for (unsigned int round = 0; round < rule.n_rounds && moved; ++round)
         {
           moved = false;
@@ -366,64 +481,18 @@ namespace Signorini
   MovementReport move_nodes(std::vector<Point<3>> &positions, const Targets &wanted, const Cells &cells,
                             const std::vector<bool> &is_fixed, std::vector<unsigned int> &late)
   {
-    const MovementRule rule;
-    MovementReport     report;
-    const Targets      targets = let_others_follow(positions, wanted, cells, is_fixed);
-    std::unordered_map<unsigned int, std::size_t> index;
-    std::vector<bool>                             moves(positions.size(), false);
-    for (std::size_t i = 0; i < targets.size(); ++i)
-      {
-        index[targets[i].first] = i;
-        moves[targets[i].first] = true;
-      }
-    std::vector<unsigned int> around;
-    std::vector<double>       before(cells.size(), 0.);
-    for (unsigned int c = 0; c < cells.size(); ++c)
-      if (std::any_of(cells[c].begin(), cells[c].end(), [&](const unsigned int v) { return moves[v]; }))
-        {
-          around.push_back(c);
-          before[c]             = quality(positions, cells[c]);
-          report.quality_before = std::min(report.quality_before, before[c]);
-        }
-
-    std::vector<Point<3>>     start;
-    std::vector<unsigned int> halvings(targets.size(), 0);
-    const auto                place = [&](const std::size_t i) {
-      const auto &[v, target] = targets[i];
-      const double share =
-          halvings[i] > rule.n_halvings ? 0. : std::ldexp(1., -static_cast<int>(halvings[i]));
-      positions[v] = start[i] + share * (target - start[i]);
-    };
-    for (const auto &target : targets)
-      start.push_back(positions[target.first]);
-    for (std::size_t i = 0; i < targets.size(); ++i)
-      place(i);
-    std::vector<bool> goes_back(targets.size());
-    for (bool changed = true; changed;)
-      {
-        changed = false;
-        goes_back.assign(targets.size(), false);
-        for (const unsigned int c : around)
-          if (!(quality(positions, cells[c]) >= rule.tolerated * before[c]))
-            for (const unsigned int v : cells[c])
-              if (moves[v] && halvings[index[v]] <= rule.n_halvings)
-                goes_back[index[v]] = true;
-        for (std::size_t i = 0; i < targets.size(); ++i)
-          if (goes_back[i])
-            {
-              ++halvings[i];
-              place(i);
-              changed = true;
-            }
-      }
+    const Targets  targets = let_others_follow(positions, wanted, cells, is_fixed);
+    CommonMovement movement(positions, cells, targets);
+    MovementReport report;
+    report.quality_before = movement.worst_quality();
+    movement.run();
     for (std::size_t i = 0; i < wanted.size(); ++i)
-      if (halvings[i] > 0)
+      if (movement.is_damped(i))
         late.push_back(wanted[i].first);
-    try_again(late, positions, wanted, cells, is_fixed, before, rule);
-    for (const unsigned int c : around)
-      report.quality_after = std::min(report.quality_after, quality(positions, cells[c]));
-    report.n_moved  = wanted.size();
-    report.n_damped = late.size();
+    try_again(late, positions, wanted, cells, is_fixed, movement.quality_before);
+    report.quality_after = movement.worst_quality();
+    report.n_moved       = wanted.size();
+    report.n_damped      = late.size();
     return report;
   }
 } // namespace Signorini

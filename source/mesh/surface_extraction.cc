@@ -194,6 +194,77 @@ namespace Signorini
       std::vector<std::size_t>                  apex;
     };
 
+    /// Whether a corner of a face or its centre lies in a region.
+    bool touches(const PackedFace &face, const std::function<bool(const Point<3> &point)> &region)
+    {
+      const unsigned int n_corners = face.nodes[6] == invalid_node ? 3 : 4;
+      Point<3>           centre;
+      for (unsigned int v = 0; v < 2 * n_corners; v += 2)
+        {
+          const Point<3> corner(face.points[v][0], face.points[v][1], face.points[v][2]);
+          if (region(corner))
+            return true;
+          centre += Tensor<1, 3>(corner) / n_corners;
+        }
+      return region(centre);
+    }
+
+    /// Puts a surface together from the faces of all ranks.
+    class SurfaceAssembly
+    {
+    public:
+      void add_face(const PackedFace &face)
+      {
+        polygon.clear();
+        ContactSurface::Face added;
+        added.owner    = face.owner;
+        added.boundary = face.boundary;
+        for (unsigned int v = 0; v < 8; ++v)
+          if (face.nodes[v] != invalid_node)
+            {
+              polygon.push_back(add_vertex(face.nodes[v], face.points[v], face.fixed[v]));
+              if (v % 2 == 0)
+                added.corners[v / 2] = polygon.back();
+            }
+        if (face.nodes[6] == invalid_node)
+          {
+            added.n_corners  = 3;
+            added.corners[3] = added.corners[0];
+          }
+        surface.faces.push_back(added);
+        PolygonTriangulation(surface.mesh.triangles, polygon, surface.mesh.vertices);
+        surface.triangle_face.resize(surface.mesh.triangles.size(),
+                                     static_cast<unsigned int>(surface.faces.size() - 1));
+      }
+
+      /// After all faces.
+      void add_parent(const PackedParent &entry)
+      {
+        const unsigned int parent = add_vertex(entry.parent, entry.point, entry.fixed);
+        surface.hanging.resize(surface.vertex_node.size());
+        surface.hanging[number[entry.hanging]].emplace_back(parent, entry.weight);
+      }
+
+      ContactSurface surface;
+
+    private:
+      unsigned int add_vertex(const NodeIndex node, const std::array<double, 3> &p, const FixedMask mask)
+      {
+        const auto [it, is_new] =
+            number.insert({node, static_cast<unsigned int>(surface.vertex_node.size())});
+        if (is_new)
+          {
+            surface.vertex_node.push_back(node);
+            surface.vertex_fixed.push_back(mask);
+            surface.mesh.vertices.emplace_back(p[0], p[1], p[2]);
+          }
+        return it->second;
+      }
+
+      std::unordered_map<NodeIndex, unsigned int> number;
+      std::vector<unsigned int>                   polygon;
+    };
+
     TrueShape true_shape_of(const ContactSurface &surface, const SurfaceShapes &shapes)
     {
       std::vector<BoundaryShapePointer> list;
@@ -228,70 +299,20 @@ namespace Signorini
     std::vector<PackedParent> my_parents;
     for (const NodalSpace::BoundaryFace &face : space.boundary_faces())
       if (space.cells()[face.cell].is_owned && ids.count(face.id) > 0)
-        {
-          const PackedFace packed    = pack(face, space, fixed);
-          const double     n_corners = packed.nodes[6] == invalid_node ? 3. : 4.;
-          bool             inside    = !region;
-          Point<3>         centre;
-          for (unsigned int v = 0; v < 2 * n_corners && !inside; v += 2)
-            {
-              const Point<3> corner(packed.points[v][0], packed.points[v][1], packed.points[v][2]);
-              centre += Tensor<1, 3>(corner) / n_corners;
-              inside = region(corner);
-            }
-          if (inside || region(centre))
-            {
-              mine.push_back(packed);
-              pack_parents(my_parents, packed, space, fixed);
-            }
-        }
-
-    ContactSurface                              surface;
-    std::unordered_map<NodeIndex, unsigned int> number;
-    std::vector<unsigned int>                   polygon;
-    const std::vector<PackedFace>               faces = gather_sorted(mine, space.communicator());
-    const auto add_vertex = [&](const NodeIndex node, const std::array<double, 3> &p, const FixedMask mask) {
-      const auto [it, is_new] = number.insert({node, static_cast<unsigned int>(surface.vertex_node.size())});
-      if (is_new)
-        {
-          surface.vertex_node.push_back(node);
-          surface.vertex_fixed.push_back(mask);
-          surface.mesh.vertices.emplace_back(p[0], p[1], p[2]);
-        }
-      return it->second;
-    };
-    for (const PackedFace &face : faces)
-      {
-        polygon.clear();
-        surface.faces.emplace_back();
-        surface.faces.back().owner    = face.owner;
-        surface.faces.back().boundary = face.boundary;
-        for (unsigned int v = 0; v < 8; ++v)
-          if (face.nodes[v] != invalid_node)
-            {
-              const unsigned int vertex = add_vertex(face.nodes[v], face.points[v], face.fixed[v]);
-              polygon.push_back(vertex);
-              if (v % 2 == 0)
-                surface.faces.back().corners[v / 2] = vertex;
-            }
-        if (face.nodes[6] == invalid_node)
+        if (const PackedFace packed = pack(face, space, fixed); !region || touches(packed, region))
           {
-            surface.faces.back().n_corners  = 3;
-            surface.faces.back().corners[3] = surface.faces.back().corners[0];
+            mine.push_back(packed);
+            pack_parents(my_parents, packed, space, fixed);
           }
-        PolygonTriangulation(surface.mesh.triangles, polygon, surface.mesh.vertices);
-        surface.triangle_face.resize(surface.mesh.triangles.size(),
-                                     static_cast<unsigned int>(surface.faces.size() - 1));
-      }
 
+    SurfaceAssembly assembly;
+    for (const PackedFace &face : gather_sorted(mine, space.communicator()))
+      assembly.add_face(face);
     // The constraints come from the mesh, not from the faces: the coarser neighbour of a hanging vertex may
     // lie outside of the region or belong to another boundary. Its corners then are vertices without faces.
     for (const PackedParent &entry : gather_sorted(my_parents, space.communicator()))
-      {
-        const unsigned int parent = add_vertex(entry.parent, entry.point, entry.fixed);
-        surface.hanging.resize(surface.vertex_node.size());
-        surface.hanging[number[entry.hanging]].emplace_back(parent, entry.weight);
-      }
+      assembly.add_parent(entry);
+    ContactSurface surface = std::move(assembly.surface);
     surface.hanging.resize(surface.vertex_node.size());
     surface.true_shape = true_shape_of(surface, shapes);
     set_normals(surface, shapes);

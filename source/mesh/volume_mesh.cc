@@ -35,64 +35,89 @@ namespace Signorini
 
 
 
-  std::vector<std::pair<VolumeMesh::Face, unsigned int>> find_boundary_faces(const VolumeMesh &mesh)
+  namespace
   {
-    struct Entry
+    /// A face as a cell has it; both sides of an inner face have the same key.
+    struct CellFace
     {
       VolumeMesh::Face key, face;
       unsigned int     cell;
     };
-    std::vector<Entry> entries;
-    for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+
+    /// Of all cells; those with the same key follow each other, in the order of their cells.
+    std::vector<CellFace> sorted_faces(const VolumeMesh &mesh)
+    {
+      std::vector<CellFace> faces;
+      for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+        {
+          const VolumeMesh::Cell &cell = mesh.cells[c];
+          for (unsigned int f = 0; f < CellShape::n_faces(cell.n_vertices); ++f)
+            {
+              VolumeMesh::Face face;
+              face[3] = VolumeMesh::no_vertex;
+              if (cell.n_vertices == CellShape::hexahedron)
+                for (unsigned int v = 0; v < 4; ++v)
+                  face[v] = cell.vertices[GeometryInfo<3>::face_to_cell_vertices(f, v)];
+              else
+                for (unsigned int v = 0; v < 3; ++v)
+                  face[v] = cell.vertices[CellShape::face(4, f)[v]];
+              faces.push_back({face_key(face), face, c});
+            }
+        }
+      std::sort(faces.begin(), faces.end(), [](const CellFace &a, const CellFace &b) {
+        return std::tie(a.key, a.cell) < std::tie(b.key, b.cell);
+      });
+      return faces;
+    }
+
+    bool have_same_vertices(VolumeMesh::Cell a, VolumeMesh::Cell b)
+    {
+      for (VolumeMesh::Cell *cell : {&a, &b})
+        {
+          std::fill(cell->vertices.begin() + cell->n_vertices, cell->vertices.end(), VolumeMesh::no_vertex);
+          std::sort(cell->vertices.begin(), cell->vertices.end());
+        }
+      return a.vertices == b.vertices;
+    }
+
+    /// Refuses what no mesh may have: cells that are there twice, more than two cells at a face.
+    void check_sides(const VolumeMesh &mesh, const std::vector<CellFace> &faces, const std::size_t begin,
+                     const std::size_t end)
+    {
+      std::ostringstream message;
+      for (std::size_t j = begin + 1; j < end; ++j)
+        for (std::size_t k = begin; k < j; ++k)
+          if (have_same_vertices(mesh.cells[faces[j].cell], mesh.cells[faces[k].cell]))
+            {
+              message << "the cell near (" << mesh.vertices[faces[j].face[0]]
+                      << ") is there twice. Take the copy out (gmsh's format 2 writes the cells of a volume "
+                         "once for each of its physical groups).";
+              throw InputError(message.str());
+            }
+      if (end - begin > 2)
+        {
+          message << "a face near (" << mesh.vertices[faces[begin].face[0]] << ") belongs to " << end - begin
+                  << " cells. Do cells overlap?";
+          throw InputError(message.str());
+        }
+    }
+  } // namespace
+
+
+
+  std::vector<std::pair<VolumeMesh::Face, unsigned int>> find_boundary_faces(const VolumeMesh &mesh)
+  {
+    const std::vector<CellFace>                            faces = sorted_faces(mesh);
+    std::vector<std::pair<VolumeMesh::Face, unsigned int>> boundary;
+    for (std::size_t begin = 0, end; begin < faces.size(); begin = end)
       {
-        const VolumeMesh::Cell &cell = mesh.cells[c];
-        for (unsigned int f = 0; f < CellShape::n_faces(cell.n_vertices); ++f)
-          {
-            VolumeMesh::Face face;
-            face[3] = VolumeMesh::no_vertex;
-            if (cell.n_vertices == CellShape::hexahedron)
-              for (unsigned int v = 0; v < 4; ++v)
-                face[v] = cell.vertices[GeometryInfo<3>::face_to_cell_vertices(f, v)];
-            else
-              for (unsigned int v = 0; v < 3; ++v)
-                face[v] = cell.vertices[CellShape::face(4, f)[v]];
-            entries.push_back({face_key(face), face, c});
-          }
+        for (end = begin + 1; end < faces.size() && faces[end].key == faces[begin].key;)
+          ++end;
+        check_sides(mesh, faces, begin, end);
+        if (end - begin == 1)
+          boundary.emplace_back(faces[begin].face, faces[begin].cell);
       }
-    std::sort(entries.begin(), entries.end(), [](const Entry &a, const Entry &b) {
-      return std::tie(a.key, a.cell) < std::tie(b.key, b.cell);
-    });
-    const auto sorted_vertices = [&](const unsigned int c) {
-      std::array<unsigned int, 8> vertices = mesh.cells[c].vertices;
-      std::fill(vertices.begin() + mesh.cells[c].n_vertices, vertices.end(), VolumeMesh::no_vertex);
-      std::sort(vertices.begin(), vertices.end());
-      return vertices;
-    };
-    std::vector<std::pair<VolumeMesh::Face, unsigned int>> faces;
-    for (std::size_t i = 0, j; i < entries.size(); i = j)
-      {
-        for (j = i + 1; j < entries.size() && entries[j].key == entries[i].key; ++j)
-          for (std::size_t k = i; k < j; ++k)
-            if (sorted_vertices(entries[j].cell) == sorted_vertices(entries[k].cell))
-              {
-                std::ostringstream message;
-                message
-                    << "the cell near (" << mesh.vertices[entries[j].face[0]]
-                    << ") is there twice. Take the copy out (gmsh's format 2 writes the cells of a volume "
-                       "once for each of its physical groups).";
-                throw InputError(message.str());
-              }
-        if (j - i > 2)
-          {
-            std::ostringstream message;
-            message << "a face near (" << mesh.vertices[entries[i].face[0]] << ") belongs to " << j - i
-                    << " cells. Do cells overlap?";
-            throw InputError(message.str());
-          }
-        if (j - i == 1)
-          faces.emplace_back(entries[i].face, entries[i].cell);
-      }
-    return faces;
+    return boundary;
   }
 
 

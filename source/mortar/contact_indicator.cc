@@ -192,13 +192,12 @@ namespace Signorini
 
 
 
-  std::vector<double> contact_violation(const ContactSurface &nonmortar, const ContactSurface &mortar,
-                                        const std::vector<OverlayTriangle> &overlay,
-                                        const std::vector<Vector3>         &stress,
-                                        const std::vector<Vector3>         &displacement_nonmortar,
-                                        const std::vector<Vector3>         &displacement_mortar,
+  std::vector<double> contact_violation(const FacingSurfaces &pair, const std::vector<Vector3> &stress,
+                                        const std::vector<Vector3> &displacement_nonmortar,
+                                        const std::vector<Vector3> &displacement_mortar,
                                         const GapFunction &prescribed_gap, const double shear_modulus)
   {
+    const auto &[nonmortar, mortar, overlay] = pair;
     const SurfaceValues non(nonmortar), mor(mortar);
     Violation           violation(nonmortar);
     for (const OverlayTriangle &cell : overlay)
@@ -226,12 +225,12 @@ namespace Signorini
 
 
 
-  std::vector<double> tie_violation(const ContactSurface &nonmortar, const ContactSurface &mortar,
-                                    const std::vector<OverlayTriangle> &overlay,
-                                    const std::vector<Vector3>         &displacement_nonmortar,
-                                    const std::vector<Vector3>         &displacement_mortar,
-                                    const double                        shear_modulus)
+  std::vector<double> tie_violation(const FacingSurfaces       &pair,
+                                    const std::vector<Vector3> &displacement_nonmortar,
+                                    const std::vector<Vector3> &displacement_mortar,
+                                    const double                shear_modulus)
   {
+    const auto &[nonmortar, mortar, overlay] = pair;
     const SurfaceValues non(nonmortar), mor(mortar);
     Violation           violation(nonmortar);
     for (const OverlayTriangle &cell : overlay)

@@ -23,14 +23,13 @@ namespace Signorini
 
 
 
-  GeometricPenetration sample_geometric_penetration(const ContactSurface               &nonmortar,
-                                                    const ContactSurface               &mortar,
-                                                    const std::vector<OverlayTriangle> &overlay,
+  GeometricPenetration sample_geometric_penetration(const FacingSurfaces       &pair,
                                                     const std::vector<Vector3> &displacement_nonmortar,
                                                     const std::vector<Vector3> &displacement_mortar,
                                                     const GapFunction          &prescribed_gap,
                                                     const MPI_Comm              communicator)
   {
+    const auto &[nonmortar, mortar, overlay] = pair;
     const SurfaceValues non(nonmortar), mor(mortar);
     double              min_initial = std::numeric_limits<double>::infinity(), min_gap = min_initial;
     for (const OverlayTriangle &cell : overlay)

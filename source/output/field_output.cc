@@ -210,14 +210,91 @@ namespace Signorini
 
 
 
+  namespace
+  {
+    /// The components of the stress in the order of the output: xx, yy, zz, xy, yz, zx.
+    using Stress = std::array<double, 6>;
+
+    /// Collective. Means of the stress over the cells around each relevant node, by volume.
+    class NodalMeans
+    {
+    public:
+      explicit NodalMeans(const NodalSpace &space)
+        : space(space)
+        , partition(space.owned(), space.relevant(), space.communicator())
+      {
+        for (Vector *v : {&normal, &shear, &weight})
+          partition.reinit(*v);
+      }
+
+      void add(const NodalSpace::Cell &cell, const Block &sigma, const double volume)
+      {
+        for (const NodeIndex node : space.nodes(cell))
+          {
+            const unsigned int i = partition.to_local(node);
+            for (unsigned int c = 0; c < 3; ++c)
+              {
+                normal.local_element(3 * i + c) += volume * sigma[c][c];
+                shear.local_element(3 * i + c) += volume * sigma[c][(c + 1) % 3];
+              }
+            weight.local_element(3 * i) += volume;
+          }
+      }
+
+      void finish()
+      {
+        for (Vector *v : {&normal, &shear, &weight})
+          {
+            v->compress(VectorOperation::add);
+            v->update_ghost_values();
+          }
+      }
+
+      /// Of the r-th relevant node; false if there is no cell around it.
+      bool get(Stress &s, const std::size_t r) const
+      {
+        const unsigned int i = partition.to_local(space.relevant().nth_index_in_set(r));
+        const double       w = weight.local_element(3 * i);
+        for (unsigned int c = 0; c < 3 && w > 0.; ++c)
+          {
+            s[c]     = normal.local_element(3 * i + c) / w;
+            s[3 + c] = shear.local_element(3 * i + c) / w;
+          }
+        return w > 0.;
+      }
+
+    private:
+      const NodalSpace   &space;
+      const NodePartition partition;
+      Vector              normal, shear, weight;
+    };
+
+    double von_mises(const Stress &s)
+    {
+      return std::sqrt(.5 * ((s[0] - s[1]) * (s[0] - s[1]) + (s[1] - s[2]) * (s[1] - s[2]) +
+                             (s[2] - s[0]) * (s[2] - s[0])) +
+                       3. * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
+    }
+
+    std::array<double, 3> principal(const Stress &s)
+    {
+      SymmetricTensor<2, 3> tensor;
+      for (unsigned int c = 0; c < 3; ++c)
+        tensor[c][c] = s[c];
+      tensor[0][1] = s[3];
+      tensor[1][2] = s[4];
+      tensor[2][0] = s[5];
+      return eigenvalues(tensor);
+    }
+  } // namespace
+
+
+
   std::vector<OutputField>
   nodal_stress(const NodalSpace &space, const std::vector<double> &displacement,
                const std::function<const Material &(const types::material_id material)> &material)
   {
-    const NodePartition partition(space.owned(), space.relevant(), space.communicator());
-    Vector              normal, shear, weight;
-    for (Vector *v : {&normal, &shear, &weight})
-      partition.reinit(*v);
+    NodalMeans means(space);
     for (const NodalSpace::Cell &cell : space.cells())
       if (cell.is_owned)
         {
@@ -228,55 +305,24 @@ namespace Signorini
             for (unsigned int c = 0; c < 3; ++c)
               u[v][c] = displacement[3 * space.relevant().index_within_set(nodes[v]) + c];
           // The centre is the most accurate point of a hexahedron.
-          const Block sigma =
-              CellDisplacement(element, material(cell.material), u).stress(Point<3>(.5, .5, .5));
-          const double volume = element.volume();
-          for (const NodeIndex node : nodes)
-            {
-              const unsigned int i = partition.to_local(node);
-              for (unsigned int c = 0; c < 3; ++c)
-                {
-                  normal.local_element(3 * i + c) += volume * sigma[c][c];
-                  shear.local_element(3 * i + c) += volume * sigma[c][(c + 1) % 3];
-                }
-              weight.local_element(3 * i) += volume;
-            }
+          means.add(cell, CellDisplacement(element, material(cell.material), u).stress(Point<3>(.5, .5, .5)),
+                    element.volume());
         }
-    for (Vector *v : {&normal, &shear, &weight})
-      {
-        v->compress(VectorOperation::add);
-        v->update_ghost_values();
-      }
+    means.finish();
 
     const std::size_t        n      = space.relevant().n_elements();
     std::vector<OutputField> fields = {{"stress", 6, std::vector<double>(6 * n, 0.)},
                                        {"von_Mises", 1, std::vector<double>(n, 0.)},
                                        {"principal_stress", 3, std::vector<double>(3 * n, 0.)}};
+    Stress                   s;
     for (std::size_t r = 0; r < n; ++r)
-      {
-        const unsigned int i = partition.to_local(space.relevant().nth_index_in_set(r));
-        const double       w = weight.local_element(3 * i);
-        if (!(w > 0.))
-          continue;
-        double s[6];
-        for (unsigned int c = 0; c < 3; ++c)
-          {
-            s[c]     = normal.local_element(3 * i + c) / w;
-            s[3 + c] = shear.local_element(3 * i + c) / w;
-          }
-        std::copy(s, s + 6, fields[0].values.begin() + 6 * r);
-        fields[1].values[r] = std::sqrt(.5 * ((s[0] - s[1]) * (s[0] - s[1]) + (s[1] - s[2]) * (s[1] - s[2]) +
-                                              (s[2] - s[0]) * (s[2] - s[0])) +
-                                        3. * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
-        SymmetricTensor<2, 3> tensor;
-        for (unsigned int c = 0; c < 3; ++c)
-          tensor[c][c] = s[c];
-        tensor[0][1]      = s[3];
-        tensor[1][2]      = s[4];
-        tensor[2][0]      = s[5];
-        const auto values = eigenvalues(tensor);
-        std::copy(values.begin(), values.end(), fields[2].values.begin() + 3 * r);
-      }
+      if (means.get(s, r))
+        {
+          std::copy(s.begin(), s.end(), fields[0].values.begin() + 6 * r);
+          fields[1].values[r] = von_mises(s);
+          const auto values   = principal(s);
+          std::copy(values.begin(), values.end(), fields[2].values.begin() + 3 * r);
+        }
     return fields;
   }
 } // namespace Signorini

@@ -218,6 +218,11 @@ namespace Signorini
 
   private:
     struct Placed;
+    /// Reads a body, takes it into the lists of bodies, boundaries, materials and parts, and puts it in its
+    /// place.
+    Placed place(const BodyParameters &parameters, const std::string &base_folder);
+    /// One for the body, and one for each volume with its own.
+    void add_materials(Placed &placed, const BodyParameters &parameters);
 
     void choose_elements(const BodyParameters &parameters, const Placed &placed);
     void read_shapes(const BodyParameters &parameters, Placed &placed, const std::string &base_folder);

@@ -6,6 +6,7 @@
 
 #include <signorini/discretization/error_indicator.h>
 #include <signorini/mortar/face_moments.h>
+#include <signorini/mortar/surface_values.h>
 
 #include <map>
 #include <vector>
@@ -55,19 +56,16 @@ namespace Signorini
   /// For each face of the nonmortar surface (those of this rank's overlay): the penetration
   /// mu / h_F |(n.(u - u_mor o Phi) - g)_+|^2 and the failure of complementarity |int lambda (g - n.[u])|
   /// (energy). Gaps are geometric, or prescribed.
-  std::vector<double> contact_violation(const ContactSurface &nonmortar, const ContactSurface &mortar,
-                                        const std::vector<OverlayTriangle> &overlay,
-                                        const std::vector<Vector3>         &stress,
-                                        const std::vector<Vector3>         &displacement_nonmortar,
-                                        const std::vector<Vector3>         &displacement_mortar,
+  std::vector<double> contact_violation(const FacingSurfaces &pair, const std::vector<Vector3> &stress,
+                                        const std::vector<Vector3> &displacement_nonmortar,
+                                        const std::vector<Vector3> &displacement_mortar,
                                         const GapFunction &prescribed_gap, const double shear_modulus);
 
   /// The jump of a tied pair, mu / h_F |u - u_mor o Phi|^2, face by face.
-  std::vector<double> tie_violation(const ContactSurface &nonmortar, const ContactSurface &mortar,
-                                    const std::vector<OverlayTriangle> &overlay,
-                                    const std::vector<Vector3>         &displacement_nonmortar,
-                                    const std::vector<Vector3>         &displacement_mortar,
-                                    const double                        shear_modulus);
+  std::vector<double> tie_violation(const FacingSurfaces       &pair,
+                                    const std::vector<Vector3> &displacement_nonmortar,
+                                    const std::vector<Vector3> &displacement_mortar,
+                                    const double                shear_modulus);
 
   /// contact_violation() for a rigid partner, given by the images of points (see compute_face_moments()); for
   /// the faces of rank `rank`.

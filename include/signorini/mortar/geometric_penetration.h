@@ -5,6 +5,7 @@
 #define signorini_mortar_geometric_penetration_h
 
 #include <signorini/mortar/face_moments.h>
+#include <signorini/mortar/surface_values.h>
 
 #include <vector>
 
@@ -27,12 +28,10 @@ namespace Signorini
   /// Collective. Samples seven points (corners, middles of edges, centre) of every overlay triangle of all
   /// ranks, with displacements at their true reference points and normals linear on triangles. The share of
   /// the surface that is covered at all is PairCoupling::covered_area / PairCoupling::area.
-  /// @param overlay of this rank's own faces
+  /// @param pair with the overlay of this rank's own faces
   /// @param displacement_nonmortar displacement_mortar per vertex of each surface (hanging ones too)
   /// @param prescribed_gap replaces initial_gap()·n(x) if not empty
-  GeometricPenetration sample_geometric_penetration(const ContactSurface               &nonmortar,
-                                                    const ContactSurface               &mortar,
-                                                    const std::vector<OverlayTriangle> &overlay,
+  GeometricPenetration sample_geometric_penetration(const FacingSurfaces       &pair,
                                                     const std::vector<Vector3> &displacement_nonmortar,
                                                     const std::vector<Vector3> &displacement_mortar,
                                                     const GapFunction          &prescribed_gap,

@@ -24,6 +24,15 @@ namespace Signorini
                       const OverlayTriangle &cell, const std::array<double, 3> &weights,
                       const dealii::Point<3> &x, const dealii::Point<3> &image);
 
+  /// The two surfaces of a pair, with overlay triangles of the mapping between them (those of this rank's own
+  /// faces, say). Refers to all of them.
+  struct FacingSurfaces
+  {
+    /// The surfaces, and the overlay ordered by nonmortar triangle.
+    const ContactSurface               &nonmortar, &mortar;
+    const std::vector<OverlayTriangle> &overlay;
+  };
+
   /// Fields on a contact surface at points of its triangles. Nodal fields are evaluated at the true reference
   /// point of the face. The surface must outlive the object.
   class SurfaceValues
