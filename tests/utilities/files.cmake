@@ -9,3 +9,8 @@ if(DOXYGEN_FOUND)
   add_test(NAME utilities/doxygen COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/utilities/doxygen_log.py
                                           $<TARGET_FILE:Doxygen::doxygen> ${PROJECT_BINARY_DIR}/doc/Doxyfile)
 endif()
+find_program(CTAGS_PROGRAM ctags)
+if(CTAGS_PROGRAM)
+  add_test(NAME utilities/function_lines.cases
+           COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/utilities/function_lines_cases.py)
+endif()
