@@ -137,6 +137,45 @@ namespace Signorini
           sum.square += force.norm_square() / point.area.norm();
         }
     }
+
+    /// h_F |[sigma n]|^2 / (mu_1 + mu_2), half of it.
+    double jump(const CellStress &inside, const CellStress &outside, const unsigned int face)
+    {
+      const ElementFace shape(inside.element, face);
+      double            square = 0.;
+      for (unsigned int q = 0; q < shape.n_points(); ++q)
+        {
+          const auto    point = shape.point(q);
+          const Vector3 difference =
+              (inside.at_point(point.position) - outside.at_point(point.position)) * point.area;
+          square += difference.norm_square() / point.area.norm();
+        }
+      return .5 * shape.diameter() * square / (inside.shear_modulus() + outside.shear_modulus());
+    }
+
+    FixedMask prescribed_components(const Loads &loads, const types::boundary_id id)
+    {
+      FixedMask fixed = 0;
+      for (const DirichletCondition &condition : loads.dirichlet)
+        if (condition.ids.count(id) > 0)
+          for (unsigned int c = 0; c < dim; ++c)
+            if (condition.components[c])
+              fixed |= 1u << c;
+      return fixed;
+    }
+
+    /// h_F |sigma n - t|^2 / (2 mu), with the loads added to what contact does.
+    double boundary_share(const CellStress &cell, const NodalSpace::BoundaryFace &face, const Loads &loads,
+                          FaceTraction traction)
+    {
+      const FixedMask   fixed = prescribed_components(loads, face.id);
+      const ElementFace shape(cell.element, face.face);
+      for (const Traction &load : loads.tractions)
+        if (load.ids.count(face.id) > 0)
+          add_load(traction, shape, load, fixed);
+      return shape.diameter() * boundary_residual(cell, face.face, traction, fixed) /
+             (2. * cell.shear_modulus());
+    }
   } // namespace
 
 
@@ -155,47 +194,19 @@ namespace Signorini
       if (cells[c].is_owned)
         indicator[c] =
             cell_residual(stress_in(c), loads.volume_forces[bodies.body_of_material(cells[c].material)]);
-
     for (const NodalSpace::InnerFace &face : space.inner_faces())
       {
-        const CellStress  inside = stress_in(face.cell), outside = stress_in(face.other);
-        const ElementFace shape(inside.element, face.face);
-        double            square = 0.;
-        for (unsigned int q = 0; q < shape.n_points(); ++q)
-          {
-            const auto    point = shape.point(q);
-            const Vector3 jump =
-                (inside.at_point(point.position) - outside.at_point(point.position)) * point.area;
-            square += jump.norm_square() / point.area.norm();
-          }
-        const double share =
-            .5 * shape.diameter() * square / (inside.shear_modulus() + outside.shear_modulus());
+        const double share = jump(stress_in(face.cell), stress_in(face.other), face.face);
         indicator[face.cell] += share;
         indicator[face.other] += share;
       }
-
     for (unsigned int f = 0; f < space.boundary_faces().size(); ++f)
-      {
-        const NodalSpace::BoundaryFace &face = space.boundary_faces()[f];
-        if (!cells[face.cell].is_owned)
-          continue;
-        FixedMask fixed = 0;
-        for (const DirichletCondition &condition : loads.dirichlet)
-          if (condition.ids.count(face.id) > 0)
-            for (unsigned int c = 0; c < dim; ++c)
-              if (condition.components[c])
-                fixed |= 1u << c;
-        const CellStress  cell = stress_in(face.cell);
-        const ElementFace shape(cell.element, face.face);
-        FaceTraction      traction;
-        if (const auto it = contact.find(f); it != contact.end())
-          traction = it->second;
-        for (const Traction &load : loads.tractions)
-          if (load.ids.count(face.id) > 0)
-            add_load(traction, shape, load, fixed);
-        indicator[face.cell] += shape.diameter() * boundary_residual(cell, face.face, traction, fixed) /
-                                (2. * cell.shear_modulus());
-      }
+      if (const NodalSpace::BoundaryFace &face = space.boundary_faces()[f]; cells[face.cell].is_owned)
+        {
+          const auto it = contact.find(f);
+          indicator[face.cell] += boundary_share(stress_in(face.cell), face, loads,
+                                                 it == contact.end() ? FaceTraction() : it->second);
+        }
     return indicator;
   }
 

@@ -271,32 +271,43 @@ namespace Signorini
         std::map<VolumeMesh::Face, std::string> named;
         for (const auto &[name, entries] : surfaces)
           for (const auto &[set, side] : entries)
-            {
-              std::set<long> labels;
-              if (std::isdigit(static_cast<unsigned char>(set[0])))
-                labels.insert(std::stol(set));
-              else if (const auto *found = element_sets.find(set))
-                labels = *found;
-              else
-                throw InputError("Mesh file \"" + file + "\": surface \"" + name + "\" refers to ELSET \"" +
-                                 set + "\", which does not exist.");
-              const long face = side.size() > 1 && side[0] == 'S' ? std::atol(side.c_str() + 1) : 0;
-              for (const long label : labels)
-                {
-                  const auto it = elements.find(label);
-                  if (it == elements.end())
-                    continue;
-                  const auto &faces = faces_of(it->second.size());
-                  if (face < 1 || face > static_cast<long>(faces.size()))
-                    throw InputError("Mesh file \"" + file + "\": surface \"" + name + "\" has a side \"" +
-                                     side + "\"; sides are S1, S2, ...");
-                  VolumeMesh::Face key;
-                  key.fill(VolumeMesh::no_vertex);
-                  for (std::size_t v = 0; v < faces[face - 1].size(); ++v)
-                    key[v] = vertex(mesh, it->second[faces[face - 1][v]]);
-                  named.insert({face_key(key), name});
-                }
-            }
+            for (const long label : elements_in(set, name))
+              if (const auto it = elements.find(label); it != elements.end())
+                named.insert({face_key(side_of(mesh, it->second, side, name)), name});
+        name_by_nodes(named, mesh);
+        return named;
+      }
+
+      /// The elements that a line of a surface names: a label or a set.
+      std::set<long> elements_in(const std::string &set, const std::string &surface)
+      {
+        if (std::isdigit(static_cast<unsigned char>(set[0])))
+          return {std::stol(set)};
+        if (const auto *found = element_sets.find(set))
+          return *found;
+        throw InputError("Mesh file \"" + file + "\": surface \"" + surface + "\" refers to ELSET \"" + set +
+                         "\", which does not exist.");
+      }
+
+      /// Side S1, S2, ... of an element with given nodes.
+      VolumeMesh::Face side_of(VolumeMesh &mesh, const std::vector<long> &nodes, const std::string &side,
+                               const std::string &surface)
+      {
+        const long  face  = side.size() > 1 && side[0] == 'S' ? std::atol(side.c_str() + 1) : 0;
+        const auto &faces = faces_of(nodes.size());
+        if (face < 1 || face > static_cast<long>(faces.size()))
+          throw InputError("Mesh file \"" + file + "\": surface \"" + surface + "\" has a side \"" + side +
+                           "\"; sides are S1, S2, ...");
+        VolumeMesh::Face result;
+        result.fill(VolumeMesh::no_vertex);
+        for (std::size_t v = 0; v < faces[face - 1].size(); ++v)
+          result[v] = vertex(mesh, nodes[faces[face - 1][v]]);
+        return result;
+      }
+
+      /// Boundary faces without a name all of whose nodes belong to a set have the name of the smallest one.
+      void name_by_nodes(std::map<VolumeMesh::Face, std::string> &named, const VolumeMesh &mesh) const
+      {
         std::unordered_map<unsigned int, std::set<std::size_t>> sets_of;
         for (std::size_t s = 0; s < node_sets.sets.size(); ++s)
           for (const long label : node_sets.sets[s].second)
@@ -309,16 +320,14 @@ namespace Signorini
               if (v != VolumeMesh::no_vertex)
                 for (auto it = common.begin(); it != common.end();)
                   it = sets_of[v].count(*it) > 0 ? std::next(it) : common.erase(it);
-            if (!common.empty())
-              {
-                const std::size_t smallest = *std::min_element(
-                    common.begin(), common.end(), [&](const std::size_t a, const std::size_t b) {
-                      return node_sets.sets[a].second.size() < node_sets.sets[b].second.size();
-                    });
-                named.insert({face_key(face.first), node_sets.sets[smallest].first});
-              }
+            if (common.empty())
+              continue;
+            const std::size_t smallest = *std::min_element(
+                common.begin(), common.end(), [&](const std::size_t a, const std::size_t b) {
+                  return node_sets.sets[a].second.size() < node_sets.sets[b].second.size();
+                });
+            named.insert({face_key(face.first), node_sets.sets[smallest].first});
           }
-        return named;
       }
 
       const std::string                  file;

@@ -113,27 +113,29 @@ namespace Signorini
                          " is not allowed; it must lie between -1 and 0.5 (0.5 would be incompressible).");
     }
 
-    /// Keeps the cells of some volumes only.
-    void select_volumes(VolumeMesh &mesh, const std::string &list, const std::string &where)
+    /// Which volumes of a mesh a list names.
+    std::vector<bool> volumes_in(const std::string &list, const VolumeMesh &mesh, const std::string &where)
     {
-      if (Utilities::trim(list).empty())
-        return;
-      std::vector<bool> keep(mesh.volume_names.size(), false);
+      std::vector<bool> listed_ones(mesh.volume_names.size(), false);
       for (const std::string &name : Utilities::split_string_list(list, ','))
         {
           const auto it = std::find(mesh.volume_names.begin(), mesh.volume_names.end(), name);
           if (it == mesh.volume_names.end())
             throw InputError(where + ": the mesh has no volume \"" + name + "\"; it has " +
                              listed(mesh.volume_names) + ".");
-          keep[it - mesh.volume_names.begin()] = true;
+          listed_ones[it - mesh.volume_names.begin()] = true;
         }
-      std::map<VolumeMesh::Face, unsigned int> name_of;
-      for (const auto &face : mesh.faces)
-        name_of[face_key(face.vertices)] = face.name;
+      return listed_ones;
+    }
+
+    /// The cells of some volumes with their vertices, without faces; `old` has the old numbers of the
+    /// vertices.
+    VolumeMesh cells_of(const VolumeMesh &mesh, const std::vector<bool> &keep, std::vector<unsigned int> &old)
+    {
       VolumeMesh part;
       part.volume_names = mesh.volume_names;
       part.notes        = mesh.notes;
-      std::vector<unsigned int> number(mesh.vertices.size(), VolumeMesh::no_vertex), old;
+      std::vector<unsigned int> number(mesh.vertices.size(), VolumeMesh::no_vertex);
       for (const VolumeMesh::Cell &cell : mesh.cells)
         if (keep[cell.volume])
           {
@@ -150,6 +152,19 @@ namespace Signorini
                 part.cells.back().vertices[v] = n;
               }
           }
+      return part;
+    }
+
+    /// Keeps the cells of some volumes only; an empty list means all. What was an inner face is "unnamed".
+    void select_volumes(VolumeMesh &mesh, const std::string &list, const std::string &where)
+    {
+      if (Utilities::trim(list).empty())
+        return;
+      std::vector<unsigned int>                old;
+      VolumeMesh                               part = cells_of(mesh, volumes_in(list, mesh, where), old);
+      std::map<VolumeMesh::Face, unsigned int> name_of;
+      for (const auto &face : mesh.faces)
+        name_of[face_key(face.vertices)] = face.name;
       for (const auto &face : find_boundary_faces(part))
         {
           VolumeMesh::Face key = face.first;
@@ -161,7 +176,7 @@ namespace Signorini
               {face.first, index_of(part.boundary_names,
                                     it == name_of.end() ? "unnamed" : mesh.boundary_names[it->second])});
         }
-      mesh = part;
+      mesh = std::move(part);
     }
 
     /// How the parameters of a body are called in messages.
