@@ -18,7 +18,7 @@ MATERIALS = (('M1', ('6.896e5', '0.45'), (20.820, 0.4031, 244.63), (20.8412, 0.4
 
 
 def figures(folder):
-    """F/4 from the contact force, radius from moments, p0 from both (shared/reference/hertz, Figures to report)."""
+    """F/4 from the contact force, radius from moments, p0 from both (doc/verification.md, H1)."""
     with open(os.path.join(folder, 'summary.json')) as f:
         summary = json.load(f)
     force = summary['pairs'][0]['force'][2]

@@ -107,7 +107,7 @@ def pulled(p):
 
 
 def cubes(p):
-    # shared/reference/solver-problems.md, problem M1.
+    # doc/verification.md, problem M1.
     s = p.solve('cubes/cubes.prm')
     certificate(s)
     iterations(s)
@@ -154,7 +154,7 @@ def half_model(p):
     near(half['pairs'][0]['max_pressure'], full['pairs'][0]['max_pressure'], 1e-9, 'pressure')
 
 
-# shared/reference/solver-problems.md, S1: cells a side, active nodes, energy, force.
+# doc/verification.md, S1: cells a side, active nodes, energy, force.
 S1 = ((8, 9, 2.110394093511e-4, 1.14727827e-2), (16, 21, 2.328860217949e-4, 1.17543487e-2), (32, 89, 2.360079949137e-4, 1.18747437e-2))
 
 
@@ -407,7 +407,7 @@ def free_bodies(p):
             check(os.listdir(folder) == [], f'{setting}: something was written')
 
 
-# shared/reference/hertz: F/4, a, p0 of this geometry (M1, M2) and the bars at about 50,000 and 400,000 unknowns.
+# doc/verification.md, H1: F/4, a, p0 of this geometry (M1, M2) and the bars at about 50,000 and 400,000 unknowns.
 H1 = {'M1': (('6.896e5', '0.45'), (20.820, 0.4031, 244.63)), 'M2': (('7e3', '0.3'), (10.638, 0.4047, 124.01))}
 COARSE_BARS, FINE_BARS = (1e-2, 2e-2, 3e-2), (3e-3, 7e-3, 1.5e-2)
 

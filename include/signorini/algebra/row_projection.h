@@ -8,7 +8,7 @@
 
 namespace Signorini
 {
-  /// A_p of method.md, section 10: how a node of the nonmortar side follows a displacement s of the other
+  /// A_p of doc/algorithm.md, (23): how a node of the nonmortar side follows a displacement s of the other
   /// side where components of its own are prescribed. With its unit normal n, m = E_p n and n_F = n - m,
   ///   A_p = E_p + m n_Fᵀ / |m|² ,
   /// the projection onto the free directions that keeps normal parts, n·A_p s = n·s. So u_p = v_p + A_p s

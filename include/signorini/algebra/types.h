@@ -48,7 +48,7 @@ namespace Signorini
 
   constexpr FixedMask all_fixed = 7;
 
-  /// E_p of method.md: the projector onto the free directions of a node.
+  /// E_p of doc/algorithm.md, chapter 4: the projector onto the free directions of a node.
   inline Vector3 project_free(const FixedMask fixed, const Vector3 &v)
   {
     Vector3 w = v;

@@ -15,8 +15,8 @@
 
 namespace Signorini
 {
-  /// u = u_D + T v with T = I + A S, and back (method.md, sections 4 and 10). v is the unknown of the
-  /// obstacle problem: relative displacement at nodes with a multiplier, zero in fixed components.
+  /// u = u_D + T v with T = I + A S, and back (doc/algorithm.md, (25)). v is the unknown of the obstacle
+  /// problem: relative displacement at nodes with a multiplier, zero in fixed components.
   class BasisTransformation
   {
   public:

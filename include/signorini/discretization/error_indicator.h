@@ -23,7 +23,7 @@ namespace Signorini
     double square = 0.;
   };
 
-  /// Collective. The squared residual indicator (energy, method.md section 7) of every cell of the space;
+  /// Collective. The squared residual indicator (energy, doc/algorithm.md, (62)) of every cell of the space;
   /// only those of owned cells are meaningful:
   ///   h^2 |f + div sigma|^2 / (2 mu)  in the cell,
   ///   h_F |[sigma n]|^2 / (mu_1 + mu_2)  half for each cell of an inner face (subface by subface),

@@ -31,7 +31,7 @@ namespace Signorini
   };
 
   /// The rows of P̂ = (I - A S) P (I + A_c S_c) that differ from those of P, for the local nodes of the fine
-  /// level (method.md, section 5). With relative_only the rows of contact nodes have relative displacements
+  /// level (doc/algorithm.md, (34)). With relative_only the rows of contact nodes have relative displacements
   /// only, turned from the coarse normals to the fine one, n·v = sum w n_c·v_c: what coarse obstacles need.
   /// @param rows the rows of P of the local nodes
   std::vector<NodalTransfer::BlockRow> transformed_rows(const NodePartition &partition, const NodeRows &rows,

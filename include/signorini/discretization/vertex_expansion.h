@@ -11,7 +11,7 @@
 namespace Signorini
 {
   /// How the displacement of a mesh vertex depends on the unknowns û: hanging nodes are resolved, and
-  /// u = T û with T = I + A S is applied at nonmortar nodes (method.md, sections 4 and 10).
+  /// u = T û with T = I + A S is applied at nonmortar nodes (doc/algorithm.md, (25)).
   class VertexExpansion
   {
   public:

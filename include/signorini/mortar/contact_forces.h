@@ -34,7 +34,7 @@ namespace Signorini
     Side nonmortar, mortar;
   };
 
-  /// F_non,j = -sum_k D_kj lambda_k n_k and F_mor,q = +sum_k M_kq lambda_k n_k (method.md, section 1). The
+  /// F_non,j = -sum_k D_kj lambda_k n_k and F_mor,q = +sum_k M_kq lambda_k n_k (doc/algorithm.md, (20)). The
   /// sums of both sides cancel to rounding, the moments up to sum_k lambda_k int psi_k (x - Phi(x)) x n_k.
   /// Replicated, no communication.
   /// @param traction contact stress, lambda_k n_k or any (force per area), in the order of the rows of the

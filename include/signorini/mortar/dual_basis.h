@@ -8,7 +8,7 @@
 
 namespace Signorini
 {
-  /// The dual basis on the covered part F_c of one face (method.md, section 3): functions
+  /// The dual basis on the covered part F_c of one face (doc/algorithm.md, (13)): functions
   /// psi_i = sum_a coefficients[i][a] phi_a for the vertices V that may carry a multiplier, with
   ///   int psi_i phi_j = delta_ij int phi_j  for j in V ,   sum_i psi_i = 1 on F_c.
   struct DualBasis

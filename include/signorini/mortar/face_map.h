@@ -15,7 +15,7 @@ namespace Signorini
   /// A face in space, bilinear quadrilateral or triangle, with the inverse of its map.
   ///
   /// Corner functions must be evaluated at the true reference point: through the affine halves they are wrong
-  /// by 1-3 % on faces that are no parallelograms (method.md, section 3, Integration).
+  /// by 1-3 % on faces that are no parallelograms (doc/algorithm.md, chapter 3, moments).
   class FaceMap
   {
   public:

@@ -41,7 +41,7 @@ namespace Signorini
   /// of uncovered faces hold the area only.
   ///
   /// Pairs of parallelograms are integrated exactly (degree 4 on every overlay triangle), other faces and
-  /// prescribed gaps by a collapsed 8x8 Gauss rule (method.md, section 3, Integration).
+  /// prescribed gaps by a collapsed 8x8 Gauss rule (doc/algorithm.md, chapter 3, moments).
   /// @param overlay the overlay of this rank's own faces, ordered by nonmortar triangle (ContactMapping)
   std::vector<FaceMoments> compute_face_moments(const ContactSurface &nonmortar, const ContactSurface &mortar,
                                                 const std::vector<OverlayTriangle> &overlay,

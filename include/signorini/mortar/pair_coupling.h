@@ -38,8 +38,8 @@ namespace Signorini
   /// The reason in words, for messages.
   const char *to_string(const DroppedNode::Reason reason);
 
-  /// When a node loses its multiplier: a thinly covered one (method.md, section 3, Dropping), or one whose
-  /// normal is nearly fixed. Pure numbers.
+  /// When a node loses its multiplier: a thinly covered one, or one whose normal is nearly fixed
+  /// (doc/algorithm.md, chapter 3, which nodes are in R). Pure numbers.
   struct DroppingRule
   {
     /// Least covered share of the integral of the node's own function.
@@ -54,7 +54,8 @@ namespace Signorini
     double smallest_free_normal = .25;
   };
 
-  /// D, M, S = D^-1 M and the weighted gap of one contact pair (method.md, section 3), the same on all ranks.
+  /// D, M, S = D^-1 M and the weighted gap of one contact pair (doc/algorithm.md, (12) to (17)), the same on
+  /// all ranks.
   struct PairCoupling
   {
     /// Rows: the nodes K. Entries: M_kq/D_kk for mortar nodes and -D_kr/D_kk for nodes in R; weight D_kk
@@ -107,7 +108,7 @@ namespace Signorini
   /// fail.
   ///
   /// A node that is nonmortar in two pairs carries a multiplier in none of them: the second pair needs it as
-  /// a column (set R), and no column may be a row (S² = 0, method.md, section 4).
+  /// a column (set R), and no column may be a row (S² = 0, doc/algorithm.md, (16)).
   std::vector<std::set<NodeIndex>> excluded_nodes(const std::vector<std::set<NodeIndex>> &touched_nonmortar,
                                                   const std::vector<std::set<NodeIndex>> &touched_mortar);
 

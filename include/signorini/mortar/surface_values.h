@@ -18,7 +18,7 @@ namespace Signorini
                                 const std::array<double, 3>                &weights);
 
   /// From a point of the true nonmortar surface to its image on the true mortar surface (length):
-  /// Phi(x) + offset_mor - x - offset_non, where x and Phi(x) lie on the facets (method.md, section 9).
+  /// Phi(x) + offset_mor - x - offset_non, where x and Phi(x) lie on the facets (doc/algorithm.md, (18)).
   /// @param weights of the point in the overlay triangle
   Vector3 initial_gap(const ContactSurface &nonmortar, const ContactSurface &mortar,
                       const OverlayTriangle &cell, const std::array<double, 3> &weights,

@@ -2,7 +2,7 @@
 """Times CalculiX (Debian package calculix-ccx) on benchmark H1, material M1, beside Signorini at about the same size.
 
 usage: hertz_calculix.py MESH.npz SIGNORINI HERTZ.prm [WORKDIR]
-MESH.npz comes from the generator of the benchmark's meshes (gen_hertz.py mesh hex 2: 51,735 unknowns): arrays X (nodes),
+MESH.npz is the mesh of H1 that other programs were run on (doc/verification.md; 51,735 unknowns): arrays X (nodes),
 E (hexahedra), body, F and T (boundary faces and their tags: 11 ball candidate, 13 ball top, 14 ball x = 0, 15 ball y = 0,
 21 block candidate, 23 block bottom, 24, 25 block x = 0, y = 0). Prints CPU seconds, peak memory and the force of both.
 """

@@ -3,8 +3,8 @@
 
 usage: solver_table.py PROGRAM [--large] [--tolerance T] [--repeat N] [--methods NAME,...]
 
-Costs are those of the finest solve with its hierarchy (spaces and interpolation of the levels, Galerkin products, updates), in seconds and in sweeps (time of a Gauss-Seidel sweep in the same run, method.md,
-section 8). With --repeat the smallest of each time over N runs: what others do on the machine only adds. --large refines once more: 0.4 to 0.5 million unknowns (some minutes, 2 GB).
+Costs are those of the finest solve with its hierarchy (spaces and interpolation of the levels, Galerkin products, updates), in seconds and in sweeps (time of a Gauss-Seidel sweep in the same run,
+doc/algorithm.md, chapter 16). With --repeat the smallest of each time over N runs: what others do on the machine only adds. --large refines once more: 0.4 to 0.5 million unknowns (some minutes, 2 GB).
 """
 import argparse
 import json

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
-// T at nodes with prescribed components and oblique normals (method.md, section 10).
+// T at nodes with prescribed components and oblique normals (doc/algorithm.md, (23) to (27)).
 
 #include <signorini/algebra/replicated_data.h>
 #include <signorini/discretization/basis_transformation.h>

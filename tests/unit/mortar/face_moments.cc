@@ -47,7 +47,7 @@ namespace
   }
 } // namespace
 
-// Problem M1 of reference/solver-problems.md: prescribed parabolic gap, 3:2 grids.
+// Problem M1 of doc/verification.md: prescribed parabolic gap, 3:2 grids.
 TEST(WeightedGap, ParabolaAgainstTensorProduct)
 {
   const unsigned int n   = 6;

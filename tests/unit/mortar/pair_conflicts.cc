@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
-// Several contact pairs: nodes in two of them, chains and cycles (method.md, section 4).
+// Several contact pairs: nodes in two of them, chains and cycles (doc/algorithm.md, chapter 3).
 
 #include "flat_surfaces.h"
 

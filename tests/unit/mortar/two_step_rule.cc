@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
-// The two-step rule (method.md, section 3) on the cases of reference/dual_basis/two_step_rule.py: a constant
-// pressure gives the exact nodal forces on both sides; translations and rotations are free of stress.
+// The dual basis in two steps, face by face and then over hanging vertices (doc/algorithm.md, (13) to (16)):
+// a constant pressure gives the exact nodal forces on both sides; translations and rotations are free of
+// stress.
 
 #include "flat_surfaces.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
-// Structured cube problems with known answers (shared/reference/solver-problems.md): the solvers see plain
-// rows and blocks, no mesh. Nodes are numbered layer by layer, so every rank owns a slab.
+// Structured cube problems with known answers (doc/verification.md): the solvers see plain rows and blocks,
+// no mesh. Nodes are numbered layer by layer, so every rank owns a slab.
 
 #ifndef tests_unit_solvers_cube_problem_h
 #define tests_unit_solvers_cube_problem_h

@@ -25,7 +25,7 @@ namespace
 
 
 
-// Problem S1 of shared/reference/solver-problems.md: J and the force to the digits given there.
+// Problem S1 of doc/verification.md: J and the force to the digits given there.
 TEST_P(PuncturedCube, ReachesTheKnownSolutionFromZero)
 {
   const Expected          expected  = GetParam();
