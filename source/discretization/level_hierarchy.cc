@@ -330,79 +330,131 @@ namespace Signorini
 
 
 
+  namespace
+  {
+    /// The levels below the finest mesh, with couplings, projections and half-spaces of their own.
+    class LevelsOfMeshes : public LevelSource
+    {
+    public:
+      LevelsOfMeshes(const LevelSpaces &spaces, const InterfaceCoupling &coupling,
+                     const std::vector<RowProjection> &projections, const HierarchyOptions &options)
+        : spaces(spaces)
+        , options(options)
+        , level(spaces.n_levels() - 1)
+        , fine(coupling)
+        , fine_projections(projections)
+      {
+      }
+
+      /// Contact nodes of the level that was described last.
+      LevelInterface interface() const
+      {
+        return {interface_nodes(fine), options.has_stiff_nonmortar};
+      }
+
+      /// The levels get half-spaces that are injected from those of the finest one.
+      void inject(const HalfSpaces &finest, const NodePartition &partition)
+      {
+        half_spaces = replicate_half_spaces(finest, partition, fine.rows);
+      }
+
+      std::optional<CoarserLevel> next(const NodePartition &finer) override;
+      LevelZero                   level_zero(const NodePartition &coarsest) override;
+
+    private:
+      const LevelSpaces      &spaces;
+      const HierarchyOptions &options;
+      /// That was described last, its coupling S, A of its rows, and half-spaces.
+      unsigned int               level;
+      InterfaceCoupling          fine;
+      std::vector<RowProjection> fine_projections;
+      RowHalfSpaces              half_spaces;
+    };
+
+
+
+    std::optional<CoarserLevel> LevelsOfMeshes::next(const NodePartition &finer)
+    {
+      if (level == 0)
+        return {};
+      const std::vector<NodeIndex> nodes     = interface_nodes(fine);
+      NodeRows                     rows      = import_ghost_rows(finer, spaces.interpolation(level));
+      const NodeRows               node_rows = replicate_rows(finer, spaces.interpolation(level), nodes);
+      InterfaceCoupling            coarse    = coarsen_coupling(fine, nodes, node_rows);
+      // Coarse obstacles bound the relative displacements themselves, not just a basis. (Those for a start
+      // may be rough.)
+      if (!options.coarse_obstacles)
+        drop_small_weights(coarse);
+      CoarserLevel result;
+      result.owned = spaces.space(level - 1).owned();
+      result.fixed = spaces.fixed(level - 1);
+      const NodePartition        partition(result.owned, IndexSet(result.owned.size()), finer.communicator());
+      std::vector<RowProjection> projections =
+          coarsen_projections(fine_projections, fine, nodes, node_rows, coarse,
+                              replicate_masks(partition, result.fixed, coarse.rows));
+      const bool                       is_finest = level + 1 == spaces.n_levels();
+      const std::vector<unsigned char> none_tied;
+      const auto                       block_rows =
+          transformed_rows(finer, rows,
+                           {fine, fine_projections, nodes, node_rows, coarse, projections,
+                            options.coarse_obstacles, is_finest ? options.tied : none_tied});
+      result.transfer.reinit(std::move(rows), block_rows, finer.n_owned());
+      if (options.coarse_obstacles)
+        result.contact = contact_nodes(coarse, projections, partition);
+      if (!half_spaces.normals.empty())
+        {
+          half_spaces        = inject_half_spaces(half_spaces, fine, nodes, node_rows, coarse, projections);
+          result.half_spaces = own_half_spaces(half_spaces, coarse.rows, partition);
+        }
+      fine             = std::move(coarse);
+      fine_projections = std::move(projections);
+      --level;
+      result.interface = interface();
+      return result;
+    }
+
+
+
+    LevelZero LevelsOfMeshes::level_zero(const NodePartition &coarsest)
+    {
+      LevelZero result;
+      result.method  = options.level_zero;
+      result.n_steps = options.level_zero_steps;
+      // A hierarchy of one level: its copy has the same contact nodes.
+      if (options.coarse_obstacles)
+        result.contact = contact_nodes(fine, fine_projections, coarsest);
+      if (!options.free_motions.empty())
+        {
+          result.free_motions =
+              motion_fields(options.free_motions, *options.bodies, spaces.space(0), coarsest);
+          for (Vector &motion : result.free_motions)
+            make_relative(motion, coarsest, spaces.fixed(0), fine, fine_projections);
+          orthonormalize(result.free_motions);
+        }
+      if (result.uses_amg(coarsest.n_global()))
+        result.near_kernel =
+            rigid_motions(spaces.space(0), coarsest, spaces.fixed(0), fine, fine_projections);
+      return result;
+    }
+  } // namespace
+
+
+
   MultigridHierarchy build_hierarchy(LinearSystem &&system, const LevelSpaces &spaces,
                                      const InterfaceCoupling          &coupling,
                                      const std::vector<RowProjection> &projections,
                                      const HierarchyOptions           &options)
   {
-    MultigridHierarchy         hierarchy(std::move(system.matrix), std::move(system.fixed));
-    InterfaceCoupling          fine             = coupling;
-    std::vector<RowProjection> fine_projections = projections;
-    RowHalfSpaces              half_spaces;
+    LevelsOfMeshes levels(spaces, coupling, projections, options);
+    HierarchyParts parts;
+    parts.matrix    = std::move(system.matrix);
+    parts.fixed     = std::move(system.fixed);
+    parts.interface = levels.interface();
+    parts.levels    = &levels;
+    parts.problem   = options.problem;
+    parts.start     = options.start;
     if (options.problem != nullptr && options.start == nullptr)
-      half_spaces = replicate_half_spaces(options.problem->half_spaces, hierarchy.finest().matrix.partition(),
-                                          coupling.rows);
-    const std::vector<unsigned char> none_tied;
-    for (unsigned int l = spaces.n_levels() - 1;; --l)
-      {
-        const NodePartition         &partition = hierarchy.coarsest().matrix.partition();
-        const std::vector<NodeIndex> nodes     = interface_nodes(fine);
-        if (!nodes.empty())
-          hierarchy.set_interface(nodes, options.has_stiff_nonmortar);
-        if (l + 1 == spaces.n_levels() && options.start != nullptr)
-          hierarchy.expect_active_set(*options.problem, *options.start);
-        if (l == 0)
-          break;
-
-        NodeRows          rows      = import_ghost_rows(partition, spaces.interpolation(l));
-        const NodeRows    node_rows = replicate_rows(partition, spaces.interpolation(l), nodes);
-        InterfaceCoupling coarse    = coarsen_coupling(fine, nodes, node_rows);
-        // Coarse obstacles bound the relative displacements themselves, not just a basis. (Those for a start
-        // may be rough.)
-        if (!options.coarse_obstacles)
-          drop_small_weights(coarse);
-        const IndexSet            &owned = spaces.space(l - 1).owned();
-        const NodePartition        coarse_partition(owned, IndexSet(owned.size()), partition.communicator());
-        std::vector<RowProjection> coarse_projections =
-            coarsen_projections(fine_projections, fine, nodes, node_rows, coarse,
-                                replicate_masks(coarse_partition, spaces.fixed(l - 1), coarse.rows));
-        const auto    block_rows = transformed_rows(partition, rows,
-                                                    {fine, fine_projections, nodes, node_rows, coarse,
-                                                     coarse_projections, options.coarse_obstacles,
-                                                  l + 1 == spaces.n_levels() ? options.tied : none_tied});
-        NodalTransfer transfer;
-        transfer.reinit(std::move(rows), block_rows, partition.n_owned());
-        hierarchy.add_coarser_level(std::move(transfer), owned, spaces.fixed(l - 1));
-        MultigridLevel &level = hierarchy.coarsest();
-        if (options.coarse_obstacles)
-          level.contact = contact_nodes(coarse, coarse_projections, level.matrix.partition());
-        if (!half_spaces.normals.empty())
-          {
-            half_spaces = inject_half_spaces(half_spaces, fine, nodes, node_rows, coarse, coarse_projections);
-            level.half_spaces = own_half_spaces(half_spaces, coarse.rows, level.matrix.partition());
-          }
-        fine             = std::move(coarse);
-        fine_projections = std::move(coarse_projections);
-      }
-    LevelZero level_zero;
-    level_zero.method  = options.level_zero;
-    level_zero.n_steps = options.level_zero_steps;
-    // A hierarchy of one level: its copy has the same contact nodes.
-    const NodePartition &partition = hierarchy.coarsest().matrix.partition();
-    if (options.coarse_obstacles)
-      level_zero.contact = contact_nodes(fine, fine_projections, partition);
-    if (!options.free_motions.empty())
-      {
-        level_zero.free_motions =
-            motion_fields(options.free_motions, *options.bodies, spaces.space(0), partition);
-        for (Vector &motion : level_zero.free_motions)
-          make_relative(motion, partition, spaces.fixed(0), fine, fine_projections);
-        orthonormalize(level_zero.free_motions);
-      }
-    if (level_zero.uses_amg(partition.n_global()))
-      level_zero.near_kernel =
-          rigid_motions(spaces.space(0), partition, spaces.fixed(0), fine, fine_projections);
-    hierarchy.finish(std::move(level_zero));
-    return hierarchy;
+      levels.inject(options.problem->half_spaces, parts.matrix.partition());
+    return MultigridHierarchy(std::move(parts));
   }
 } // namespace Signorini

@@ -63,13 +63,12 @@ namespace Signorini
 
   ConvergenceReport ActiveSetAmg::solve(Vector &v, const ObstacleProblem &problem, const Monitor &monitor)
   {
-    const NodeBlockMatrix &matrix   = hierarchy.finest().matrix;
-    const HalfSpaces      &spaces   = problem.half_spaces;
-    const MPI_Comm         comm     = matrix.partition().communicator();
-    ProjectedGaussSeidel  &smoother = *hierarchy.finest().smoother;
-    smoother.set_half_spaces(spaces);
-    smoother.project(v);
-    is_active = smoother.active();
+    const NodeBlockMatrix &matrix = this->matrix();
+    const HalfSpaces      &spaces = problem.half_spaces;
+    const MPI_Comm         comm   = matrix.partition().communicator();
+    contact                       = ContactState(matrix, spaces);
+    contact.project(v);
+    is_active = contact.active();
 
     ConvergenceReport  report;
     AlgebraicMultigrid amg;

@@ -1,19 +1,26 @@
 signorini_add_layer(solvers
   active_set_amg.cc
   coarse_cholesky.cc
+  contact_state.cc
   gauss_seidel_iteration.cc
   interface_correction.cc
   level_zero_solver.cc
+  line_search.cc
   linear_multigrid.cc
   monotone_multigrid.cc
   multigrid_hierarchy.cc
   obstacle_problem.cc
   obstacle_solver.cc
   projected_gauss_seidel.cc
+  rounded_gauss_seidel.cc
+  smoother.cc
+  staged_smoother.cc
   strong_blocks.cc
+  substep_check.cc
   sweep_measurement.cc
+  sweep_rate.cc
   sweep_schedule.cc
-  rounded_smoothing.cc
+  truncated_cycle.cc
   truncated_newton_multigrid.cc
   v_cycle.cc
 )

@@ -13,8 +13,11 @@ namespace Signorini
 
   namespace
   {
-    /// Steps of the active set method.
-    constexpr unsigned int n_steps = 20;
+    struct InterfaceCorrectionRule
+    {
+      /// Steps of the active set method, which may cycle: then one shortened step is taken instead.
+      unsigned int n_steps = 20;
+    };
 
     /// What a rank tells about one of its contact nodes.
     struct NodeState
@@ -143,7 +146,7 @@ namespace Signorini
       if (has_factors)
         for (std::size_t i = 0; i < n; ++i)
           active[i] = factorized[i] && state[i].room >= 0.;
-      for (unsigned int k = 0; k < n_steps; ++k)
+      for (unsigned int k = 0; k < InterfaceCorrectionRule().n_steps; ++k)
         {
           if (!minimize(step, residual, state, active, true))
             break;
@@ -175,7 +178,7 @@ namespace Signorini
 
   InterfaceCorrection::InterfaceCorrection(const NodeBlockMatrix        &matrix,
                                            const std::vector<NodeIndex> &contact_nodes)
-    : matrix(matrix)
+    : SmoothingStage(matrix)
     , nodes(contact_nodes)
     , is_contact(matrix.partition().n_local(), false)
   {
@@ -185,7 +188,7 @@ namespace Signorini
         {
           is_contact[local] = true;
           if (local < matrix.n_rows())
-            rows.push_back(local);
+            owned.push_back(local);
         }
   }
 
@@ -210,7 +213,7 @@ namespace Signorini
       return std::lower_bound(nodes.begin(), nodes.end(), partition.to_global(local)) - nodes.begin();
     };
     PackedMatrix packed;
-    for (const unsigned int row : rows)
+    for (const unsigned int row : owned)
       for (const BlockRange &range : matrix.ranges(row))
         for (std::size_t k = range.begin; k < range.end; ++k)
           if (is_contact[matrix.column(k)])
@@ -243,7 +246,7 @@ namespace Signorini
 
 
 
-  void InterfaceCorrection::apply(Vector &v, const Vector &rhs, const ContactState &contact)
+  void InterfaceCorrection::run(Vector &v, const Vector &rhs, ContactState &contact, const Direction)
   {
     const MPI_Comm comm = matrix.partition().communicator();
     if (Utilities::MPI::min(static_cast<int>(is_current), comm) == 0)
@@ -251,10 +254,10 @@ namespace Signorini
     is_current = true;
 
     v.update_ghost_values();
-    std::vector<double> mine(n_numbers * rows.size());
-    for (std::size_t r = 0; r < rows.size(); ++r)
+    std::vector<double> mine(n_numbers * owned.size());
+    for (std::size_t r = 0; r < owned.size(); ++r)
       {
-        const unsigned int row = rows[r];
+        const unsigned int row = owned[r];
         NodeState          state;
         for (unsigned int c = 0; c < dim; ++c)
           state.residual[c] = rhs.local_element(dim * row + c);
@@ -262,11 +265,12 @@ namespace Signorini
         matrix.multiply_row(product, row, v);
         for (unsigned int c = 0; c < dim; ++c)
           state.residual[c] -= product[c];
-        if (const int p = contact.half_space_of_row[row]; p >= 0)
+        if (const int p = contact.at(row); p >= 0)
           {
-            state.normal = contact.half_spaces.normals[p];
-            state.room = std::max(0., contact.half_spaces.bounds[p] - contact.half_spaces.normal_part(p, v));
-            state.is_active = contact.active[p];
+            const HalfSpaces &spaces = contact.half_spaces();
+            state.normal             = spaces.normals[p];
+            state.room               = std::max(0., spaces.bounds[p] - spaces.normal_part(p, v));
+            state.is_active          = contact.active()[p];
           }
         std::memcpy(mine.data() + n_numbers * r, &state, sizeof(NodeState));
       }
@@ -295,14 +299,14 @@ namespace Signorini
           }
       }
     result = Utilities::MPI::broadcast(comm, result, 0);
-    for (const unsigned int row : rows)
+    for (const unsigned int row : owned)
       {
         const auto i =
             std::lower_bound(nodes.begin(), nodes.end(), matrix.partition().to_global(row)) - nodes.begin();
         for (unsigned int c = 0; c < dim; ++c)
           v.local_element(dim * row + c) += result[(dim + 1) * i + c];
-        if (const int p = contact.half_space_of_row[row]; p >= 0)
-          contact.active[p] = result[(dim + 1) * i + dim] != 0.;
+        if (const int p = contact.at(row); p >= 0)
+          contact.set_active(p, result[(dim + 1) * i + dim] != 0.);
       }
   }
 } // namespace Signorini

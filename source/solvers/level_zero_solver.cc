@@ -29,7 +29,7 @@ namespace Signorini
 
 
 
-  void LevelZeroSolver::setup(const NodeBlockMatrix &new_matrix, const LevelZero &level_zero)
+  void LevelZeroSolver::setup(const NodeBlockMatrix &new_matrix)
   {
     matrix  = &new_matrix;
     n_steps = level_zero.method == LevelZeroMethod::algebraic_shortened ? level_zero.n_steps : 0;

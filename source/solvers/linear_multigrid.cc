@@ -10,7 +10,7 @@ namespace Signorini
   using namespace dealii;
 
   LinearMultigrid::LinearMultigrid(MultigridHierarchy &hierarchy, const SolverParameters &parameters)
-    : ObstacleSolver(hierarchy, parameters)
+    : ObstacleSolver(hierarchy, parameters, hierarchy.n_levels() - 1)
     , cycle(hierarchy, parameters.smoothing, hierarchy.n_levels() - 1)
   {
   }
@@ -19,17 +19,16 @@ namespace Signorini
 
   ConvergenceReport LinearMultigrid::solve(Vector &v, const ObstacleProblem &problem, const Monitor &monitor)
   {
-    const NodeBlockMatrix &matrix = hierarchy.finest().matrix;
-    AssertThrow(Utilities::MPI::sum(problem.half_spaces.size(), matrix.partition().communicator()) == 0,
+    AssertThrow(Utilities::MPI::sum(problem.half_spaces.size(), matrix().partition().communicator()) == 0,
                 ExcMessage("The linear multigrid cannot solve problems with contact."));
-    hierarchy.finest().smoother->set_half_spaces(problem.half_spaces);
+    contact = ContactState(matrix());
 
     ConvergenceReport  report;
-    ConjugateDirection conjugate;
+    ConjugateGradients conjugate;
     Vector             z, product, residual, new_residual;
     for (Vector *vector : {&z, &product, &residual, &new_residual})
       vector->reinit(v);
-    matrix.symmetric_residual(residual, v, problem.rhs);
+    matrix().symmetric_residual(residual, v, problem.rhs);
     while (goes_on(report))
       {
         cycle.apply(z, residual, new_residual);
@@ -41,23 +40,17 @@ namespace Signorini
         // Rounding along motions that cost nothing feeds on itself through old directions.
         if (problem.semidefinite && !report.history.empty() && norm > report.history.back())
           conjugate.restart();
-        bool has_step = false;
-        if (parameters.method == SolverMethod::multigrid_cg)
+        const double length = parameters.method == SolverMethod::multigrid_cg
+                                  ? conjugate.find_step(z, product, residual, contact)
+                                  : 0.;
+        if (length > 0.)
           {
-            conjugate.update(z, product);
-            const Vector &p = conjugate.direction(), &ap = conjugate.product();
-            const double  curvature = p * ap, slope = residual * p;
-            has_step = curvature > 0. && slope > 0.;
-            if (has_step)
-              {
-                v.add(slope / curvature, p);
-                residual.add(-slope / curvature, ap);
-              }
-            else
-              conjugate.restart();
+            v.add(length, conjugate.direction());
+            residual.add(-length, conjugate.product());
           }
-        if (!has_step)
+        else
           {
+            conjugate.restart();
             v += z;
             residual.swap(new_residual);
           }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/solvers/line_search.h>
 #include <signorini/solvers/monotone_multigrid.h>
+#include <signorini/solvers/substep_check.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -12,12 +14,19 @@ namespace Signorini
   namespace
   {
     constexpr double no_bound = std::numeric_limits<double>::max();
+
+    struct MonotoneRule
+    {
+      /// Newton steps, each as far as it is admissible, with sweeps in between. Without half-spaces in the
+      /// way the first one is the solution.
+      unsigned int n_steps_on_level_zero = 3;
+    };
   } // namespace
 
 
 
   MonotoneMultigrid::MonotoneMultigrid(MultigridHierarchy &hierarchy, const SolverParameters &parameters)
-    : ObstacleSolver(hierarchy, parameters)
+    : ObstacleSolver(hierarchy, parameters, hierarchy.n_levels() - 1)
     , work(hierarchy.n_levels() - 1)
   {
     for (unsigned int l = 0; l + 1 < hierarchy.n_levels(); ++l)
@@ -78,31 +87,25 @@ namespace Signorini
 
   void MonotoneMultigrid::solve_level_zero()
   {
-    MultigridLevel        &level    = hierarchy.level(0);
-    Work                  &w        = work[0];
-    ProjectedGaussSeidel  &smoother = *level.smoother;
-    const HalfSpaces       spaces   = half_spaces_of(0);
-    const MPI_Comm         comm     = level.matrix.partition().communicator();
-    constexpr unsigned int n_steps  = 3;
-    w.correction                    = 0.;
+    MultigridLevel &coarsest = hierarchy.level(0);
+    Work           &w        = work[0];
+    w.contact                = ContactState(coarsest.matrix, half_spaces_of(0));
+    w.correction             = 0.;
     Vector step;
     step.reinit(w.correction);
-    smoother.set_half_spaces(spaces);
-    // Newton steps as far as they are admissible, sweeps in between. Without half-spaces in the way the first
-    // step is the solution.
-    for (unsigned int i = 0; i < n_steps; ++i)
+    for (unsigned int i = 0; i < MonotoneRule().n_steps_on_level_zero; ++i)
       {
-        level.matrix.symmetric_residual(w.residual, w.correction, w.rhs);
+        coarsest.matrix.symmetric_residual(w.residual, w.correction, w.rhs);
         hierarchy.coarse_solver().solve(step, w.residual);
-        const double length =
-            std::min(1., Utilities::MPI::min(spaces.longest_step(w.correction, step), comm));
+        const HalfSpaces &spaces = w.contact.half_spaces();
+        const double      length = std::min(1., Utilities::MPI::min(spaces.longest_step(w.correction, step),
+                                                                    coarsest.matrix.partition().communicator()));
         w.correction.add(length, step);
         if (length == 1.)
           break;
-        for (const auto direction : {ProjectedGaussSeidel::forward, ProjectedGaussSeidel::backward})
-          smoother.smooth(w.correction, w.rhs, parameters.smoothing, direction);
+        for (const auto direction : {Direction::forward, Direction::backward})
+          coarsest.smoother->smooth(w.correction, w.rhs, w.contact, parameters.smoothing, direction);
       }
-    smoother.set_half_spaces(HalfSpaces());
   }
 
 
@@ -114,22 +117,20 @@ namespace Signorini
         solve_level_zero();
         return;
       }
-    MultigridLevel  &here   = hierarchy.level(level);
-    Work            &w      = work[level];
-    Work            &below  = work[level - 1];
-    const HalfSpaces spaces = half_spaces_of(level);
-    here.smoother->set_half_spaces(spaces);
-    here.smoother->smooth_from_zero(w.correction, w.rhs, parameters.smoothing, w.residual);
+    MultigridLevel &here  = hierarchy.level(level);
+    Work           &w     = work[level];
+    Work           &below = work[level - 1];
+    w.contact             = ContactState(here.matrix, half_spaces_of(level));
+    here.smoother->smooth_from_zero(w.correction, w.rhs, w.contact, parameters.smoothing, w.residual);
     below.rhs = 0.;
     restrict_defect(hierarchy.level(level - 1), below.rhs, w.residual);
-    restrict_room(level - 1, spaces, w.correction, nullptr);
+    restrict_room(level - 1, w.contact.half_spaces(), w.correction, nullptr);
     correct_level(level - 1);
     hierarchy.level(level - 1).to_finer.prolongate(below.finer, below.correction);
     w.correction.zero_out_ghost_values();
     w.correction += below.finer;
 
-    here.smoother->smooth_to_residual(w.correction, w.rhs, parameters.smoothing, nullptr);
-    here.smoother->set_half_spaces(HalfSpaces());
+    here.smoother->smooth_to_residual(w.correction, w.rhs, w.contact, parameters.smoothing, nullptr);
   }
 
 
@@ -137,41 +138,44 @@ namespace Signorini
   ConvergenceReport MonotoneMultigrid::solve(Vector &v, const ObstacleProblem &problem,
                                              const Monitor &monitor)
   {
-    const NodeBlockMatrix &matrix   = hierarchy.finest().matrix;
-    ProjectedGaussSeidel  &smoother = *hierarchy.finest().smoother;
-    const unsigned int     coarse   = hierarchy.n_levels() - 2;
-    smoother.set_half_spaces(problem.half_spaces);
-    smoother.project(v);
+    Smoother          &smoother = *hierarchy.level(level).smoother;
+    const unsigned int coarse   = level - 1;
+    contact                     = ContactState(matrix(), problem.half_spaces);
+    contact.project(v);
 
     ConvergenceReport report;
+    SubstepCheck      check(matrix(), problem, report, parameters.check_monotonicity);
     Vector            start, residual, product;
     for (Vector *vector : {&start, &residual, &product})
       vector->reinit(v);
     unsigned int n_updates = 0;
-    double       energy    = std::numeric_limits<double>::infinity();
     while (goes_on(report))
       {
         start.copy_locally_owned_data_from(v);
-        smoother.smooth(v, problem.rhs, parameters.smoothing, ProjectedGaussSeidel::forward);
-        check_substep(report, energy, v, problem);
+        smoother.smooth(v, problem.rhs, contact, parameters.smoothing, Direction::forward);
+        check(v);
 
-        if (hierarchy.truncate(problem.half_spaces, smoother.active()))
+        if (hierarchy.truncate(level, problem.half_spaces, contact.active()))
           ++n_updates;
-        matrix.symmetric_residual(residual, v, problem.rhs);
+        matrix().symmetric_residual(residual, v, problem.rhs);
         const double square = v * problem.rhs - v * residual;
         work[coarse].rhs    = 0.;
         restrict_defect(hierarchy.level(coarse), work[coarse].rhs, residual);
-        restrict_room(coarse, problem.half_spaces, v, &smoother.active());
+        restrict_room(coarse, problem.half_spaces, v, &contact.active());
         correct_level(coarse);
         hierarchy.level(coarse).to_finer.prolongate(work[coarse].finer, work[coarse].correction);
         v.zero_out_ghost_values();
-        add_searched(v, work[coarse].finer, residual, problem.half_spaces, problem.semidefinite);
-        check_substep(report, energy, v, problem);
+        const Vector &step = work[coarse].finer;
+        contact.restrict_to_tangents(residual);
+        v.add(search_along(matrix(), step, residual, contact.longest_step(v, step), problem.semidefinite)
+                  .length,
+              step);
+        check(v);
 
-        smoother.smooth(v, problem.rhs, parameters.smoothing, ProjectedGaussSeidel::backward);
-        check_substep(report, energy, v, problem);
+        smoother.smooth(v, problem.rhs, contact, parameters.smoothing, Direction::backward);
+        check(v);
         start.sadd(-1., 1., v);
-        matrix.vmult(product, start);
+        matrix().vmult(product, start);
         book_iteration(report, std::sqrt(std::max(start * product, 0.)), std::sqrt(std::max(square, 0.)),
                        monitor);
       }

@@ -85,130 +85,156 @@ namespace Signorini
 
 
 
-  MultigridHierarchy::MultigridHierarchy(NodeBlockMatrix &&matrix, std::vector<FixedMask> fixed)
+  ContactState find_active(MultigridLevel &level, const HalfSpaces &half_spaces, const Vector &rhs, Vector &v)
   {
-    levels.push_back(std::make_unique<MultigridLevel>());
-    levels[0]->matrix = std::move(matrix);
-    levels[0]->fixed  = std::move(fixed);
-    levels[0]->scale  = diagonal_scale(levels[0]->matrix);
-    eliminate_fixed_components(levels[0]->matrix, levels[0]->fixed, all_rows(levels[0]->matrix),
-                               levels[0]->scale);
-    levels[0]->smoother = std::make_unique<ProjectedGaussSeidel>(levels[0]->matrix);
+    ContactState contact(level.matrix, half_spaces);
+    contact.project(v);
+    level.smoother->smooth(v, rhs, contact, {0, 0, 1}, Direction::forward);
+    return contact;
   }
 
 
 
-  void MultigridHierarchy::add_coarser_level(NodalTransfer &&transfer, const IndexSet &owned_coarse,
-                                             const std::vector<FixedMask> &fixed)
+  MultigridHierarchy::MultigridHierarchy(HierarchyParts &&parts)
+    : level_zero_solver(std::move(parts.coarse_solver))
+    , was_expected(parts.start != nullptr)
   {
-    const NodeBlockMatrix &fine = levels.back()->matrix;
-    levels.push_back(std::make_unique<MultigridLevel>());
-    MultigridLevel &level = *levels.back();
-    level.to_finer        = std::move(transfer);
-    if (levels.size() == 2 && expected_nodes.size() > 0)
-      {
-        truncate_transfer(expected_planes, expected_nodes);
-        for (Vector *vector : {&expected_planes, &expected_nodes})
-          vector->reinit(0);
-      }
-    reinit_galerkin(level.matrix, fine, level.to_finer, owned_coarse);
-    level.fixed = import_ghost_masks(level.matrix.partition(), fixed);
-    compute_galerkin(level.matrix, fine, level.to_finer);
-    level.scale = diagonal_scale(level.matrix);
-    eliminate_fixed_components(level.matrix, level.fixed, all_rows(level.matrix), level.scale);
-    level.smoother = std::make_unique<ProjectedGaussSeidel>(level.matrix);
-  }
-
-
-
-  void MultigridHierarchy::set_interface(const std::vector<NodeIndex> &contact_nodes, const bool may_be_slow)
-  {
-    const NodeBlockMatrix &matrix = coarsest().matrix;
-    std::vector<bool>      is_contact(matrix.partition().n_local(), false);
-    for (const NodeIndex node : contact_nodes)
-      if (const unsigned int local = matrix.partition().to_local(node);
-          local != numbers::invalid_unsigned_int)
-        is_contact[local] = true;
-    const std::vector<unsigned int> rows =
-        matrix.rows_with_column([&](const unsigned int column) { return is_contact[column]; });
-    coarsest().smoother->set_interface(rows);
-    if (may_be_slow && coarsest().smoother->correct_slow_interface(contact_nodes))
-      slow_interface = true;
-  }
-
-
-
-  void MultigridHierarchy::finish(LevelZero new_level_zero)
-  {
-    level_zero = std::move(new_level_zero);
+    add_finest(parts);
+    if (parts.levels == nullptr)
+      return;
+    while (auto description = parts.levels->next(levels.back()->matrix.partition()))
+      add_coarser(std::move(*description), parts);
+    LevelZero level_zero = parts.levels->level_zero(levels.back()->matrix.partition());
     if (levels.size() == 1)
-      {
-        const NodePartition &partition = levels[0]->matrix.partition();
-        NodeRows             rows;
-        for (unsigned int i = 0; i < partition.n_local(); ++i)
-          {
-            rows.add(partition.to_global(i), 1.);
-            rows.finish_row();
-          }
-        NodalTransfer identity;
-        identity.reinit(rows, {}, partition.n_owned());
-        IndexSet owned(partition.n_global());
-        owned.add_range(partition.first_owned(), partition.first_owned() + partition.n_owned());
-        const std::vector<FixedMask> fixed(levels[0]->fixed.begin(),
-                                           levels[0]->fixed.begin() + partition.n_owned());
-        add_coarser_level(std::move(identity), owned, fixed);
-        levels.back()->contact = level_zero.contact;
-      }
+      add_coarser(copy_of_finest(level_zero.contact), parts);
+    if (!level_zero_solver)
+      level_zero_solver = std::make_unique<LevelZeroSolver>(std::move(level_zero));
     level_zero_changed = true;
   }
 
 
 
-  const LevelZeroSolver &MultigridHierarchy::coarse_solver()
+  MultigridHierarchy::MultigridHierarchy(NodeBlockMatrix &&matrix, std::vector<FixedMask> fixed)
+  {
+    HierarchyParts parts;
+    parts.matrix = std::move(matrix);
+    parts.fixed  = std::move(fixed);
+    add_finest(parts);
+  }
+
+
+
+  void MultigridHierarchy::make_smoother(MultigridLevel &level, const LevelInterface &interface,
+                                         const HierarchyParts &parts)
+  {
+    level.smoother = parts.make_smoother ? parts.make_smoother(level.matrix, interface)
+                                         : std::make_unique<StagedSmoother>(level.matrix, interface);
+    slow_interface = slow_interface || level.smoother->is_slow_at_interface();
+  }
+
+
+
+  void MultigridHierarchy::add_finest(HierarchyParts &parts)
+  {
+    levels.push_back(std::make_unique<MultigridLevel>());
+    MultigridLevel &level = *levels.back();
+    level.matrix          = std::move(parts.matrix);
+    level.fixed           = std::move(parts.fixed);
+    level.scale           = diagonal_scale(level.matrix);
+    eliminate_fixed_components(level.matrix, level.fixed, all_rows(level.matrix), level.scale);
+    make_smoother(level, parts.interface, parts);
+  }
+
+
+
+  void MultigridHierarchy::add_coarser(CoarserLevel &&description, const HierarchyParts &parts)
+  {
+    const NodeBlockMatrix &fine = levels.back()->matrix;
+    if (levels.size() == 1 && parts.start != nullptr)
+      truncate_expected(parts, description.transfer);
+    levels.push_back(std::make_unique<MultigridLevel>());
+    MultigridLevel &level = *levels.back();
+    level.to_finer        = std::move(description.transfer);
+    level.contact         = std::move(description.contact);
+    level.half_spaces     = std::move(description.half_spaces);
+    reinit_galerkin(level.matrix, fine, level.to_finer, description.owned);
+    level.fixed = import_ghost_masks(level.matrix.partition(), description.fixed);
+    compute_galerkin(level.matrix, fine, level.to_finer);
+    level.scale = diagonal_scale(level.matrix);
+    eliminate_fixed_components(level.matrix, level.fixed, all_rows(level.matrix), level.scale);
+    make_smoother(level, description.interface, parts);
+  }
+
+
+
+  CoarserLevel MultigridHierarchy::copy_of_finest(const HalfSpaces &contact) const
+  {
+    const MultigridLevel &finest    = *levels.front();
+    const NodePartition  &partition = finest.matrix.partition();
+    NodeRows              rows;
+    for (unsigned int i = 0; i < partition.n_local(); ++i)
+      {
+        rows.add(partition.to_global(i), 1.);
+        rows.finish_row();
+      }
+    CoarserLevel copy;
+    copy.transfer.reinit(rows, {}, partition.n_owned());
+    copy.owned.set_size(partition.n_global());
+    copy.owned.add_range(partition.first_owned(), partition.first_owned() + partition.n_owned());
+    copy.fixed.assign(finest.fixed.begin(), finest.fixed.begin() + partition.n_owned());
+    copy.contact = contact;
+    return copy;
+  }
+
+
+
+  const CoarseSolver &MultigridHierarchy::coarse_solver()
   {
     if (level_zero_changed)
-      level_zero_solver.setup(levels.back()->matrix, level_zero);
+      level_zero_solver->setup(levels.back()->matrix);
     level_zero_changed = false;
-    return level_zero_solver;
+    return *level_zero_solver;
   }
 
 
 
-  MultigridHierarchy::WithoutFinest::WithoutFinest(MultigridHierarchy &hierarchy)
-    : hierarchy(hierarchy)
-    , finest(std::move(hierarchy.levels.front()))
+  namespace
   {
-    hierarchy.levels.erase(hierarchy.levels.begin());
-  }
+    /// Removes the planes' normals from the changed block rows of a transfer.
+    void truncate_transfer(NodalTransfer &transfer, const unsigned int n_local, const Vector &planes,
+                           const Vector &changed)
+    {
+      for (unsigned int i = 0; i < n_local; ++i)
+        if (changed.local_element(dim * i) != 0.)
+          {
+            Vector3 normal;
+            for (unsigned int c = 0; c < dim; ++c)
+              normal[c] = planes.local_element(dim * i + c);
+            transfer.set_plane(i, normal);
+          }
+    }
+  } // namespace
 
 
 
-  MultigridHierarchy::WithoutFinest::~WithoutFinest()
+  void MultigridHierarchy::truncate_expected(const HierarchyParts &parts, NodalTransfer &transfer)
   {
-    hierarchy.levels.insert(hierarchy.levels.begin(), std::move(finest));
+    MultigridLevel    &fine    = *levels.front();
+    Vector             v       = *parts.start;
+    const ContactState contact = find_active(fine, parts.problem->half_spaces, parts.problem->rhs, v);
+    Vector             planes, changed;
+    if (set_truncated(fine, contact.half_spaces(), contact.active(), planes, changed))
+      truncate_transfer(transfer, fine.matrix.partition().n_local(), planes, changed);
   }
 
 
 
-  void MultigridHierarchy::expect_active_set(const ObstacleProblem &problem, const Vector &start)
-  {
-    Assert(levels.size() == 1, ExcMessage("The coarser levels are there already."));
-    ProjectedGaussSeidel &smoother = *levels[0]->smoother;
-    Vector                v        = start;
-    smoother.set_half_spaces(problem.half_spaces);
-    smoother.find_active(v, problem.rhs);
-    set_truncated(problem.half_spaces, smoother.active(), expected_planes, expected_nodes);
-    was_expected = true;
-  }
-
-
-
-  bool MultigridHierarchy::set_truncated(const HalfSpaces                 &half_spaces,
+  bool MultigridHierarchy::set_truncated(MultigridLevel &fine, const HalfSpaces &half_spaces,
                                          const std::vector<unsigned char> &active, Vector &planes,
                                          Vector &changed)
   {
-    const NodePartition        &partition = levels[0]->matrix.partition();
-    std::vector<unsigned char> &truncated = levels[0]->truncated;
+    const NodePartition        &partition = fine.matrix.partition();
+    std::vector<unsigned char> &truncated = fine.truncated;
     truncated.resize(half_spaces.size(), 0);
     const bool any_change = !std::equal(truncated.begin(), truncated.end(), active.begin());
     if (Utilities::MPI::max(static_cast<int>(any_change), partition.communicator()) == 0)
@@ -230,41 +256,29 @@ namespace Signorini
 
 
 
-  void MultigridHierarchy::truncate_transfer(const Vector &planes, const Vector &changed)
+  bool MultigridHierarchy::truncate(const unsigned int level_index, const HalfSpaces &half_spaces,
+                                    const std::vector<unsigned char> &active)
   {
-    for (unsigned int i = 0; i < levels[0]->matrix.partition().n_local(); ++i)
-      if (changed.local_element(dim * i) != 0.)
-        {
-          Vector3 normal;
-          for (unsigned int c = 0; c < dim; ++c)
-            normal[c] = planes.local_element(dim * i + c);
-          levels[1]->to_finer.set_plane(i, normal);
-        }
-  }
-
-
-
-  bool MultigridHierarchy::truncate(const HalfSpaces &half_spaces, const std::vector<unsigned char> &active)
-  {
-    const NodeBlockMatrix &fine = levels[0]->matrix;
+    MultigridLevel        &finest = level(level_index);
+    const NodeBlockMatrix &matrix = finest.matrix;
     Vector                 planes, changed;
-    if (!set_truncated(half_spaces, active, planes, changed))
+    if (!set_truncated(finest, half_spaces, active, planes, changed))
       return false;
-    truncate_transfer(planes, changed);
+    truncate_transfer(level(level_index - 1).to_finer, matrix.partition().n_local(), planes, changed);
 
-    std::vector<unsigned int> rows = fine.rows_with_column(
+    std::vector<unsigned int> rows = matrix.rows_with_column(
         [&](const unsigned int column) { return changed.local_element(dim * column) != 0.; });
-    for (std::size_t l = 1; l < levels.size(); ++l)
+    for (unsigned int l = level_index; l-- > 0;)
       {
-        MultigridLevel &level  = *levels[l];
-        const auto      marked = mark_coarse_nodes(level.to_finer, rows);
-        compute_galerkin(level.matrix, levels[l - 1]->matrix, level.to_finer, marked);
+        MultigridLevel &coarse = level(l);
+        const auto      marked = mark_coarse_nodes(coarse.to_finer, rows);
+        compute_galerkin(coarse.matrix, level(l + 1).matrix, coarse.to_finer, marked);
         rows.clear();
-        for (unsigned int i = 0; i < level.matrix.n_rows(); ++i)
+        for (unsigned int i = 0; i < coarse.matrix.n_rows(); ++i)
           if (marked[i])
             rows.push_back(i);
-        eliminate_fixed_components(level.matrix, level.fixed, rows, level.scale);
-        level.smoother->update(rows);
+        eliminate_fixed_components(coarse.matrix, coarse.fixed, rows, coarse.scale);
+        coarse.smoother->update(rows);
       }
     level_zero_changed = true;
     return true;

@@ -17,11 +17,14 @@ namespace Signorini
 
   namespace
   {
-    /// Corrections below this multiple of the iterate may be rounding: the square root of what the energy
-    /// can resolve, with room for the condition of the matrix.
-    constexpr double near_rounding = 1e-9;
-    /// So many iterations without a new smallest correction are stagnation.
-    constexpr std::size_t patience = 6;
+    struct StagnationRule
+    {
+      /// Corrections below this multiple of the iterate may be rounding: the square root of what the energy
+      /// can resolve, with room for the condition of the matrix.
+      double near_rounding = 1e-9;
+      /// So many iterations without a new smallest correction are stagnation.
+      std::size_t patience = 6;
+    };
 
     const std::map<std::string, SolverMethod> &method_names()
     {
@@ -123,52 +126,12 @@ namespace Signorini
 
 
 
-  ObstacleSolver::ObstacleSolver(MultigridHierarchy &hierarchy, const SolverParameters &parameters)
+  ObstacleSolver::ObstacleSolver(MultigridHierarchy &hierarchy, const SolverParameters &parameters,
+                                 const unsigned int level)
     : hierarchy(hierarchy)
     , parameters(parameters)
+    , level(level)
   {
-  }
-
-
-
-  double ObstacleSolver::admissible_step(const Vector &v, const Vector &c,
-                                         const HalfSpaces &half_spaces) const
-  {
-    return Utilities::MPI::min(half_spaces.longest_step(v, c, &active()),
-                               hierarchy.finest().matrix.partition().communicator());
-  }
-
-
-
-  ObstacleSolver::LineSearch ObstacleSolver::search_along(const Vector &v, const Vector &c,
-                                                          const Vector     &residual,
-                                                          const HalfSpaces &half_spaces,
-                                                          const bool        semidefinite) const
-  {
-    Vector product;
-    product.reinit(v);
-    hierarchy.finest().matrix.vmult(product, c);
-    const double slope = residual * c, curvature = product * c;
-    double       longest = std::max(1., admissible_step(v, c, half_spaces));
-    // Where c is close to a motion that costs nothing, its curvature is rounding.
-    if (semidefinite)
-      longest = std::min(longest, 2.);
-    LineSearch result;
-    if (curvature > 0. && slope > 0.)
-      result.length = std::min(slope / curvature, longest);
-    else if (semidefinite && slope > 0.)
-      result.length = 1.;
-    result.decrease = result.length * (slope - .5 * result.length * curvature);
-    return result;
-  }
-
-
-
-  void ObstacleSolver::add_searched(Vector &v, const Vector &c, Vector &residual,
-                                    const HalfSpaces &half_spaces, const bool semidefinite) const
-  {
-    hierarchy.finest().smoother->restrict_to_tangents(residual);
-    v.add(search_along(v, c, residual, half_spaces, semidefinite).length, c);
   }
 
 
@@ -181,16 +144,18 @@ namespace Signorini
     report.history.push_back(correction);
     report.scale          = iterate;
     unsigned int n_active = std::accumulate(active().begin(), active().end(), 0u);
-    n_active = Utilities::MPI::sum(n_active, hierarchy.finest().matrix.partition().communicator());
+    n_active              = Utilities::MPI::sum(n_active, matrix().partition().communicator());
     report.active_nodes.push_back(n_active);
 
     const double bound =
         parameters.absolute_tolerance > 0. ? parameters.absolute_tolerance : parameters.tolerance * iterate;
     report.converged = correction <= bound;
-    if (!report.converged && report.history.size() > patience && correction <= near_rounding * iterate)
+    const StagnationRule rule;
+    if (!report.converged && report.history.size() > rule.patience &&
+        correction <= rule.near_rounding * iterate)
       {
         const auto smallest = std::min_element(report.history.begin(), report.history.end());
-        if (report.history.end() - smallest > static_cast<std::ptrdiff_t>(patience))
+        if (report.history.end() - smallest > static_cast<std::ptrdiff_t>(rule.patience))
           {
             report.converged = report.stagnated = true;
             std::ostringstream text;
@@ -216,7 +181,7 @@ namespace Signorini
   {
     Vector residual;
     residual.reinit(v);
-    hierarchy.finest().matrix.symmetric_residual(residual, v, problem.rhs);
+    matrix().symmetric_residual(residual, v, problem.rhs);
     close(report, v, problem, residual);
   }
 
@@ -229,39 +194,6 @@ namespace Signorini
     report.rate   = convergence_rate(report.history);
     if (!report.converged)
       report.note = "stopped after " + std::to_string(report.iterations) + " iterations without convergence";
-  }
-
-
-
-  void ObstacleSolver::check_substep(ConvergenceReport &report, double &energy, const Vector &v,
-                                     const ObstacleProblem &problem) const
-  {
-    if (!parameters.check_monotonicity)
-      return;
-    const NodeBlockMatrix &matrix = hierarchy.finest().matrix;
-    Vector                 product;
-    product.reinit(v);
-    matrix.vmult(product, v);
-    const double square = product * v, now = .5 * square - problem.rhs * v;
-    double       violation = 0., largest = 0.;
-    for (std::size_t p = 0; p < problem.half_spaces.size(); ++p)
-      {
-        double size = 0.;
-        for (unsigned int c = 0; c < dim; ++c)
-          size += dealii::Utilities::fixed_power<2>(v.local_element(dim * problem.half_spaces.nodes[p] + c));
-        violation =
-            std::max(violation, problem.half_spaces.normal_part(p, v) - problem.half_spaces.bounds[p]);
-        largest = std::max(largest, std::sqrt(size));
-      }
-    const MPI_Comm comm = matrix.partition().communicator();
-    violation           = Utilities::MPI::max(violation, comm);
-    largest             = Utilities::MPI::max(largest, comm);
-    if (largest > 0.)
-      report.largest_violation = std::max(report.largest_violation, violation / largest);
-    if (std::isfinite(energy) && square > 0.)
-      report.largest_energy_rise = std::max(report.largest_energy_rise, (now - energy) / square);
-    ++report.checked_substeps;
-    energy = now;
   }
 
 
@@ -281,7 +213,7 @@ namespace Signorini
         case SolverMethod::multigrid_cg:
           return std::make_unique<LinearMultigrid>(hierarchy, parameters);
         default:
-          return std::make_unique<TruncatedNewtonMultigrid>(hierarchy, parameters);
+          return std::make_unique<TruncatedNewtonMultigrid>(hierarchy, parameters, hierarchy.n_levels() - 1);
       }
   }
 } // namespace Signorini

@@ -12,25 +12,26 @@ namespace Signorini
 
   SweepMeasurement measure_sweeps(MultigridHierarchy &hierarchy, const Vector &rhs)
   {
-    SweepMeasurement      result;
-    const MPI_Comm        comm     = hierarchy.finest().matrix.partition().communicator();
-    ProjectedGaussSeidel &smoother = *hierarchy.finest().smoother;
-    Vector                v;
+    SweepMeasurement           result;
+    const NodeBlockMatrix     &matrix = hierarchy.finest().matrix;
+    const MPI_Comm             comm   = matrix.partition().communicator();
+    const ProjectedGaussSeidel sweeps(matrix);
+    ContactState               free(matrix);
+    Vector                     v;
     v.reinit(rhs);
     std::vector<double> times;
     for (unsigned int i = 0; i < 5; ++i)
       {
         Timer time;
-        smoother.sweep(v, rhs, ProjectedGaussSeidel::forward);
+        sweeps.sweep(v, rhs, free, Direction::forward);
         times.push_back(time.wall_time());
       }
     std::sort(times.begin(), times.end());
     result.time             = times[2];
-    result.bytes_per_second = Utilities::MPI::sum(smoother.sweep_bytes(), comm) / times[2];
+    result.bytes_per_second = Utilities::MPI::sum(sweeps.sweep_bytes(), comm) / times[2];
 
-    const NodeBlockMatrix &matrix = hierarchy.finest().matrix;
-    const double          *begin  = matrix.block(0);
-    const std::size_t      n      = 9 * matrix.n_owned_blocks();
+    const double     *begin = matrix.block(0);
+    const std::size_t n     = 9 * matrix.n_owned_blocks();
     times.clear();
     double sum = 0.;
     for (unsigned int i = 0; i < 5; ++i)

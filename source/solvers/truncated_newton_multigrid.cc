@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/solvers/interface_sweep_policy.h>
 #include <signorini/solvers/truncated_newton_multigrid.h>
 
 #include <deal.II/base/mpi.h>
@@ -11,50 +12,32 @@ namespace Signorini
 
   namespace
   {
-    /// An iteration that leaves more than this of the correction calls for interface sweeps: .25 for V(3,3),
-    /// and more where fewer sweeps leave more in any case.
-    double slow_rate(const SmoothingParameters &smoothing)
+    struct AccelerationRule
     {
-      return 1.5 / std::max(2u, smoothing.n_pre + smoothing.n_post);
-    }
-
-    /// A longer step along a conjugate direction, in corrections of the V-cycle, is the ratio of two rounding
-    /// errors: a motion that costs nothing.
-    constexpr double longest_step = 100.;
-
-    /// Tolerance on the levels that only give a start.
-    constexpr double start_tolerance = 1e-2;
+      /// A longer step along a conjugate direction, in corrections of the V-cycle, is the ratio of two
+      /// rounding errors: a motion that costs nothing.
+      double longest_step = 100.;
+      /// Tolerance on the levels that only give a start: two or three iterations each.
+      double start_tolerance = 1e-2;
+    };
   } // namespace
 
 
 
   TruncatedNewtonMultigrid::TruncatedNewtonMultigrid(MultigridHierarchy     &hierarchy,
-                                                     const SolverParameters &parameters)
-    : ObstacleSolver(hierarchy, parameters)
-    , cycle(hierarchy, parameters.smoothing, hierarchy.n_levels() - 2)
+                                                     const SolverParameters &parameters,
+                                                     const unsigned int      level)
+    : ObstacleSolver(hierarchy, parameters, level)
   {
-    const NodePartition &coarse = hierarchy.level(hierarchy.n_levels() - 2).matrix.partition();
-    coarse.reinit(coarse_defect);
-    coarse.reinit(coarse_correction);
-    hierarchy.finest().matrix.partition().reinit(scratch);
-  }
-
-
-
-  bool TruncatedNewtonMultigrid::all_ranks(const bool condition) const
-  {
-    return Utilities::MPI::min(static_cast<int>(condition),
-                               hierarchy.finest().matrix.partition().communicator()) != 0;
   }
 
 
 
   bool TruncatedNewtonMultigrid::has_nested_start(const Vector &v, const ObstacleProblem &problem) const
   {
-    if (parameters.method != SolverMethod::accelerated || problem.semidefinite || hierarchy.n_levels() < 3 ||
-        !v.all_zero())
+    if (parameters.method != SolverMethod::accelerated || problem.semidefinite || level < 2 || !v.all_zero())
       return false;
-    const MultigridLevel     &below = hierarchy.level(hierarchy.n_levels() - 2);
+    const MultigridLevel     &below = hierarchy.level(level - 1);
     const std::vector<double> sizes = {static_cast<double>(problem.half_spaces.size()),
                                        static_cast<double>(below.half_spaces.size())};
     std::vector<double>       sums(2);
@@ -64,32 +47,28 @@ namespace Signorini
 
 
 
-  std::vector<unsigned int> TruncatedNewtonMultigrid::start_below(Vector &v, const ObstacleProblem &problem)
+  std::vector<unsigned int> TruncatedNewtonMultigrid::nested_start(Vector &v, const ObstacleProblem &problem)
   {
-    MultigridLevel &below   = hierarchy.level(hierarchy.n_levels() - 2);
-    const auto      nothing = [](const HalfSpaces &half_spaces) {
-      return std::vector<unsigned char>(half_spaces.size(), 0);
+    const MultigridLevel &below   = hierarchy.level(level - 1);
+    const auto            release = [&](const unsigned int l, const HalfSpaces &half_spaces) {
+      hierarchy.truncate(l, half_spaces, std::vector<unsigned char>(half_spaces.size(), 0));
     };
     // What an earlier solve has left.
-    hierarchy.truncate(problem.half_spaces, nothing(problem.half_spaces));
+    release(level, problem.half_spaces);
     ObstacleProblem problem_below;
     below.matrix.partition().reinit(problem_below.rhs);
     restrict_defect(below, problem_below.rhs, problem.rhs);
     problem_below.half_spaces           = below.half_spaces;
     SolverParameters parameters_below   = parameters;
-    parameters_below.tolerance          = start_tolerance;
+    parameters_below.tolerance          = AccelerationRule().start_tolerance;
     parameters_below.absolute_tolerance = 0.;
     parameters_below.check_monotonicity = false;
 
     Vector start;
     below.matrix.partition().reinit(start);
-    ConvergenceReport report;
-    {
-      const MultigridHierarchy::WithoutFinest without_finest(hierarchy);
-      report = TruncatedNewtonMultigrid(hierarchy, parameters_below).solve(start, problem_below);
-      hierarchy.truncate(problem_below.half_spaces, nothing(problem_below.half_spaces));
-      below.smoother->set_half_spaces(HalfSpaces());
-    }
+    ConvergenceReport report =
+        TruncatedNewtonMultigrid(hierarchy, parameters_below, level - 1).solve(start, problem_below);
+    release(level - 1, problem_below.half_spaces);
     below.to_finer.prolongate(v, start);
     report.start_iterations.push_back(report.iterations);
     return report.start_iterations;
@@ -97,94 +76,34 @@ namespace Signorini
 
 
 
-  Vector &TruncatedNewtonMultigrid::prolongate_correction()
+  bool TruncatedNewtonMultigrid::start(Vector &v, const ObstacleProblem &problem, ConvergenceReport &report)
   {
-    hierarchy.level(hierarchy.n_levels() - 2).to_finer.prolongate(scratch, coarse_correction);
-    hierarchy.finest().smoother->restrict_to_tangents(scratch);
-    return scratch;
-  }
-
-
-
-  double TruncatedNewtonMultigrid::correct(Vector &z, Vector &residual, const bool semidefinite,
-                                           bool &searches)
-  {
-    const ProjectedGaussSeidel &smoother = *hierarchy.finest().smoother;
-    if (hierarchy.truncate(smoother.half_spaces(), smoother.active()))
-      ++n_updates;
-    coarse_defect = 0.;
-    restrict_defect(hierarchy.level(hierarchy.n_levels() - 2), coarse_defect, residual);
-    cycle.apply(coarse_correction, coarse_defect);
-    z.zero_out_ghost_values();
-    Vector      &step   = prolongate_correction();
-    const double length = std::min(1., admissible_step(z, step, smoother.half_spaces()));
-    searches            = searches || (length < 1. && !semidefinite);
-    if (searches)
+    bool is_good = hierarchy.expects_active_set() && level + 1 == hierarchy.n_levels();
+    if (!is_good && has_nested_start(v, problem))
       {
-        smoother.restrict_to_tangents(residual);
-        return add_better(z, residual, length, semidefinite);
+        report.start_iterations = nested_start(v, problem);
+        is_good                 = true;
       }
-    z.add(length, step);
-    return 0.;
-  }
-
-
-
-  double TruncatedNewtonMultigrid::add_better(Vector &z, const Vector &residual, const double length,
-                                              const bool semidefinite)
-  {
-    const ProjectedGaussSeidel &smoother    = *hierarchy.finest().smoother;
-    const HalfSpaces           &half_spaces = smoother.half_spaces();
-    Vector                     &step        = scratch;
-    double                      square      = 0.;
-    if (length < 1. && !semidefinite)
+    if (is_good)
+      contact = find_active(hierarchy.level(level), problem.half_spaces, problem.rhs, v);
+    else
       {
-        // A V-cycle is at most the inverse of A: the slope is at least the curvature.
-        square                = std::max(residual * step, 0.);
-        const double decrease = (length - .5 * length * length) * square;
-        smoother.project_correction(step, z);
-        const LineSearch projected = search_along(z, step, residual, half_spaces, semidefinite);
-        if (projected.decrease >= decrease)
-          {
-            z.add(projected.length, step);
-            return std::sqrt(square);
-          }
-        prolongate_correction();
+        contact = ContactState(matrix(), problem.half_spaces);
+        contact.project(v);
       }
-    if (length < 1.)
-      step *= length;
-    z.add(search_along(z, step, residual, half_spaces, semidefinite).length, step);
-    return std::sqrt(square);
+    return is_good;
   }
 
 
 
-  double TruncatedNewtonMultigrid::safe_length(const Vector &z, const Vector &az, const Vector &residual,
-                                               const bool keeps_active) const
-  {
-    double slope = residual * z;
-    if (keeps_active)
-      slope -= hierarchy.finest().smoother->normal_product(residual, z);
-    const double curvature = z * az;
-    return slope <= 0. ? 0. : curvature > slope ? slope / curvature : 1.;
-  }
-
-
-
-  bool TruncatedNewtonMultigrid::accelerate(const Vector &v, const Vector &residual, Vector &z, Vector &az,
+  bool TruncatedNewtonMultigrid::accelerate(const Vector &v, Vector &residual, TruncatedCycle &cycle,
                                             const ObstacleProblem &problem)
   {
-    const ProjectedGaussSeidel &smoother = *hierarchy.finest().smoother;
-    conjugate.update(z, az);
-    const Vector &direction = conjugate.direction();
-    const double  curvature = direction * conjugate.product();
-    const double  slope     = residual * direction - smoother.normal_product(residual, direction);
-    const double  length    = curvature > 0. ? slope / curvature : 0.;
-    if (!(length > 0.) || (problem.semidefinite && length > longest_step) ||
-        length > admissible_step(v, direction, problem.half_spaces))
+    const double length = conjugate.find_step(cycle.correction, cycle.product, residual, contact);
+    if (length == 0. || (problem.semidefinite && length > AccelerationRule().longest_step) ||
+        length > contact.longest_step(v, conjugate.direction(), problem.half_spaces))
       return false;
-    z.equ(length, direction);
-    az.equ(length, conjugate.product());
+    cycle.replace(length, conjugate.direction(), conjugate.product(), residual);
     return true;
   }
 
@@ -193,116 +112,43 @@ namespace Signorini
   ConvergenceReport TruncatedNewtonMultigrid::solve(Vector &v, const ObstacleProblem &problem,
                                                     const Monitor &monitor)
   {
-    const NodeBlockMatrix &matrix      = hierarchy.finest().matrix;
-    ProjectedGaussSeidel  &smoother    = *hierarchy.finest().smoother;
-    const bool             accelerates = parameters.method == SolverMethod::accelerated;
-    smoother.set_half_spaces(problem.half_spaces);
-    ConvergenceReport report;
-    bool              is_good_start = hierarchy.expects_active_set();
-    if (!is_good_start && has_nested_start(v, problem))
-      {
-        report.start_iterations = start_below(v, problem);
-        is_good_start           = true;
-      }
-    if (is_good_start)
-      smoother.find_active(v, problem.rhs);
-    else
-      smoother.project(v);
-    // From a good start the finest level does without interface sweeps in most problems once the active set
-    // rests, but not in all.
-    const bool may_spare_sweeps =
-        accelerates && is_good_start && !problem.semidefinite && !hierarchy.has_slow_interface();
-    bool is_slow = parameters.starts_with_interface_sweeps;
-    n_updates    = 0;
+    ConvergenceReport    report;
+    const bool           accelerates = parameters.method == SolverMethod::accelerated;
+    const bool           trusts_set  = start(v, problem, report) && accelerates && !problem.semidefinite;
+    InterfaceSweepPolicy sweeps(parameters.smoothing, trusts_set && !hierarchy.has_slow_interface(),
+                                parameters.starts_with_interface_sweeps);
+    TruncatedCycle       cycle(hierarchy, level, parameters.smoothing, problem, contact);
+    SubstepCheck         check(matrix(), problem, report, parameters.check_monotonicity);
+    Vector               residual;
+    residual.reinit(v);
+    matrix().symmetric_residual(residual, v, problem.rhs);
     conjugate.restart();
-
-    // One iteration: v + z from v. The residuals are those of v and v + z.
-    Vector  z, residual, new_residual;
-    Vector &product = scratch;
-    for (Vector *vector : {&z, &residual, &new_residual})
-      vector->reinit(v);
-    matrix.symmetric_residual(residual, v, problem.rhs);
-    // Whether active nodes lie on their planes: a shortened step leaves them on the way, and the next
-    // iteration, with a search, is not shortened and takes them there. The way to the planes is no linear
-    // function of the residual, as conjugate gradients need it.
-    bool       is_on_planes = true;
-    bool       rests        = false;
-    double     energy       = std::numeric_limits<double>::infinity();
-    const auto check        = [&](const bool with_correction) {
-      if (!parameters.check_monotonicity)
-        return;
-      Vector now = v;
-      now.zero_out_ghost_values();
-      if (with_correction)
-        now += z;
-      check_substep(report, energy, now, problem);
-    };
+    Phase phase = Phase::searching;
     while (goes_on(report))
       {
-        const std::vector<unsigned char> active    = smoother.active();
-        SmoothingParameters              smoothing = parameters.smoothing;
-        if (may_spare_sweeps && rests && !is_slow)
-          smoothing.n_interface_sweeps = 0;
-        smoother.set_bounds_from(problem.half_spaces, v);
-        smoother.smooth_from_zero(z, residual, smoothing, new_residual);
-        const double before = energy;
-        check(true);
-        bool keeps_active = smoother.active() == active;
-        // From a good start a set that the first half keeps is mostly the last one. A search would cost a
-        // product.
-        if (accelerates && is_good_start && !problem.semidefinite)
-          rests = is_on_planes && all_ranks(keeps_active);
-        bool         searches = !rests;
-        const double cut_off  = correct(z, new_residual, problem.semidefinite, searches);
-        // Without a search the iteration as a whole lowers the energy, not each step after the first.
-        if (searches)
-          check(true);
-        else
-          energy = before;
-        smoother.smooth_to_residual(z, residual, smoothing, &new_residual);
-        keeps_active = all_ranks(keeps_active && smoother.active() == active);
-
-        product = residual;
-        product -= new_residual;
-        Assert(searches || is_on_planes, ExcInternalError());
-        // What was cut off is no linear function of the residual either.
-        const bool is_linear = keeps_active && is_on_planes && cut_off == 0.;
-        rests                = accelerates && is_linear && accelerate(v, residual, z, product, problem);
-        // Before it is shortened: a correction that was cut off does not mean convergence.
-        const double norm = std::max(std::sqrt(std::max(z * product, 0.)), cut_off);
-        if (rests)
-          residual -= product;
-        else
-          {
-            conjugate.restart();
-            const double length = searches ? 1. : safe_length(z, product, residual, keeps_active);
-            is_on_planes        = length == 1.;
-            if (length == 1.)
-              residual.swap(new_residual);
-            else
-              {
-                z *= length;
-                residual.add(-length, product);
-              }
-          }
+        cycle.run(v, residual, {sweeps.choose(phase), phase, trusts_set}, check);
+        StepTaken step;
+        step.is_conjugate = accelerates && cycle.is_linear(phase) && accelerate(v, residual, cycle, problem);
+        // Before the correction is shortened: one that was cut off does not mean convergence.
+        const double norm = cycle.norm();
+        if (!step.is_conjugate)
+          step.is_shortened = cycle.shorten(residual);
         v.zero_out_ghost_values();
-        z.zero_out_ghost_values();
-        v += z;
-        is_slow = is_slow || (rests && !report.history.empty() &&
-                              norm > slow_rate(parameters.smoothing) * report.history.back());
-        // Rounding along motions that cost nothing feeds on itself through old directions.
-        if (problem.semidefinite && !report.history.empty() && norm > report.history.back())
-          {
-            rests = false;
-            conjugate.restart();
-          }
-        check(false);
+        cycle.correction.zero_out_ghost_values();
+        v += cycle.correction;
+        check(v);
+
+        step.grows_freely = problem.semidefinite && !report.history.empty() && norm > report.history.back();
+        sweeps.observe(step.is_conjugate, norm, report.history);
+        phase = next_phase(step);
+        if (phase != Phase::resting)
+          conjugate.restart();
         const double square = v * problem.rhs - v * residual;
         book_iteration(report, norm, std::sqrt(std::max(square, 0.)), monitor);
       }
     close(report, v, problem, residual);
-    report.hierarchy_updates       = n_updates;
-    report.needed_interface_sweeps = is_slow;
+    report.hierarchy_updates       = cycle.n_updates;
+    report.needed_interface_sweeps = sweeps.needs_sweeps();
     return report;
   }
 } // namespace Signorini

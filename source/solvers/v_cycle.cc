@@ -17,6 +17,7 @@ namespace Signorini
       {
         const NodePartition &partition = hierarchy.level(l).matrix.partition();
         partition.reinit(work[l].residual);
+        work[l].free = ContactState(hierarchy.level(l).matrix);
         if (l == max_level)
           continue;
         partition.reinit(work[l].solution);
@@ -33,10 +34,10 @@ namespace Signorini
         hierarchy.coarse_solver().solve(solution, rhs);
         return;
       }
-    ProjectedGaussSeidel &smoother = *hierarchy.level(level).smoother;
+    Smoother             &smoother = *hierarchy.level(level).smoother;
     const MultigridLevel &coarse   = hierarchy.level(level - 1);
     Vector               &residual = work[level].residual;
-    smoother.smooth_from_zero(solution, rhs, smoothing, residual);
+    smoother.smooth_from_zero(solution, rhs, work[level].free, smoothing, residual);
     work[level - 1].rhs = 0.;
     restrict_defect(coarse, work[level - 1].rhs, residual);
     run(level - 1, work[level - 1].solution, work[level - 1].rhs, nullptr);
@@ -44,7 +45,7 @@ namespace Signorini
     coarse.to_finer.prolongate(step, work[level - 1].solution);
     solution.zero_out_ghost_values();
     solution += step;
-    smoother.smooth_to_residual(solution, rhs, smoothing, new_residual);
+    smoother.smooth_to_residual(solution, rhs, work[level].free, smoothing, new_residual);
   }
 
 

@@ -64,7 +64,7 @@ namespace Signorini
     std::vector<std::vector<FixedMask>>            masks;
   };
 
-  /// The transfer operator on the next coarser level (method.md, section 5):
+  /// The transfer operator on the next coarser level (doc/algorithm.md, (36)):
   ///   S_{k-1} = diag(P_nonᵀ D_k 1)⁻¹ P_nonᵀ D_k S_k P_mor ,   D_{k-1} = diag(P_nonᵀ D_k 1).
   /// `nodes` are the sorted nodes of rows and columns of S_k, `rows` their interpolation rows.
   InterfaceCoupling coarsen_coupling(const InterfaceCoupling &fine, const std::vector<NodeIndex> &nodes,
@@ -92,7 +92,7 @@ namespace Signorini
     /// Whether a nonmortar side is stiffer than its mortar side.
     bool has_stiff_nonmortar = false;
     /// If not null: half-spaces and right hand side on the finest level. With a start, the active set is
-    /// guessed from it (MultigridHierarchy::expect_active_set()); without, the coarser levels get half-spaces
+    /// guessed from it (HierarchyParts::start); without, the coarser levels get half-spaces
     /// (MultigridLevel::half_spaces) to make one.
     const ObstacleProblem *problem = nullptr;
     const Vector          *start   = nullptr;

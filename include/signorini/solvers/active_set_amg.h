@@ -19,7 +19,7 @@ namespace Signorini
   {
   public:
     ActiveSetAmg(MultigridHierarchy &hierarchy, const SolverParameters &parameters)
-      : ObstacleSolver(hierarchy, parameters)
+      : ObstacleSolver(hierarchy, parameters, hierarchy.n_levels() - 1)
     {
     }
 

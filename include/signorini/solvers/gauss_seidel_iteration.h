@@ -14,7 +14,7 @@ namespace Signorini
   {
   public:
     GaussSeidelIteration(MultigridHierarchy &hierarchy, const SolverParameters &parameters)
-      : ObstacleSolver(hierarchy, parameters)
+      : ObstacleSolver(hierarchy, parameters, hierarchy.n_levels() - 1)
     {
     }
 

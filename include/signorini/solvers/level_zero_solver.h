@@ -40,21 +40,41 @@ namespace Signorini
     bool uses_amg(const NodeIndex n_nodes) const;
   };
 
-  /// Solver of level 0: sparse Cholesky, or conjugate gradients with algebraic multigrid to three digits,
-  /// which the iteration around it does not notice, or a number of its cycles alone.
-  class LevelZeroSolver
+  /// What multigrid asks of the solver of level 0. Whoever implements this hands it to the hierarchy
+  /// (HierarchyParts::coarse_solver).
+  class CoarseSolver
   {
   public:
-    /// Collective.
-    void setup(const NodeBlockMatrix &matrix, const LevelZero &level_zero);
+    virtual ~CoarseSolver() = default;
 
-    /// Collective. The matrix of the last setup() must still exist.
-    void solve(Vector &solution, const Vector &rhs) const;
+    /// Collective. The matrix, which outlives the object, is new or has changed.
+    virtual void setup(const NodeBlockMatrix &matrix) = 0;
+
+    /// Collective. solution = (approximate, symmetric) inverse times rhs.
+    virtual void solve(Vector &solution, const Vector &rhs) const = 0;
+  };
+
+
+
+  /// Solver of level 0: sparse Cholesky, or conjugate gradients with algebraic multigrid to three digits,
+  /// which the iteration around it does not notice, or a number of its cycles alone.
+  class LevelZeroSolver : public CoarseSolver
+  {
+  public:
+    explicit LevelZeroSolver(LevelZero level_zero)
+      : level_zero(std::move(level_zero))
+    {
+    }
+
+    void setup(const NodeBlockMatrix &matrix) override;
+
+    void solve(Vector &solution, const Vector &rhs) const override;
 
   private:
     void make_definite(const NodeBlockMatrix &singular, const std::vector<Vector> &free_motions);
     void solve_definite(Vector &solution, const Vector &rhs) const;
 
+    const LevelZero level_zero;
     /// V-cycles without conjugate gradients; 0 for those.
     unsigned int n_steps = 0;
 

@@ -4,8 +4,9 @@
 #ifndef signorini_solvers_linear_multigrid_h
 #define signorini_solvers_linear_multigrid_h
 
-#include <signorini/solvers/conjugate_direction.h>
+#include <signorini/solvers/conjugate_gradients.h>
 #include <signorini/solvers/obstacle_solver.h>
+#include <signorini/solvers/v_cycle.h>
 
 namespace Signorini
 {

@@ -36,6 +36,8 @@ namespace Signorini
       /// Bounds of relative displacements along full normals at nodes, in the first component; the largest
       /// number where none is.
       Vector room;
+      /// The half-spaces that this room leaves.
+      ContactState contact;
     };
 
     /// Room left at contact nodes of a level by a correction, restricted to the next coarser level.

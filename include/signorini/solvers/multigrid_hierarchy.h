@@ -5,12 +5,12 @@
 #define signorini_solvers_multigrid_hierarchy_h
 
 #include <signorini/algebra/nodal_transfer.h>
-#include <signorini/algebra/node_block_matrix.h>
 #include <signorini/solvers/level_zero_solver.h>
-#include <signorini/solvers/obstacle_problem.h>
-#include <signorini/solvers/projected_gauss_seidel.h>
+#include <signorini/solvers/staged_smoother.h>
 
+#include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace Signorini
@@ -20,8 +20,8 @@ namespace Signorini
   {
     NodeBlockMatrix matrix;
     /// Fixed components of the local nodes.
-    std::vector<FixedMask>                fixed;
-    std::unique_ptr<ProjectedGaussSeidel> smoother;
+    std::vector<FixedMask>    fixed;
+    std::unique_ptr<Smoother> smoother;
     /// Contact nodes of a coarse level with their normals, for coarse obstacles (no bounds); may be empty.
     HalfSpaces contact;
     /// Half-spaces at the contact nodes that a coarse level shares with the finest one, those of the problem
@@ -45,62 +45,89 @@ namespace Signorini
   void eliminate_fixed_components(NodeBlockMatrix &matrix, const std::vector<FixedMask> &fixed,
                                   const std::vector<unsigned int> &rows, const double scale);
 
+  /// A level below another one, as it is described to the hierarchy.
+  struct CoarserLevel
+  {
+    /// Rows of the local nodes of the finer level.
+    NodalTransfer transfer;
+    /// Owned nodes, and their fixed masks.
+    dealii::IndexSet       owned;
+    std::vector<FixedMask> fixed;
+    /// Contact nodes of both sides.
+    LevelInterface interface;
+    /// See MultigridLevel.
+    HalfSpaces contact, half_spaces;
+  };
+
+
+
+  /// Describes the levels of a hierarchy below its finest one, one after the other: which ghosts a level has
+  /// follows from the level above.
+  class LevelSource
+  {
+  public:
+    virtual ~LevelSource() = default;
+
+    /// Collective. The next coarser level; nothing below level 0.
+    virtual std::optional<CoarserLevel> next(const NodePartition &finer) = 0;
+
+    /// Collective. What the solver of level 0 needs.
+    virtual LevelZero level_zero(const NodePartition &coarsest) = 0;
+  };
+
+
+
+  /// What a hierarchy is built from.
+  struct HierarchyParts
+  {
+    /// The finest matrix, whose fixed components are eliminated by the hierarchy, and the fixed masks of its
+    /// local nodes.
+    NodeBlockMatrix        matrix;
+    std::vector<FixedMask> fixed;
+    LevelInterface         interface;
+    /// Null for a hierarchy of the finest level alone, which only methods without levels can use.
+    LevelSource *levels = nullptr;
+    /// Null, or a problem and a good start: the coarser levels are built truncated at the active set that
+    /// these let expect.
+    const ObstacleProblem *problem = nullptr;
+    const Vector          *start   = nullptr;
+    /// Another smoother for all levels, another solver of level 0; empty for those of this program.
+    std::function<std::unique_ptr<Smoother>(const NodeBlockMatrix &, const LevelInterface &)> make_smoother;
+    std::unique_ptr<CoarseSolver>                                                             coarse_solver;
+  };
+
+
+
   /// Matrices and transfers of all levels, Galerkin products from fine to coarse, and their truncation:
   /// on the finest level the normal part of the prolongation is removed at active nodes, and what
-  /// depends on it on coarser levels is recomputed (method.md, section 5).
+  /// depends on it on coarser levels is recomputed (doc/algorithm.md, chapter 7, (35)).
   class MultigridHierarchy
   {
   public:
-    /// The finest matrix, whose fixed components are eliminated here, and its fixed masks (local nodes).
+    /// Collective. A hierarchy of a single level gets an algebraic copy of it as level 0, so that the
+    /// truncated problem has an exact coarse solver.
+    explicit MultigridHierarchy(HierarchyParts &&parts);
+
+    /// Collective. The finest level alone, for methods without levels.
     MultigridHierarchy(NodeBlockMatrix &&matrix, std::vector<FixedMask> fixed);
 
-    /// Collective. Adds the next coarser level: transfer rows as in NodalTransfer, owned coarse nodes,
-    /// fixed masks of the owned coarse nodes.
-    void add_coarser_level(NodalTransfer &&transfer, const dealii::IndexSet &owned_coarse,
-                           const std::vector<FixedMask> &fixed);
-
-    /// Collective. Chooses the interface rows of the level added last: contact nodes (global numbers, the
-    /// same on all ranks, sorted) and one layer of neighbours. Where sweeps may be slow, because of a stiff
-    /// nonmortar side, that is measured (ProjectedGaussSeidel::correct_slow_interface).
-    void set_interface(const std::vector<NodeIndex> &contact_nodes, const bool may_be_slow = false);
-
-    /// Collective. Before the first coarser level is added: guesses the active set by a sweep over the
-    /// contact nodes from a start (left as it is), so that the coarser levels are built truncated there.
-    void expect_active_set(const ObstacleProblem &problem, const Vector &start);
-
-    /// Whether expect_active_set() was called: there is a good start.
+    /// Whether it was built for a good start (HierarchyParts::start).
     bool expects_active_set() const
     {
       return was_expected;
     }
 
-    /// Whether interface sweeps alone would be slow on some level (see set_interface()).
+    /// Whether interface sweeps alone would be slow on some level.
     bool has_slow_interface() const
     {
       return slow_interface;
     }
 
-    /// Collective. After the last level: what the solver of level 0 needs. A hierarchy of a single level gets
-    /// an algebraic copy of it as level 0, so that the truncated problem has an exact coarse solver.
-    void finish(LevelZero level_zero = {});
-
-    /// Collective. Truncates at the active ones of the half-spaces of the finest level; recomputes only
-    /// what changed since the last call. Returns whether anything changed on any rank.
-    bool truncate(const HalfSpaces &half_spaces, const std::vector<unsigned char> &active);
-
-    /// As long as an object of this class lives its hierarchy lacks the finest level: the levels below are a
-    /// hierarchy themselves. What they were truncated at must be undone before the object goes.
-    class WithoutFinest
-    {
-    public:
-      explicit WithoutFinest(MultigridHierarchy &hierarchy);
-      ~WithoutFinest();
-      WithoutFinest(const WithoutFinest &) = delete;
-
-    private:
-      MultigridHierarchy             &hierarchy;
-      std::unique_ptr<MultigridLevel> finest;
-    };
+    /// Collective. Truncates the prolongation to a level at the active ones of its half-spaces and
+    /// recomputes, on the levels below, only what changed since the last call. Returns whether anything
+    /// changed on any rank.
+    bool truncate(const unsigned int level, const HalfSpaces &half_spaces,
+                  const std::vector<unsigned char> &active);
 
     /// Level 0 is the coarsest.
     unsigned int n_levels() const
@@ -123,34 +150,35 @@ namespace Signorini
       return *levels.front();
     }
 
-    /// The level added last.
-    MultigridLevel &coarsest()
-    {
-      return *levels.back();
-    }
-
     /// Collective. Set up anew if level 0 has changed.
-    const LevelZeroSolver &coarse_solver();
+    const CoarseSolver &coarse_solver();
 
   private:
-    /// Collective. Makes `active` the truncated nodes; whether anything changes. Unit normals at them and a
-    /// flag where something changes, zero elsewhere, both with ghosts: ghosts of active nodes must be
-    /// truncated as well.
-    bool set_truncated(const HalfSpaces &half_spaces, const std::vector<unsigned char> &active,
-                       Vector &planes, Vector &changed);
+    void add_finest(HierarchyParts &parts);
+    void add_coarser(CoarserLevel &&description, const HierarchyParts &parts);
+    void make_smoother(MultigridLevel &level, const LevelInterface &interface, const HierarchyParts &parts);
+    /// An algebraic copy of the only level.
+    CoarserLevel copy_of_finest(const HalfSpaces &contact) const;
+    /// Truncates the first prolongation at the active set that problem and start let expect.
+    void truncate_expected(const HierarchyParts &parts, NodalTransfer &transfer);
 
-    /// Removes the planes' normals from the changed block rows of the finest transfer.
-    void truncate_transfer(const Vector &planes, const Vector &changed);
+    /// Collective. Makes `active` the truncated nodes of a level; whether anything changes. Unit normals at
+    /// them and a flag where something changes, zero elsewhere, both with ghosts: ghosts of active nodes must
+    /// be truncated as well.
+    bool set_truncated(MultigridLevel &fine, const HalfSpaces &half_spaces,
+                       const std::vector<unsigned char> &active, Vector &planes, Vector &changed);
 
     /// Finest first.
     std::vector<std::unique_ptr<MultigridLevel>> levels;
-    LevelZero                                    level_zero;
-    LevelZeroSolver                              level_zero_solver;
+    std::unique_ptr<CoarseSolver>                level_zero_solver;
     bool                                         level_zero_changed = false;
-    /// What expect_active_set() found, until the next level is added (see set_truncated()).
-    Vector expected_planes, expected_nodes;
-    bool   was_expected = false, slow_interface = false;
+    bool                                         was_expected = false, slow_interface = false;
   };
+
+  /// Collective. Marks the active nodes of a good start (left as it is): projects it and sweeps once over the
+  /// interface.
+  ContactState find_active(MultigridLevel &level, const HalfSpaces &half_spaces, const Vector &rhs,
+                           Vector &v);
 } // namespace Signorini
 
 #endif

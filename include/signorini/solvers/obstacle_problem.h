@@ -19,8 +19,8 @@ namespace Signorini
     std::vector<Vector3> normals;
     /// Bounds (length).
     std::vector<double> bounds;
-    /// |m| of method.md, section 10: relative displacements along the full normal over those along `normals`.
-    /// Empty: one everywhere.
+    /// |m| of doc/algorithm.md, (24): relative displacements along the full normal over those along
+    /// `normals`. Empty: one everywhere.
     std::vector<double> shares;
 
     double share(const std::size_t p) const

@@ -72,32 +72,19 @@ namespace Signorini
     /// For each half-space of the last solve whether it is active.
     virtual const std::vector<unsigned char> &active() const
     {
-      return hierarchy.finest().smoother->active();
+      return contact.active();
     }
 
   protected:
     /// The hierarchy must outlive the object; its truncation is changed.
-    ObstacleSolver(MultigridHierarchy &hierarchy, const SolverParameters &parameters);
+    /// @param level the finest one of the problem
+    ObstacleSolver(MultigridHierarchy &hierarchy, const SolverParameters &parameters,
+                   const unsigned int level);
 
-    /// Collective. Largest step along c that keeps the half-spaces that are not active.
-    double admissible_step(const Vector &v, const Vector &c, const HalfSpaces &half_spaces) const;
-
-    struct LineSearch
+    const NodeBlockMatrix &matrix() const
     {
-      double length = 0.;
-      /// By which the energy falls.
-      double decrease = 0.;
-    };
-
-    /// Collective. The t that minimizes the energy of v + t c, as far as it is admissible. c is admissible
-    /// for v; c and residual = b - A v are tangential at active nodes: the slope must not see the contact
-    /// forces, which are larger than the residual by orders of magnitude.
-    LineSearch search_along(const Vector &v, const Vector &c, const Vector &residual,
-                            const HalfSpaces &half_spaces, const bool semidefinite) const;
-
-    /// Collective. v += t c with the t of search_along(); residual = b - A v is made tangential.
-    void add_searched(Vector &v, const Vector &c, Vector &residual, const HalfSpaces &half_spaces,
-                      const bool semidefinite) const;
+      return hierarchy.level(level).matrix;
+    }
 
     /// Collective. Books an iteration with the norm of its correction and that of the iterate, and decides
     /// whether it was the last one: converged, or stagnant at rounding.
@@ -114,12 +101,11 @@ namespace Signorini
     void close(ConvergenceReport &report, const Vector &v, const ObstacleProblem &problem,
                const Vector &residual) const;
 
-    /// Collective. If wanted, books what the last substep has done to energy and admissibility.
-    void check_substep(ConvergenceReport &report, double &energy, const Vector &v,
-                       const ObstacleProblem &problem) const;
-
     MultigridHierarchy    &hierarchy;
     const SolverParameters parameters;
+    const unsigned int     level;
+    /// Half-spaces of the last solve and which of them are active.
+    ContactState contact;
   };
 
   /// Whether a method solves linear problems only.

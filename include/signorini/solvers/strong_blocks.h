@@ -4,9 +4,8 @@
 #ifndef signorini_solvers_strong_blocks_h
 #define signorini_solvers_strong_blocks_h
 
-#include <signorini/algebra/node_block_matrix.h>
-#include <signorini/solvers/obstacle_problem.h>
-#include <signorini/solvers/sweep_schedule.h>
+#include <signorini/solvers/projected_gauss_seidel.h>
+#include <signorini/solvers/smoother.h>
 
 #include <memory>
 #include <vector>
@@ -21,42 +20,41 @@ namespace Signorini
   /// From an aspect ratio of 5 to 7 on a node counts as stretched; its strong couplings are the most
   /// negative ones to other such nodes. Blocks in which sweeps by node converge well are left out. Without
   /// stretched cells there are no blocks and no costs.
-  class StrongBlocks
+  class StrongBlocks : public SmoothingStage
   {
   public:
-    /// Collective. The matrix and the schedule must outlive the object.
-    StrongBlocks(const NodeBlockMatrix &matrix, const SweepSchedule &all_rows);
-    ~StrongBlocks();
+    /// Collective. Matrix and sweeps must outlive the object.
+    StrongBlocks(const NodeBlockMatrix &matrix, const ProjectedGaussSeidel &sweeps);
+    ~StrongBlocks() override;
 
-    /// The owned rows that belong to a block.
-    std::vector<unsigned int> rows() const;
-
-    /// Collective. Drops the blocks that have none but the given rows: something else solves those at once.
-    void drop_within(const std::vector<bool> &rows);
-
-    /// Rows of the matrix have changed.
-    void update(const std::vector<unsigned int> &rows);
+    /// Collective. Drops the blocks that have none but the given local nodes: something else solves those at
+    /// once.
+    void drop_within(const std::vector<bool> &nodes);
 
     /// Collective. One sweep: minimizes over all motions of a block that keep its active nodes on their
-    /// planes, as far as its other contact nodes allow. The energy never rises.
-    /// @param half_space_of_row index of the half-space at each owned node, or -1
-    void sweep(Vector &v, const Vector &rhs, const bool forward, const HalfSpaces &half_spaces,
-               const std::vector<int> &half_space_of_row, const std::vector<unsigned char> &active);
+    /// planes, as far as its other contact nodes allow.
+    void run(Vector &v, const Vector &rhs, ContactState &contact, const Direction direction) override;
+
+    /// Those that belong to a block.
+    const std::vector<unsigned int> &rows() const override
+    {
+      return block_rows;
+    }
+
+    void update(const std::vector<unsigned int> &rows) override;
 
   private:
     struct Block;
 
+    void find_stretched(std::vector<bool> &is_stretched, std::vector<double> &most_negative) const;
     void find_blocks();
-    /// By how much a forward and a backward sweep by node reduce the energy norm of an error of a block whose
-    /// surroundings are at rest, after some sweeps.
-    double sweep_rate(const std::vector<unsigned int> &rows) const;
-    void   factorize(Block &block, const HalfSpaces &half_spaces, const std::vector<int> &half_space_of_row,
-                     const std::vector<unsigned char> &active);
-    void   relax(Vector &v, const Vector &rhs, Block &block, const HalfSpaces &half_spaces,
-                 const std::vector<int> &half_space_of_row, const std::vector<unsigned char> &active);
+    void add_block(std::vector<unsigned int> &&rows, const unsigned int phase);
+    /// After blocks were added or dropped.
+    void collect_rows();
+    void factorize(Block &block, const ContactState &contact);
+    void relax(Vector &v, const Vector &rhs, Block &block, const ContactState &contact);
 
-    const NodeBlockMatrix &matrix;
-    const SweepSchedule   &schedule;
+    const ProjectedGaussSeidel &sweeps;
     /// Whether there are none on any rank.
     bool               is_empty = true;
     std::vector<Block> blocks;
@@ -64,7 +62,7 @@ namespace Signorini
     std::vector<std::vector<unsigned int>> phases;
     /// The block of each owned row, or -1; its place in the block.
     std::vector<int>          block_of_row;
-    std::vector<unsigned int> place_in_block;
+    std::vector<unsigned int> place_in_block, block_rows;
   };
 } // namespace Signorini
 

@@ -8,8 +8,8 @@
 
 namespace Signorini
 {
-  /// The unit of cost (method.md, section 8): median of five Gauss-Seidel sweeps on the finest level, and how
-  /// close they come to the bandwidth of memory. Rates are sums over the ranks.
+  /// The unit of cost (doc/algorithm.md, (70)): median of five Gauss-Seidel sweeps on the finest level, and
+  /// how close they come to the bandwidth of memory. Rates are sums over the ranks.
   struct SweepMeasurement
   {
     /// Seconds; 0 if not measured.

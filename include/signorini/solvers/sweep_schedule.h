@@ -10,6 +10,13 @@
 
 namespace Signorini
 {
+  /// In which direction a sweep goes over its rows.
+  enum class Direction
+  {
+    forward,
+    backward
+  };
+
   /// The order of a Gauss-Seidel sweep under MPI that keeps it a true (multiplicative) sweep: the
   /// energy falls in every step on any number of ranks, which is what the convergence theory of
   /// monotone multigrid needs and what a block-Jacobi variant loses.

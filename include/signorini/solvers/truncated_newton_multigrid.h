@@ -4,8 +4,9 @@
 #ifndef signorini_solvers_truncated_newton_multigrid_h
 #define signorini_solvers_truncated_newton_multigrid_h
 
-#include <signorini/solvers/conjugate_direction.h>
+#include <signorini/solvers/conjugate_gradients.h>
 #include <signorini/solvers/obstacle_solver.h>
+#include <signorini/solvers/truncated_cycle.h>
 
 namespace Signorini
 {
@@ -23,7 +24,7 @@ namespace Signorini
   /// and its energy is not lower. After that the active nodes are on the way to their planes, and M is no
   /// linear map: the first M(v) that need not be shortened is taken before conjugate gradients go on. None of
   /// this needs a product with A more than the plain iteration. From a good start
-  /// (MultigridHierarchy::expect_active_set(), or from below) the interface sweeps of the finest level are
+  /// (HierarchyParts::start, or from below) the interface sweeps of the finest level are
   /// left out while the active set rests and iterations are fast.
   ///
   /// Accelerated without a start gets one from the levels below, each an obstacle problem of its own with the
@@ -34,55 +35,30 @@ namespace Signorini
   {
   public:
     /// The hierarchy must outlive the object; its truncation is changed.
-    TruncatedNewtonMultigrid(MultigridHierarchy &hierarchy, const SolverParameters &parameters);
+    /// @param level the finest one of the problem
+    TruncatedNewtonMultigrid(MultigridHierarchy &hierarchy, const SolverParameters &parameters,
+                             const unsigned int level);
 
     using ObstacleSolver::solve;
 
     ConvergenceReport solve(Vector &v, const ObstacleProblem &problem, const Monitor &monitor) override;
 
   private:
+    /// Collective. Projects v, after a nested start where there can be one; whether that is a good start.
+    bool start(Vector &v, const ObstacleProblem &problem, ConvergenceReport &report);
+
     /// Collective. Whether the levels below are obstacle problems that can give a start.
     bool has_nested_start(const Vector &v, const ObstacleProblem &problem) const;
 
-    /// Collective. v = an approximate solution on the next coarser level. Returns the iterations on the
-    /// coarser levels.
-    std::vector<unsigned int> start_below(Vector &v, const ObstacleProblem &problem);
+    /// Collective. v = an approximate solution on the next coarser level (doc/algorithm.md, (57)). Returns
+    /// the iterations on the coarser levels.
+    std::vector<unsigned int> nested_start(Vector &v, const ObstacleProblem &problem);
 
-    /// Collective. The coarse correction on the finest level, tangential at active nodes, in `scratch`.
-    Vector &prolongate_correction();
+    /// Collective. A step of conjugate gradients for the correction of a cycle, if it is admissible from v;
+    /// whether it was taken. Updates the residual of v by it.
+    bool accelerate(const Vector &v, Vector &residual, TruncatedCycle &cycle, const ObstacleProblem &problem);
 
-    /// Collective. Adds the truncated V-cycle of the residual, which may be changed, to the correction z: by
-    /// add_better() if `searches` or something is not admissible, and then `searches` is set. Motions of
-    /// semidefinite problems that cost nothing come out very long: what is not admissible is shortened as a
-    /// whole there, so that they stay motions, with a search or without. Returns what add_better() does, or
-    /// zero.
-    double correct(Vector &z, Vector &residual, const bool semidefinite, bool &searches);
-
-    /// Collective. Adds the coarse correction in `scratch`, of which `length` is admissible, with exact line
-    /// search. What is not admissible is cut off node by node or the whole is shortened, whichever lowers the
-    /// energy more. Returns the energy norm of what was cut off or shortened, before that; zero where nothing
-    /// was, and for semidefinite problems.
-    double add_better(Vector &z, const Vector &residual, const double length, const bool semidefinite);
-
-    /// One accelerated step from v with the correction z, az = A z; false, and nothing changed but the
-    /// direction, if it is not to be taken. On success z and az are the correction made and its product with
-    /// A.
-    bool accelerate(const Vector &v, const Vector &residual, Vector &z, Vector &az,
-                    const ObstacleProblem &problem);
-
-    /// Length of z (at most 1) that lowers the energy, for an admissible v + z that was not searched because
-    /// the active set seemed to rest. az = A z.
-    double safe_length(const Vector &z, const Vector &az, const Vector &residual,
-                       const bool keeps_active) const;
-
-    bool all_ranks(const bool condition) const;
-
-    VCycle cycle;
-    Vector coarse_defect, coarse_correction;
-    /// On the finest level: a coarse correction there, then the product of a whole one.
-    Vector             scratch;
-    unsigned int       n_updates = 0;
-    ConjugateDirection conjugate;
+    ConjugateGradients conjugate;
   };
 } // namespace Signorini
 

@@ -29,6 +29,8 @@ namespace Signorini
       Vector solution, rhs;
       /// After pre-smoothing, then the coarse correction.
       Vector residual;
+      /// Corrections are free.
+      ContactState free;
     };
 
     /// @param new_residual null, or where to leave rhs - A solution

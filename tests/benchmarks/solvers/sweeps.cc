@@ -40,7 +40,9 @@ main(int argc, char **argv)
   const unsigned int                             n         = argc > 1 ? std::stoi(argv[1]) : 64;
   MultigridHierarchy                             hierarchy = CubeProblem::hierarchy(n);
   const NodeBlockMatrix                         &matrix    = hierarchy.finest().matrix;
-  ProjectedGaussSeidel                          &smoother  = *hierarchy.finest().smoother;
+  Smoother                                      &smoother  = *hierarchy.finest().smoother;
+  const ProjectedGaussSeidel                     sweeps(matrix);
+  ContactState                                   contact(matrix);
   Vector                                         v, rhs, residual;
   for (Vector *vector : {&v, &rhs, &residual})
     matrix.partition().reinit(*vector);
@@ -54,17 +56,19 @@ main(int argc, char **argv)
   std::printf("%u unknowns, sweep %.1f GB/s, read %.1f GB/s\n", 3 * matrix.n_rows(),
               1e-9 * measured.bytes_per_second, 1e-9 * measured.read_bytes_per_second);
   print("forward sweep", measured.time);
-  print("backward sweep", median_time([&] { smoother.sweep(v, rhs, ProjectedGaussSeidel::backward); }));
+  print("backward sweep", median_time([&] { sweeps.sweep(v, rhs, contact, Direction::backward); }));
   print("product, half of the matrix", median_time([&] { matrix.subtract_symmetric_product(residual, v); }));
   print("product", median_time([&] { matrix.vmult(residual, v); }));
   print("V(1,1) down: sweep from zero, residual", median_time([&] {
-          smoother.smooth_from_zero(v, rhs, {1, 1, 0}, residual);
+          smoother.smooth_from_zero(v, rhs, contact, {1, 1, 0}, residual);
         }));
   print("V(1,1) up: sweep, residual", median_time([&] {
-          smoother.smooth_to_residual(v, rhs, {1, 1, 0}, &residual);
+          smoother.smooth_to_residual(v, rhs, contact, {1, 1, 0}, &residual);
         }));
-  print("V(3,3) down", median_time([&] { smoother.smooth_from_zero(v, rhs, {3, 3, 0}, residual); }));
-  print("V(3,3) up", median_time([&] { smoother.smooth_to_residual(v, rhs, {3, 3, 0}, &residual); }));
+  print("V(3,3) down", median_time([&] { smoother.smooth_from_zero(v, rhs, contact, {3, 3, 0}, residual); }));
+  print("V(3,3) up", median_time([&] {
+          smoother.smooth_to_residual(v, rhs, contact, {3, 3, 0}, &residual);
+        }));
   print("vector: a += b", median_time([&] { v += rhs; }));
   MultigridLevel &coarse = hierarchy.level(hierarchy.n_levels() - 2);
   Vector          small;

@@ -158,67 +158,110 @@ namespace CubeProblem
     return half_spaces;
   }
 
-  /// Galerkin hierarchy with base 2; rows of the nodes on z = 0 are block rows so that they can be truncated,
-  /// turned from normal to normal. With a problem and a start it is built truncated at the active set that
+  /// The contact nodes of a grid, z = 0.
+  inline LevelInterface contact_interface(const Grid &grid)
+  {
+    LevelInterface result;
+    for (NodeIndex p = 0; p < (grid.n + 1) * (grid.n + 1); ++p)
+      result.contact_nodes.push_back(p);
+    return result;
+  }
+
+  /// Their normals on this rank.
+  inline HalfSpaces contact(const Grid &grid, const Normals &normals)
+  {
+    HalfSpaces result;
+    for (const NodeIndex p : grid.owned)
+      if (const auto index = grid.index(p); index[2] == 0)
+        {
+          result.nodes.push_back(static_cast<unsigned int>(p - grid.owned.nth_index_in_set(0)));
+          result.normals.push_back(normals(index[0] / double(grid.n), index[1] / double(grid.n)));
+        }
+    return result;
+  }
+
+  /// Grids with half, a quarter, ... of the cells. Rows of the nodes on z = 0 are block rows so that they can
+  /// be truncated, turned from normal to normal.
+  class Levels : public LevelSource
+  {
+  public:
+    Levels(const unsigned int n, const Normals &normals)
+      : n(n)
+      , m(n)
+      , normals(normals)
+    {
+    }
+
+    std::optional<CoarserLevel> next(const NodePartition &finer) override
+    {
+      if (m <= 2)
+        return {};
+      const Grid     fine(m), coarse(m / 2);
+      const NodeRows rows      = import_ghost_rows(finer, interpolation(fine, coarse));
+      const auto     normal_of = [&](const Grid &grid, const NodeIndex p) {
+        const auto index = grid.index(p);
+        return normals(index[0] / double(grid.n), index[1] / double(grid.n));
+      };
+      std::vector<NodalTransfer::BlockRow> block_rows;
+      for (unsigned int i = 0; i < finer.n_local(); ++i)
+        if (finer.to_global(i) < (m + 1) * (m + 1))
+          {
+            NodalTransfer::BlockRow row{i, {}, {}, {}};
+            for (std::size_t k = rows.start[i]; k < rows.start[i + 1]; ++k)
+              {
+                row.columns.push_back(rows.columns[k]);
+                row.blocks.push_back(rows.weights[k] * rotation(normal_of(coarse, rows.columns[k]),
+                                                                normal_of(fine, finer.to_global(i))));
+              }
+            block_rows.push_back(row);
+          }
+      CoarserLevel result;
+      result.transfer.reinit(rows, block_rows, finer.n_owned());
+      result.owned   = coarse.owned;
+      result.fixed   = coarse.fixed();
+      result.contact = contact(coarse, normals);
+      if (m / 2 > 2)
+        result.interface = contact_interface(coarse);
+      m /= 2;
+      return result;
+    }
+
+    LevelZero level_zero(const NodePartition &) override
+    {
+      LevelZero result;
+      result.contact = contact(Grid(n), normals);
+      return result;
+    }
+
+  private:
+    const unsigned int n;
+    unsigned int       m;
+    const Normals      normals;
+  };
+
+  /// The finest level of a Galerkin hierarchy with base 2.
+  inline HierarchyParts finest_level(const unsigned int n)
+  {
+    const Grid     grid(n);
+    HierarchyParts parts;
+    parts.matrix    = stiffness(grid);
+    parts.fixed     = import_ghost_masks(parts.matrix.partition(), grid.fixed());
+    parts.interface = contact_interface(grid);
+    return parts;
+  }
+
+  /// Galerkin hierarchy with base 2. With a problem and a start it is built truncated at the active set that
   /// they let expect.
   inline MultigridHierarchy hierarchy(const unsigned int n, const Normals &normals = downwards,
                                       const ObstacleProblem *const   problem = nullptr,
                                       const Signorini::Vector *const start   = nullptr)
   {
-    Grid               grid(n);
-    NodeBlockMatrix    matrix = stiffness(grid);
-    auto               masks  = import_ghost_masks(matrix.partition(), grid.fixed());
-    MultigridHierarchy result(std::move(matrix), masks);
-    for (unsigned int m = n; m > 2; m /= 2)
-      {
-        const Grid             fine(m), coarse(m / 2);
-        const NodePartition   &partition = result.coarsest().matrix.partition();
-        std::vector<NodeIndex> contact;
-        for (NodeIndex p = 0; p < (m + 1) * (m + 1); ++p)
-          contact.push_back(p);
-        result.set_interface(contact);
-        if (m == n && problem != nullptr)
-          result.expect_active_set(*problem, *start);
-        const NodeRows                       rows = import_ghost_rows(partition, interpolation(fine, coarse));
-        std::vector<NodalTransfer::BlockRow> block_rows;
-        for (unsigned int i = 0; i < partition.n_local(); ++i)
-          if (partition.to_global(i) < (m + 1) * (m + 1))
-            {
-              const auto normal_of = [&](const Grid &grid, const NodeIndex p) {
-                const auto index = grid.index(p);
-                return normals(index[0] / double(grid.n), index[1] / double(grid.n));
-              };
-              NodalTransfer::BlockRow row{i, {}, {}, {}};
-              for (std::size_t k = rows.start[i]; k < rows.start[i + 1]; ++k)
-                {
-                  row.columns.push_back(rows.columns[k]);
-                  row.blocks.push_back(rows.weights[k] * rotation(normal_of(coarse, rows.columns[k]),
-                                                                  normal_of(fine, partition.to_global(i))));
-                }
-              block_rows.push_back(row);
-            }
-        NodalTransfer transfer;
-        transfer.reinit(rows, block_rows, partition.n_owned());
-        result.add_coarser_level(std::move(transfer), coarse.owned, coarse.fixed());
-        HalfSpaces &coarse_contact = result.coarsest().contact;
-        for (const NodeIndex p : coarse.owned)
-          if (const auto index = coarse.index(p); index[2] == 0)
-            {
-              coarse_contact.nodes.push_back(result.coarsest().matrix.partition().to_local(p));
-              coarse_contact.normals.push_back(
-                  normals(index[0] / double(coarse.n), index[1] / double(coarse.n)));
-            }
-      }
-    LevelZero   level_zero;
-    HalfSpaces &contact = level_zero.contact;
-    for (const NodeIndex p : grid.owned)
-      if (const auto index = grid.index(p); index[2] == 0)
-        {
-          contact.nodes.push_back(result.finest().matrix.partition().to_local(p));
-          contact.normals.push_back(normals(index[0] / double(n), index[1] / double(n)));
-        }
-    result.finish(level_zero);
-    return result;
+    Levels         levels(n, normals);
+    HierarchyParts parts = finest_level(n);
+    parts.levels         = &levels;
+    parts.problem        = problem;
+    parts.start          = start;
+    return MultigridHierarchy(std::move(parts));
   }
 
   /// Gives the coarser levels of hierarchy(n) their half-spaces.

@@ -116,17 +116,17 @@ TEST(ProjectedGaussSeidel, EnergyFallsInEverySweep)
   MultigridHierarchy      hierarchy   = CubeProblem::hierarchy(8);
   const auto              half_spaces = CubeProblem::paraboloid(grid);
   NodeBlockMatrix        &matrix      = hierarchy.finest().matrix;
-  ProjectedGaussSeidel   &smoother    = *hierarchy.finest().smoother;
-  smoother.set_half_spaces(half_spaces);
-  Vector v, rhs, product;
+  ProjectedGaussSeidel    sweeps(matrix);
+  ContactState            contact(matrix, half_spaces);
+  Vector                  v, rhs, product;
   matrix.partition().reinit(v);
   matrix.partition().reinit(rhs);
   matrix.partition().reinit(product);
-  smoother.project(v);
+  contact.project(v);
   double energy = std::numeric_limits<double>::max();
   for (unsigned int sweep = 0; sweep < 20; ++sweep)
     {
-      smoother.sweep(v, rhs, sweep % 2 ? ProjectedGaussSeidel::backward : ProjectedGaussSeidel::forward);
+      sweeps.sweep(v, rhs, contact, sweep % 2 ? Direction::backward : Direction::forward);
       matrix.vmult(product, v);
       const double new_energy = .5 * (product * v);
       EXPECT_LT(new_energy, energy);
@@ -146,17 +146,12 @@ TEST(InterfaceCorrection, SolvesTheObstacleProblemOfTheContactNodes)
   const NodeBlockMatrix   matrix      = CubeProblem::stiffness(grid);
   const NodePartition    &nodes       = matrix.partition();
   const HalfSpaces        half_spaces = CubeProblem::paraboloid(grid);
-  std::vector<NodeIndex>  contact;
-  for (NodeIndex p = 0; p < (grid.n + 1) * (grid.n + 1); ++p)
-    contact.push_back(p);
-  std::vector<int>           half_space_of_row(nodes.n_owned(), -1);
-  std::vector<unsigned char> active(half_spaces.size(), 0);
-  Vector                     v, rhs, residual;
+  ContactState            contact(matrix, half_spaces);
+  Vector                  v, rhs, residual;
   for (Vector *vector : {&v, &rhs, &residual})
     nodes.reinit(*vector);
   for (std::size_t p = 0; p < half_spaces.size(); ++p)
     {
-      half_space_of_row[half_spaces.nodes[p]] = static_cast<int>(p);
       half_spaces.add_normal(v, p, std::min(0., half_spaces.bounds[p]));
       rhs.local_element(3 * half_spaces.nodes[p])     = .001;
       rhs.local_element(3 * half_spaces.nodes[p] + 2) = -.0005;
@@ -166,8 +161,8 @@ TEST(InterfaceCorrection, SolvesTheObstacleProblemOfTheContactNodes)
     return .5 * (residual * v) - rhs * v;
   };
   const double        before = energy();
-  InterfaceCorrection correction(matrix, contact);
-  correction.apply(v, rhs, {half_spaces, half_space_of_row, active});
+  InterfaceCorrection correction(matrix, CubeProblem::contact_interface(grid).contact_nodes);
+  correction.run(v, rhs, contact, Direction::forward);
   EXPECT_LT(energy(), before);
 
   residual.sadd(-1., 1., rhs);
@@ -175,14 +170,14 @@ TEST(InterfaceCorrection, SolvesTheObstacleProblemOfTheContactNodes)
   for (std::size_t p = 0; p < half_spaces.size(); ++p)
     {
       const auto row = half_spaces.nodes[p];
-      n_active += active[p];
+      n_active += contact.active()[p];
       EXPECT_NEAR(residual.local_element(3 * row), 0., 1e-14);
       EXPECT_NEAR(residual.local_element(3 * row + 1), 0., 1e-14);
       const double force = half_spaces.normal_part(p, residual);
       const double room  = half_spaces.bounds[p] - half_spaces.normal_part(p, v);
       EXPECT_GE(room, -1e-14);
       EXPECT_GE(force, -1e-14);
-      EXPECT_NEAR(active[p] ? room : force, 0., 1e-14);
+      EXPECT_NEAR(contact.active()[p] ? room : force, 0., 1e-14);
     }
   n_active = dealii::Utilities::MPI::sum(n_active, MPI_COMM_WORLD);
   EXPECT_EQ(n_active, 9u);
@@ -193,26 +188,18 @@ TEST(InterfaceCorrection, SolvesTheObstacleProblemOfTheContactNodes)
 // Smoothing in single precision, and its residual, against sweeps in double precision: with half-spaces,
 // interface sweeps and lines of flat cells. Where a half-space is, the right hand side is not rounded: v
 // keeps it exactly, and a force that presses a node onto its plane, however large, leaves no trace.
-TEST(ProjectedGaussSeidel, SmoothingHandsOutItsResidual)
+TEST(StagedSmoother, SmoothingHandsOutItsResidual)
 {
   for (const double height : {1., .05})
     {
       const CubeProblem::Grid grid(8);
-      const NodeBlockMatrix   matrix = CubeProblem::stiffness(grid, height);
+      const NodeBlockMatrix   matrix      = CubeProblem::stiffness(grid, height);
+      const NodePartition    &nodes       = matrix.partition();
+      const HalfSpaces        half_spaces = CubeProblem::paraboloid(grid);
+      StagedSmoother          smoother(matrix, CubeProblem::contact_interface(grid));
       // Each remembers its active nodes.
-      ProjectedGaussSeidel      smoother(matrix), other(matrix);
-      const NodePartition      &nodes       = matrix.partition();
-      HalfSpaces                half_spaces = CubeProblem::paraboloid(grid);
-      std::vector<unsigned int> near_contact;
-      for (unsigned int i = 0; i < nodes.n_owned(); ++i)
-        if (grid.index(nodes.to_global(i))[2] <= 1)
-          near_contact.push_back(i);
-      for (ProjectedGaussSeidel *one : {&smoother, &other})
-        {
-          one->set_half_spaces(half_spaces);
-          one->set_interface(near_contact);
-        }
-      Vector v, rhs, residual, plain, product;
+      ContactState contact(matrix, half_spaces), other(matrix, half_spaces);
+      Vector       v, rhs, residual, plain, product;
       for (Vector *vector : {&v, &rhs, &residual, &plain, &product})
         nodes.reinit(*vector);
       for (unsigned int i = 0; i < 3 * nodes.n_owned(); ++i)
@@ -235,12 +222,12 @@ TEST(ProjectedGaussSeidel, SmoothingHandsOutItsResidual)
       for (const SmoothingParameters &p :
            {SmoothingParameters{0, 0, 2}, {1, 1, 0}, {1, 1, 1}, {2, 2, 0}, {3, 3, 2}})
         {
-          smoother.smooth_from_zero(v, rhs, p, residual);
+          smoother.smooth_from_zero(v, rhs, contact, p, residual);
           plain = 0.;
-          other.smooth(plain, rhs, p, ProjectedGaussSeidel::forward);
+          smoother.smooth(plain, rhs, other, p, Direction::forward);
           expect(p, 1e-6);
-          smoother.smooth_to_residual(v, rhs, p, &residual);
-          other.smooth(plain, rhs, p, ProjectedGaussSeidel::backward);
+          smoother.smooth_to_residual(v, rhs, contact, p, &residual);
+          smoother.smooth(plain, rhs, other, p, Direction::backward);
           expect(p, 1e-13);
         }
 
@@ -252,7 +239,7 @@ TEST(ProjectedGaussSeidel, SmoothingHandsOutItsResidual)
             for (unsigned int c = 0; c < 3; ++c)
               pressed.local_element(3 * half_spaces.nodes[q] + c) += force * half_spaces.normals[q][c];
           plain = v;
-          smoother.smooth_from_zero(v, pressed, {3, 3, 0}, residual);
+          smoother.smooth_from_zero(v, pressed, contact, {3, 3, 0}, residual);
           matrix.vmult(product, v);
           product.sadd(-1., 1., pressed);
           product -= residual;
@@ -283,11 +270,11 @@ TEST(MultigridHierarchy, TruncationIsUndone)
   const auto                 half_spaces = CubeProblem::paraboloid(grid);
   const std::vector<double>  before      = copy(hierarchy.level(0).matrix);
   std::vector<unsigned char> active(half_spaces.size(), 1);
-  EXPECT_TRUE(hierarchy.truncate(half_spaces, active));
-  EXPECT_FALSE(hierarchy.truncate(half_spaces, active));
+  EXPECT_TRUE(hierarchy.truncate(2, half_spaces, active));
+  EXPECT_FALSE(hierarchy.truncate(2, half_spaces, active));
   const std::vector<double> truncated = copy(hierarchy.level(0).matrix);
   active.assign(half_spaces.size(), 0);
-  EXPECT_TRUE(hierarchy.truncate(half_spaces, active));
+  EXPECT_TRUE(hierarchy.truncate(2, half_spaces, active));
   const std::vector<double> after      = copy(hierarchy.level(0).matrix);
   double                    difference = 0., change = 0., size = 0.;
   for (std::size_t k = 0; k < before.size(); ++k)
@@ -330,4 +317,94 @@ TEST(MultigridHierarchy, IsBuiltTruncatedAtTheExpectedActiveSet)
   const auto report = make_solver(other, SolverParameters())->solve(v, problem);
   EXPECT_EQ(report.hierarchy_updates, 0u);
   EXPECT_EQ(report.active_nodes.front(), 9u);
+}
+
+
+
+namespace
+{
+  /// What someone else may hand in: damped Jacobi in planes, and a coarse solver by many of its steps.
+  class Jacobi : public Smoother, public CoarseSolver
+  {
+  public:
+    explicit Jacobi(const NodeBlockMatrix &matrix)
+    {
+      setup(matrix);
+    }
+
+    void setup(const NodeBlockMatrix &new_matrix) override
+    {
+      matrix = &new_matrix;
+    }
+
+    void smooth(Vector &v, const Vector &rhs, ContactState &contact, const SmoothingParameters &parameters,
+                const Direction direction) override
+    {
+      Vector residual;
+      residual.reinit(v);
+      const unsigned int n = direction == Direction::forward ? parameters.n_pre : parameters.n_post;
+      for (unsigned int i = 0; i < n; ++i)
+        {
+          matrix->symmetric_residual(residual, v, rhs);
+          for (unsigned int row = 0; row < matrix->n_rows(); ++row)
+            for (unsigned int c = 0; c < 3; ++c)
+              v.local_element(3 * row + c) +=
+                  .4 * residual.local_element(3 * row + c) / matrix->block(matrix->diagonal(row))[4 * c];
+          contact.project(v);
+        }
+    }
+
+    void smooth_from_zero(Vector &v, const Vector &rhs, ContactState &contact,
+                          const SmoothingParameters &parameters, Vector &residual) override
+    {
+      v = 0.;
+      smooth(v, rhs, contact, parameters, Direction::forward);
+      matrix->symmetric_residual(residual, v, rhs);
+    }
+
+    void smooth_to_residual(Vector &v, const Vector &rhs, ContactState &contact,
+                            const SmoothingParameters &parameters, Vector *const residual) override
+    {
+      smooth(v, rhs, contact, parameters, Direction::backward);
+      if (residual != nullptr)
+        matrix->symmetric_residual(*residual, v, rhs);
+    }
+
+    void update(const std::vector<unsigned int> &) override
+    {
+    }
+
+    void solve(Vector &solution, const Vector &rhs) const override
+    {
+      ContactState free(*matrix);
+      solution = 0.;
+      const_cast<Jacobi *>(this)->smooth(solution, rhs, free, {200, 200, 0}, Direction::forward);
+    }
+
+  private:
+    const NodeBlockMatrix *matrix;
+  };
+} // namespace
+
+
+
+TEST(MultigridHierarchy, TakesSmoothersAndCoarseSolversOfOthers)
+{
+  CubeProblem::Levels levels(16, CubeProblem::downwards);
+  HierarchyParts      parts = CubeProblem::finest_level(16);
+  parts.levels              = &levels;
+  parts.coarse_solver       = std::make_unique<Jacobi>(parts.matrix);
+  parts.make_smoother       = [](const NodeBlockMatrix &matrix, const LevelInterface &) {
+    return std::make_unique<Jacobi>(matrix);
+  };
+  MultigridHierarchy hierarchy(std::move(parts));
+  ObstacleProblem    problem;
+  problem.half_spaces = CubeProblem::paraboloid(CubeProblem::Grid(16));
+  hierarchy.finest().matrix.partition().reinit(problem.rhs);
+  Vector     v      = problem.rhs;
+  const auto report = make_solver(hierarchy, SolverParameters())->solve(v, problem);
+  EXPECT_TRUE(report.converged);
+  EXPECT_LE(report.iterations, 60u);
+  EXPECT_EQ(report.active_nodes.back(), 21u);
+  EXPECT_NEAR(report.energy / 2.328860217949e-4, 1., 1e-10);
 }

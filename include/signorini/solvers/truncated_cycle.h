@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_solvers_truncated_cycle_h
+#define signorini_solvers_truncated_cycle_h
+
+#include <signorini/solvers/iteration_phase.h>
+#include <signorini/solvers/line_search.h>
+#include <signorini/solvers/substep_check.h>
+#include <signorini/solvers/v_cycle.h>
+
+namespace Signorini
+{
+  /// One correction z of an iterate v: projected smoothing on a level, one linear V-cycle on the spaces below
+  /// truncated at active nodes, the better of this correction projected and shortened with exact line search,
+  /// smoothing. It hands out A z, which costs no product.
+  class TruncatedCycle
+  {
+  public:
+    /// All must outlive the object; the truncation of the hierarchy is changed.
+    /// @param level the finest one of the problem
+    TruncatedCycle(MultigridHierarchy &hierarchy, const unsigned int level,
+                   const SmoothingParameters &coarse_smoothing, const ObstacleProblem &problem,
+                   ContactState &contact);
+
+    /// How a run goes about it.
+    struct Plan
+    {
+      /// On the finest level.
+      SmoothingParameters smoothing;
+      Phase               phase;
+      /// Whether a set that the first half keeps is mostly the last one: then no search, which costs a
+      /// product. From a good start it is.
+      bool trusts_kept_set;
+    };
+
+    /// Collective. The correction of v, with residual = b - A v.
+    void run(const Vector &v, const Vector &residual, const Plan &plan, SubstepCheck &check);
+
+    /// Collective. The energy norm of the correction, before anything was cut off.
+    double norm() const;
+
+    /// Whether the correction is a linear function of the residual.
+    bool is_linear(const Phase phase) const
+    {
+      return keeps_active && phase != Phase::on_the_way && cut_off == 0.;
+    }
+
+    /// Collective. Shortens the correction, where that is due because it was not searched, so that it lowers
+    /// the energy, and updates the residual of v by it; whether it was shortened.
+    bool shorten(Vector &residual);
+
+    /// Collective. Takes a step of conjugate gradients for the correction, and updates the residual of v by
+    /// it.
+    void replace(const double length, const Vector &direction, const Vector &direction_product,
+                 Vector &residual);
+
+    /// z, and A z.
+    Vector correction, product;
+
+    /// How often the hierarchy was truncated anew.
+    unsigned int n_updates = 0;
+
+  private:
+    bool   all_ranks(const bool condition) const;
+    void   prolongate_correction();
+    double correct(const bool searches_already);
+    double add_better(const double length);
+
+    MultigridHierarchy    &hierarchy;
+    const unsigned int     level;
+    const ObstacleProblem &problem;
+    ContactState          &contact;
+    VCycle                 cycle;
+    Vector                 coarse_defect, coarse_correction;
+    /// b - A (v + z); a coarse correction on the finest level.
+    Vector new_residual, step;
+    bool   searched = false, keeps_active = false;
+    /// Energy norm of a coarse correction of which something was cut off or shortened; else zero.
+    double cut_off = 0.;
+  };
+} // namespace Signorini
+
+#endif

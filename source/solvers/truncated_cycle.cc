@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/solvers/truncated_cycle.h>
+
+#include <deal.II/base/mpi.h>
+
+namespace Signorini
+{
+  using namespace dealii;
+
+  TruncatedCycle::TruncatedCycle(MultigridHierarchy &hierarchy, const unsigned int level,
+                                 const SmoothingParameters &coarse_smoothing, const ObstacleProblem &problem,
+                                 ContactState &contact)
+    : hierarchy(hierarchy)
+    , level(level)
+    , problem(problem)
+    , contact(contact)
+    , cycle(hierarchy, coarse_smoothing, level - 1)
+  {
+    for (Vector *vector : {&coarse_defect, &coarse_correction})
+      hierarchy.level(level - 1).matrix.partition().reinit(*vector);
+    for (Vector *vector : {&correction, &product, &new_residual, &step})
+      hierarchy.level(level).matrix.partition().reinit(*vector);
+  }
+
+
+
+  bool TruncatedCycle::all_ranks(const bool condition) const
+  {
+    return Utilities::MPI::min(static_cast<int>(condition),
+                               hierarchy.level(level).matrix.partition().communicator()) != 0;
+  }
+
+
+
+  void TruncatedCycle::run(const Vector &v, const Vector &residual, const Plan &plan, SubstepCheck &check)
+  {
+    Smoother                        &smoother = *hierarchy.level(level).smoother;
+    const std::vector<unsigned char> active   = contact.active();
+    contact.set_bounds_from(problem.half_spaces, v);
+    check.begin_iteration();
+    smoother.smooth_from_zero(correction, residual, contact, plan.smoothing, new_residual);
+    check(v, correction);
+
+    keeps_active = contact.active() == active;
+    searched     = plan.trusts_kept_set ? !(plan.phase != Phase::on_the_way && all_ranks(keeps_active))
+                                        : plan.phase != Phase::resting;
+    cut_off      = correct(searched);
+    if (searched)
+      check(v, correction);
+    else
+      // Without a search the iteration as a whole lowers the energy, not each step after the first.
+      check.return_to_start();
+
+    smoother.smooth_to_residual(correction, residual, contact, plan.smoothing, &new_residual);
+    keeps_active = all_ranks(keeps_active && contact.active() == active);
+    product      = residual;
+    product -= new_residual;
+  }
+
+
+
+  void TruncatedCycle::prolongate_correction()
+  {
+    hierarchy.level(level - 1).to_finer.prolongate(step, coarse_correction);
+    contact.restrict_to_tangents(step);
+  }
+
+
+
+  /// Adds the truncated V-cycle of the residual to the correction: by add_better() if it searches or
+  /// something is not admissible. Motions of semidefinite problems that cost nothing come out very long: what
+  /// is not admissible is shortened as a whole there, so that they stay motions, with a search or without.
+  /// Returns what add_better() does, or zero.
+  double TruncatedCycle::correct(const bool searches_already)
+  {
+    if (hierarchy.truncate(level, contact.half_spaces(), contact.active()))
+      ++n_updates;
+    coarse_defect = 0.;
+    restrict_defect(hierarchy.level(level - 1), coarse_defect, new_residual);
+    cycle.apply(coarse_correction, coarse_defect);
+    correction.zero_out_ghost_values();
+    prolongate_correction();
+    const double length = std::min(1., contact.longest_step(correction, step));
+    searched            = searches_already || (length < 1. && !problem.semidefinite);
+    if (searched)
+      {
+        contact.restrict_to_tangents(new_residual);
+        return add_better(length);
+      }
+    correction.add(length, step);
+    return 0.;
+  }
+
+
+
+  /// Adds the coarse correction in `step`, of which `length` is admissible, with exact line search. What is
+  /// not admissible is cut off node by node or the whole is shortened, whichever lowers the energy more.
+  /// Returns the energy norm of what was cut off or shortened, before that; zero where nothing was, and for
+  /// semidefinite problems.
+  double TruncatedCycle::add_better(const double length)
+  {
+    const NodeBlockMatrix &matrix = hierarchy.level(level).matrix;
+    const auto             search = [&] {
+      return search_along(matrix, step, new_residual, contact.longest_step(correction, step),
+                                      problem.semidefinite);
+    };
+    double square = 0.;
+    if (length < 1. && !problem.semidefinite)
+      {
+        // A V-cycle is at most the inverse of A: the slope is at least the curvature.
+        square                = std::max(new_residual * step, 0.);
+        const double decrease = (length - .5 * length * length) * square;
+        contact.project_correction(step, correction);
+        if (const LineSearch projected = search(); projected.decrease >= decrease)
+          {
+            correction.add(projected.length, step);
+            return std::sqrt(square);
+          }
+        prolongate_correction();
+      }
+    if (length < 1.)
+      step *= length;
+    correction.add(search().length, step);
+    return std::sqrt(square);
+  }
+
+
+
+  double TruncatedCycle::norm() const
+  {
+    return std::max(std::sqrt(std::max(correction * product, 0.)), cut_off);
+  }
+
+
+
+  bool TruncatedCycle::shorten(Vector &residual)
+  {
+    double length = 1.;
+    if (!searched)
+      {
+        double slope = residual * correction;
+        if (keeps_active)
+          slope -= contact.normal_product(residual, correction);
+        const double curvature = correction * product;
+        length                 = slope <= 0. ? 0. : curvature > slope ? slope / curvature : 1.;
+      }
+    if (length == 1.)
+      {
+        residual.swap(new_residual);
+        return false;
+      }
+    correction *= length;
+    residual.add(-length, product);
+    return true;
+  }
+
+
+
+  void TruncatedCycle::replace(const double length, const Vector &direction, const Vector &direction_product,
+                               Vector &residual)
+  {
+    correction.equ(length, direction);
+    product.equ(length, direction_product);
+    residual -= product;
+  }
+} // namespace Signorini
