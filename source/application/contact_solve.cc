@@ -15,13 +15,6 @@ namespace Signorini
 {
   using namespace dealii;
 
-  std::size_t ContactSolution::n_active() const
-  {
-    return std::accumulate(stress.active.begin(), stress.active.end(), std::size_t(0));
-  }
-
-
-
   ContactStress no_stress(const Discretization &d)
   {
     const std::size_t n = d.coupling.n_rows();
@@ -232,7 +225,9 @@ namespace Signorini
     const auto active = solve(result.report, algebraic, model, d, solver_parameters, journal);
     solving.stop();
 
-    result.stress       = evaluate_stress(d, matrix, algebraic.v, algebraic.problem, active);
+    result.stress = evaluate_stress(d, matrix, algebraic.v, algebraic.problem, active);
+    result.n_active =
+        std::accumulate(result.stress.active.begin(), result.stress.active.end(), std::size_t(0));
     result.displacement = d.transformation->to_displacement(algebraic.v, matrix.partition());
     set_tie_stress(result.stress, model, d, result.displacement);
     if (parameters.measure_sweeps)

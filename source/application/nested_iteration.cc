@@ -75,7 +75,7 @@ namespace Signorini
       result.levels        = solution.n_levels;
       result.nonlinear     = solution.report;
       result.contact_nodes = d.coupling.n_rows();
-      result.active_nodes  = solution.n_active();
+      result.active_nodes  = solution.n_active;
       result.sweeps        = solution.sweeps;
       result.has_linear    = solution.linear.has_value();
       if (!solution.linear)

@@ -50,13 +50,13 @@ namespace Signorini
     /// Physical, on the partition of the space, ghosts up to date.
     Vector        displacement;
     ContactStress stress;
+    /// Active contact nodes; tied ones do not count.
+    std::size_t n_active = 0;
     /// Of the multigrid hierarchy.
     unsigned int     n_levels = 0;
     SweepMeasurement sweeps;
     /// If it was wanted and the linear problem has a unique solution.
     std::optional<LinearComparison> linear;
-
-    std::size_t n_active() const;
   };
 
   /// Errors: InputError for methods that cannot solve a pair.
