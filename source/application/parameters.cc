@@ -10,6 +10,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <regex>
 
 namespace Signorini
 {
@@ -150,6 +151,20 @@ namespace Signorini
       return result;
     }
 
+    /// What deal.II says of its patterns, in words.
+    std::string explain_patterns(std::string text)
+    {
+      static const std::pair<std::regex, std::string> phrases[] = {
+          {std::regex(R"(<?\[List of <\[Double[^\]]*\]> of length (\d+)\.\.\.\1 \(inclusive\)\]>?)"),
+           "[$1 numbers separated by commas]"},
+          {std::regex(
+               R"(<?\[List of <\[Integer range (\d+)\.\.\.(\d+)[^\]]*\]> of length (\d+)\.\.\.\3 \(inclusive\)\]>?)"),
+           "[$3 integers from $1 to $2 separated by commas]"}};
+      for (const auto &[pattern, words] : phrases)
+        text = std::regex_replace(text, pattern, words);
+      return text;
+    }
+
     /// The text of a deal.II exception without its banner.
     std::string plain_text(const std::exception &e)
     {
@@ -172,7 +187,7 @@ namespace Signorini
       for (const char c : line)
         if (c != ' ' || (!result.empty() && result.back() != ' '))
           result += c;
-      return Utilities::trim(result);
+      return explain_patterns(Utilities::trim(result));
     }
 
     /// Applies "Section/Name=value".

@@ -509,6 +509,8 @@ def errors(p):
                  ([prm, '--set', 'Body upper/Young modulus=0'], 'Young modulus'),
                  ([prm, '--set', 'Body upper/Volume force=(1, 0, 0)', '--set', 'Body upper/Dirichlet=top: (*, *, -0.01)'], 'fly away'),
                  ([prm, '--set', 'Body lower/Translation=5, 0, 0'], 'overlay cell'),
+                 ([prm, '--set', 'Body lower/Translation=5, 0'], '3 numbers separated by commas'),
+                 ([prm, '--set', 'Body upper/Divisions=1, 0, 1'], '3 integers from 1'),
                  ([prm, '--set', 'Body upper/Mesh=missing.msh'], 'missing.msh'),
                  ([prm, '--set', 'Pair interface/First=upper: lid'], 'Pair interface/First: body upper has no boundary "lid"'),
                  ([prm, '--set', 'Body upper/Dirichlet=top: (0, 0, bla(x))'], 'bla'),
