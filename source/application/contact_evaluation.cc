@@ -240,7 +240,7 @@ namespace Signorini
             const NodeIndex node = d.partition().to_global(i);
             if (d.nodal().hanging_nodes().is_constrained(node))
               continue;
-            const auto &condition = d.dirichlet.condition[d.nodal().relevant().index_within_set(node)];
+            const auto &condition = d.dirichlet().condition[d.nodal().relevant().index_within_set(node)];
             for (unsigned int c = 0; c < dim; ++c)
               if (const double f = residual.local_element(dim * i + c); condition[c] >= 0)
                 reactions[condition[c]][c] += f;

@@ -138,7 +138,7 @@ namespace Signorini
       ObstacleProblem  &problem  = result.problem;
       PhaseTimes::Scope assembly = journal.measure(Phase::assembly);
       journal.show("assembling");
-      LinearSystem system = assemble_elasticity(model.bodies(), d.nodal(), model.loads(), d.dirichlet,
+      LinearSystem system = assemble_elasticity(model.bodies(), d.nodal(), model.loads(), d.dirichlet(),
                                                 d.coupling, d.projections);
       fix_tied_unknowns(system, d);
       problem.rhs = std::move(system.rhs);

@@ -23,7 +23,6 @@ namespace Signorini
     , couplings(std::move(some_couplings))
     , turned(std::move(turned))
     , rows_of_pair(pairs.size())
-    , dirichlet(constrained->dirichlet)
   {
     std::vector<std::string> names;
     for (const ContactPair &pair : pairs)
@@ -38,9 +37,10 @@ namespace Signorini
                                           : RowProjection(c.fixed[row], c.normals[row]));
         gaps.push_back(c.gaps[row]);
       }
-    lift_ties(dirichlet, *constrained, coupling, projections, tied);
+    if (has_ties())
+      lifted = std::make_unique<const DirichletData>(lift_ties(*constrained, coupling, projections, tied));
     transformation =
-        std::make_unique<const BasisTransformation>(nodal(), partition(), dirichlet, coupling, projections);
+        std::make_unique<const BasisTransformation>(nodal(), partition(), dirichlet(), coupling, projections);
   }
 
 

@@ -20,7 +20,7 @@ namespace Signorini
         if (!d.partition().owns(node))
           return;
         const unsigned int i    = d.partition().to_local(node);
-        const FixedMask    mask = d.dirichlet.mask[d.nodal().relevant().index_within_set(node)];
+        const FixedMask    mask = d.dirichlet().mask[d.nodal().relevant().index_within_set(node)];
         const Vector3      free = project_free(mask, force);
         for (unsigned int c = 0; c < dim; ++c)
           rhs.local_element(dim * i + c) += free[c];
@@ -62,7 +62,7 @@ namespace Signorini
     const std::vector<RowProjection> no_rows;
     PhaseTimes::Scope                assembly = journal.measure(Phase::linear_assembly);
     LinearSystem                     system =
-        assemble_elasticity(model.bodies(), d.nodal(), model.loads(), d.dirichlet, none, no_rows);
+        assemble_elasticity(model.bodies(), d.nodal(), model.loads(), d.dirichlet(), none, no_rows);
     ObstacleProblem problem;
     problem.rhs          = std::move(system.rhs);
     problem.semidefinite = !d.free_motions().empty();
@@ -81,7 +81,7 @@ namespace Signorini
     building.stop();
 
     const NodeBlockMatrix    &matrix = hierarchy.finest().matrix;
-    const BasisTransformation plain(d.nodal(), d.partition(), d.dirichlet, none, no_rows);
+    const BasisTransformation plain(d.nodal(), d.partition(), d.dirichlet(), none, no_rows);
     Vector                    v, solution;
     const auto                solve = [&](const SolverMethod method, const Phase phase) {
       const auto time = journal.measure(phase);

@@ -9,12 +9,11 @@ namespace Signorini
 {
   using namespace dealii;
 
-  void lift_ties(DirichletData &dirichlet, const ConstrainedSpace &constrained,
-                 const InterfaceCoupling &coupling, const std::vector<RowProjection> &projections,
-                 const std::vector<unsigned char> &tied)
+  DirichletData lift_ties(const ConstrainedSpace &constrained, const InterfaceCoupling &coupling,
+                          const std::vector<RowProjection> &projections,
+                          const std::vector<unsigned char> &tied)
   {
-    if (std::find(tied.begin(), tied.end(), 1) == tied.end())
-      return;
+    DirichletData          dirichlet = constrained.dirichlet;
     std::vector<NodeIndex> columns;
     for (const auto &entry : coupling.entries)
       columns.push_back(entry.node);
@@ -30,6 +29,7 @@ namespace Signorini
             sum += entry->weight * lift(entry->node);
           dirichlet.value[space.relevant().index_within_set(coupling.rows[p])] += projections[p].apply(sum);
         }
+    return dirichlet;
   }
 
 

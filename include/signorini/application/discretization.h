@@ -72,6 +72,12 @@ namespace Signorini
       return constrained->free_parts.motions;
     }
 
+    /// Those of the space, but with a lift that has no jump at tied nodes.
+    const DirichletData &dirichlet() const
+    {
+      return lifted ? *lifted : constrained->dirichlet;
+    }
+
     bool has_ties() const
     {
       return std::find(tied.begin(), tied.end(), 1) != tied.end();
@@ -92,8 +98,8 @@ namespace Signorini
     std::vector<RowProjection> projections;
     std::vector<double>        gaps;
     std::vector<unsigned char> tied;
-    /// With a lift that has no jump at tied nodes.
-    DirichletData                              dirichlet;
+    /// Null without ties; see dirichlet().
+    std::unique_ptr<const DirichletData>       lifted;
     std::unique_ptr<const BasisTransformation> transformation;
   };
 

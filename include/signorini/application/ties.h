@@ -12,11 +12,11 @@ namespace Signorini
   // Tied pairs: the mortar coupling as an equality. The relative displacement û_p of a tied node is a fixed
   // component of the transformed problem, and zero, because the lift has no jump at tied nodes.
 
-  /// Collective. Moves the lift at tied nodes along with that of the other side, so that it has no jump
-  /// there. Does nothing without ties.
-  void lift_ties(DirichletData &dirichlet, const ConstrainedSpace &constrained,
-                 const InterfaceCoupling &coupling, const std::vector<RowProjection> &projections,
-                 const std::vector<unsigned char> &tied);
+  /// Collective. The conditions of a space with a lift that moves along with that of the other side at tied
+  /// nodes, so that it has no jump there.
+  DirichletData lift_ties(const ConstrainedSpace &constrained, const InterfaceCoupling &coupling,
+                          const std::vector<RowProjection> &projections,
+                          const std::vector<unsigned char> &tied);
 
   /// Fixes the unknowns at tied nodes, at zero.
   void fix_tied_unknowns(LinearSystem &system, const Discretization &discretization);
