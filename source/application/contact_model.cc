@@ -16,6 +16,8 @@ namespace Signorini
   {
     std::vector<BodyDefinition> bodies_of(const ProblemDefinition &problem)
     {
+      if (problem.bodies.empty())
+        throw InputError("Bodies: there is none.");
       std::vector<BodyDefinition> bodies;
       for (const BodyProblem &body : problem.bodies)
         bodies.push_back(body.body);

@@ -207,6 +207,7 @@ namespace Signorini
   {
     for (const PairModel &pair : model.pairs())
       check_method(pair.definition, parameters.solver.method);
+    check_free_parts(model, d.constrained->free_parts, parameters.solver.method, journal);
     const bool       has_tied_part = d.constrained->free_parts.has_tied_part;
     const bool       compares      = parameters.compare_linear && !has_tied_part && !d.pairs.empty();
     ContactSolution  result;

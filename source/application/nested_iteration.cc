@@ -50,6 +50,7 @@ namespace Signorini
     void compare_with_exact(CycleResult &result, const ContactModel &model, const Discretization &d,
                             const Vector &displacement, const std::vector<VectorField> &exact)
     {
+      AssertThrow(exact.size() <= model.bodies().n_bodies(), ExcMessage("There is no such body."));
       for (unsigned int b = 0; b < exact.size(); ++b)
         if (exact[b])
           result.exact_errors[model.bodies().body_name(b)] =

@@ -30,6 +30,8 @@ namespace Signorini
     const std::string  section = "Body " + definition.name + "/";
     const unsigned int b       = n_bodies();
     names.push_back(definition.name);
+    if (definition.mesh.cells.empty())
+      throw InputError(section + "Mesh: it has no cells.");
     Placed body;
     body.mesh           = definition.mesh;
     body.first_boundary = static_cast<types::boundary_id>(shapes.size());
@@ -114,12 +116,12 @@ namespace Signorini
           continue;
         const unsigned int shift = static_cast<unsigned int>(vertices.size());
         vertices.insert(vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
-        for (const VolumeMesh::Cell &cell : mesh.cells)
+        for (std::size_t c = 0; c < mesh.cells.size(); ++c)
           {
             cells.emplace_back(8);
             for (unsigned int v = 0; v < 8; ++v)
-              cells.back().vertices[v] = cell.vertices[v] + shift;
-            cells.back().material_id = placed[b].material_of_cell[&cell - mesh.cells.data()];
+              cells.back().vertices[v] = mesh.cells[c].vertices[v] + shift;
+            cells.back().material_id = placed[b].material_of_cell[c];
           }
         for (const auto &face : mesh.faces)
           {
@@ -186,10 +188,11 @@ namespace Signorini
           for (const auto &face : mesh.faces)
             if (std::find(face.vertices.begin(), face.vertices.end(), v) != face.vertices.end())
               late_vertices[v + shift].insert(first_boundary[b] + face.name);
-        for (const VolumeMesh::Cell &cell : mesh.cells)
+        for (std::size_t c = 0; c < mesh.cells.size(); ++c)
           {
+            const VolumeMesh::Cell &cell = mesh.cells[c];
             cells.emplace_back();
-            cells.back().material = placed[b].material_of_cell[&cell - mesh.cells.data()];
+            cells.back().material = placed[b].material_of_cell[c];
             for (unsigned int f = 0; f < 4; ++f)
               {
                 VolumeMesh::Face face;

@@ -156,17 +156,13 @@ namespace Signorini
       const auto face = std::find_if(mesh.faces.begin(), mesh.faces.end(),
                                      [name](const VolumeMesh::BoundaryFace &f) { return f.name == name; });
       AssertThrow(face != mesh.faces.end(), ExcInternalError());
-      const Point<3>   x         = mesh.vertices[face->vertices[0]], centre(placement.translation);
-      const bool       is_sphere = curved.shape == CurvedBoundary::sphere;
-      BoundaryGeometry result;
-      result.boundary = curved.name;
-      result.shape    = make_round_shape(is_sphere, is_sphere ? x.norm() : std::hypot(x[0], x[1]), placement);
-      if (is_sphere)
-        result.manifold = std::make_shared<const SphericalManifold<3>>(centre);
-      else
-        result.manifold = std::make_shared<const CylindricalManifold<3>>(
-            placement.rotation * Tensor<1, 3>({0., 0., 1.}), centre);
-      return result;
+      const Point<3>     x    = mesh.vertices[face->vertices[0]], centre(placement.translation);
+      const Tensor<1, 3> axis = placement.rotation * Tensor<1, 3>({0., 0., 1.});
+      if (curved.shape == CurvedBoundary::sphere)
+        return {curved.name, make_sphere_shape(centre, x.norm()),
+                std::make_shared<const SphericalManifold<3>>(centre)};
+      return {curved.name, make_cylinder_shape(centre, axis, std::hypot(x[0], x[1])),
+              std::make_shared<const CylindricalManifold<3>>(axis, centre)};
     }
 
     void generate(BodyDefinition &body, const BodyParameters &p, const std::string &kind)

@@ -162,17 +162,28 @@ namespace Signorini
 
 
 
-  BoundaryShapePointer make_round_shape(const bool is_sphere, const double radius, const Placement &placement)
+  BoundaryShapePointer make_sphere_shape(const Point<3> &centre, const double radius)
   {
-    return std::make_shared<RoundShape>(is_sphere ? RoundShape::sphere : RoundShape::cylinder,
-                                        placement(Point<3>()),
-                                        placement.rotation * Tensor<1, 3>({0., 0., 1.}), radius, 1.);
+    AssertThrow(radius > 0., ExcMessage("The radius of a sphere must be positive."));
+    return std::make_shared<RoundShape>(RoundShape::sphere, centre, Tensor<1, 3>({0., 0., 1.}), radius, 1.);
+  }
+
+
+
+  BoundaryShapePointer make_cylinder_shape(const Point<3> &point, const Tensor<1, 3> &axis,
+                                           const double radius)
+  {
+    AssertThrow(radius > 0. && std::abs(axis.norm() - 1.) < 1e-10,
+                ExcMessage("The radius of a cylinder must be positive, its axis a unit vector."));
+    return std::make_shared<RoundShape>(RoundShape::cylinder, point, axis, radius, 1.);
   }
 
 
 
   BoundaryShapePointer make_plane_shape(const Point<3> &point, const Tensor<1, 3> &normal)
   {
+    AssertThrow(std::abs(normal.norm() - 1.) < 1e-10,
+                ExcMessage("The normal of a plane must be a unit vector."));
     return std::make_shared<RoundShape>(RoundShape::plane, point, normal, 1., 1.);
   }
 

@@ -65,8 +65,8 @@ namespace Signorini
   /// Collective. Solves the contact problem of one mesh.
   /// @param coarser the spaces below, kept from mesh to mesh
   /// @param start null on the first mesh
-  /// Errors: those of check_method(); InputError for loads that press no body into contact that could hold
-  /// it.
+  /// Errors: those of check_method() and check_free_parts(); InputError for loads that press no body into
+  /// contact that could hold it.
   ContactSolution solve_contact(const ContactModel &model, const Discretization &discretization,
                                 CoarserSpaces &coarser, const NestedStart *const start,
                                 const SolveParameters &parameters, Journal &journal);

@@ -52,7 +52,9 @@ namespace Signorini
   /// A body: its mesh, place, geometry and materials. Boundaries and volumes are those that the mesh names.
   struct BodyDefinition
   {
-    std::string    name;
+    std::string name;
+    /// Of make_volume_mesh(), or filled in: then name_faces() makes the boundary, and mend_orientation()
+    /// turns mirrored cells over.
     VolumeMesh     mesh;
     CellConversion conversion = CellConversion::none;
     /// Where the mesh is put.

@@ -120,6 +120,21 @@ TEST(ProblemDefinition, LoopOfOnesOwn)
 
 
 
+// Who writes a loop is told of bodies that nothing can hold, too.
+TEST(ProblemDefinition, FreeBodyWithoutContact)
+{
+  ProblemDefinition problem = patch_test();
+  problem.bodies.resize(3);
+  problem.bodies[2].body = block("third", Point<3>(3, 0, 0), Point<3>(4, 1, 1), 1);
+  Journal            journal;
+  const ContactModel model(MPI_COMM_WORLD, problem);
+  const auto         d = discretize(model, std::make_shared<const ConstrainedSpace>(model), {}, 0, journal);
+  CoarserSpaces      coarser;
+  EXPECT_THROW(solve_contact(model, *d, coarser, nullptr, {}, journal), InputError);
+}
+
+
+
 // Boundaries, volumes and manifolds of a triangulation; new vertices lie on the manifold.
 TEST(BodyDefinition, FromTriangulation)
 {
@@ -176,6 +191,8 @@ TEST(BodyDefinition, RefusesWhatItCannotUse)
   body.material         = {1., .3};
   body.volume_materials = {{"rubber", {1., .3}}};
   EXPECT_THROW(Bodies(MPI_COMM_WORLD, {body}), InputError);
+  EXPECT_THROW(Bodies(MPI_COMM_WORLD, {BodyDefinition()}), InputError);
+  EXPECT_THROW(ContactModel(MPI_COMM_WORLD, ProblemDefinition()), InputError);
   mesh.refine_global(1);
   mesh.begin_active()->set_refine_flag();
   mesh.execute_coarsening_and_refinement();
