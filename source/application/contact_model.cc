@@ -14,13 +14,14 @@ namespace Signorini
 
   namespace
   {
-    std::vector<BodyDefinition> bodies_of(const ProblemDefinition &problem)
+    /// Takes them out: meshes are large.
+    std::vector<BodyDefinition> take_bodies(ProblemDefinition &problem)
     {
       if (problem.bodies.empty())
         throw InputError("Bodies: there is none.");
       std::vector<BodyDefinition> bodies;
-      for (const BodyProblem &body : problem.bodies)
-        bodies.push_back(body.body);
+      for (BodyProblem &body : problem.bodies)
+        bodies.push_back(std::move(body.body));
       return bodies;
     }
 
@@ -48,8 +49,8 @@ namespace Signorini
 
 
 
-  ContactModel::ContactModel(const MPI_Comm communicator, const ProblemDefinition &problem)
-    : the_bodies(communicator, bodies_of(problem))
+  ContactModel::ContactModel(const MPI_Comm communicator, ProblemDefinition problem)
+    : the_bodies(communicator, take_bodies(problem))
   {
     for (unsigned int b = 0; b < problem.bodies.size(); ++b)
       the_loads.add(the_bodies, b, problem.bodies[b].loads);

@@ -43,7 +43,7 @@ namespace Signorini
   public:
     /// Collective. Errors: InputError for definitions that make no sense, with the name of the parameter as
     /// in a parameter file.
-    ContactModel(const MPI_Comm communicator, const ProblemDefinition &problem);
+    ContactModel(const MPI_Comm communicator, ProblemDefinition problem);
 
     MPI_Comm communicator() const
     {
