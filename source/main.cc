@@ -2,7 +2,8 @@
 // Copyright (C) 2026 by the Signorini authors
 
 #include <signorini/algebra/input_error.h>
-#include <signorini/application/contact_problem.h>
+#include <signorini/application/journal.h>
+#include <signorini/application/problem_description.h>
 #include <signorini/application/write_results.h>
 
 #include <deal.II/base/mpi.h>
@@ -74,13 +75,8 @@ namespace
   /// A parameter file with one body and one pair, for people who start from nothing.
   void print_default_parameters()
   {
-    ProblemParameters parameters;
-    parameters.bodies.resize(2);
-    parameters.bodies[0].name = "first";
-    parameters.bodies[1].name = "second";
-    parameters.pairs.resize(1);
-    parameters.pairs[0].name = "contact";
-    parameters.print(std::cout, true);
+    const std::vector<std::string> bodies = {"first", "second"}, pairs = {"contact"};
+    ParameterFile(bodies, pairs).print(std::cout, true);
   }
 
   /// Whether all ranks come here within two seconds: bad input is mostly found by all of them together, but
@@ -100,41 +96,58 @@ namespace
     return false;
   }
 
+  /// The model of a parameter file on its first mesh.
+  ContactModel make_model(const ParameterFile &file, const MPI_Comm comm, Journal &journal)
+  {
+    ContactModel model(comm, file.problem(comm));
+    for (const std::string &text : model.bodies().notes())
+      journal.note(text);
+    model.note_movement(journal);
+    model.refine_globally(file.n_initial_refinements());
+    return model;
+  }
+
   /// Returns the exit code.
   int run(const CommandLine &line)
   {
-    const MPI_Comm             comm = MPI_COMM_WORLD;
-    dealii::ConditionalOStream out(std::cout, dealii::Utilities::MPI::this_mpi_process(comm) == 0);
-    ProblemParameters          parameters;
-    parameters.read(line.file, line.overrides);
+    const MPI_Comm           comm      = MPI_COMM_WORLD;
+    const bool               is_root   = dealii::Utilities::MPI::this_mpi_process(comm) == 0;
+    std::vector<std::string> overrides = line.overrides;
     if (!line.output.empty())
-      parameters.output_folder = line.output;
+      overrides.push_back("Output/Folder=" + line.output);
+    const ParameterFile file(line.file, overrides);
     if (line.print)
       {
-        if (out.is_active())
-          parameters.print(std::cout, true);
+        if (is_root)
+          file.print(std::cout, true);
         return 0;
       }
+    const dealii::Timer         time;
     std::optional<OutputFolder> folder;
     if (!line.check)
-      folder.emplace(parameters.output_folder, comm);
-    ContactProblem problem(parameters, comm, out);
+      folder.emplace(file.output().folder, comm);
+    const NestedParameters parameters = file.nested();
+    Journal                journal(is_root, file.output().verbosity);
+    ContactModel           model = make_model(file, comm, journal);
     if (line.check)
       {
-        problem.describe();
+        const auto   space = std::make_shared<const ConstrainedSpace>(model);
+        std::ostream nowhere(nullptr);
+        describe(is_root ? std::cout : nowhere, model, *discretize(model, space, {}, 0, journal));
         return 0;
       }
-    if (line.mesh_only)
-      problem.build_meshes();
-    else
-      problem.run();
-    write_results(problem, parameters, *folder, line.mesh_only, out);
+    NestedSolution nested = line.mesh_only ? build_meshes(model, parameters, journal)
+                                           : run_nested_iteration(model, parameters, journal);
+    nested.results.notes  = journal.notes();
+    if (!line.mesh_only)
+      nested.results.wall_time = time.wall_time();
+    write_results(nested, model, file, *folder, line.mesh_only);
     folder->commit();
-    if (parameters.verbosity > 0)
-      out << "results in " << parameters.output_folder << std::endl;
-    if (!problem.results.converged)
+    if (is_root && file.output().verbosity > 0)
+      std::cout << "results in " << file.output().folder << std::endl;
+    if (!nested.results.converged)
       throw InputError("the iteration did not converge; see the notes and convergence.csv in the results.");
-    return problem.results.certificate.objections.empty() ? 0 : 3;
+    return nested.results.certificate.objections.empty() ? 0 : 3;
   }
 } // namespace
 

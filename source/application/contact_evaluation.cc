@@ -3,11 +3,13 @@
 
 #include <signorini/algebra/input_error.h>
 #include <signorini/algebra/replicated_data.h>
-#include <signorini/application/contact_problem.h>
+#include <signorini/application/contact_evaluation.h>
+#include <signorini/discretization/elasticity.h>
 #include <signorini/discretization/element.h>
 #include <signorini/mesh/surface_extraction.h>
 #include <signorini/mortar/contact_forces.h>
 #include <signorini/mortar/geometric_penetration.h>
+#include <signorini/mortar/surface_values.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -81,229 +83,293 @@ namespace Signorini
       Vector3 force, moment, centre;
       double  scale = 0., n_nodes = 0., square = 0.;
     };
+
+    std::vector<unsigned int> bodies_of_nodes(const Discretization &d, const Bodies &bodies)
+    {
+      std::vector<unsigned int> body(d.partition().n_owned(), numbers::invalid_unsigned_int);
+      for (const NodalSpace::Cell &cell : d.nodal().cells())
+        for (const NodeIndex node : d.nodal().nodes(cell))
+          if (d.partition().owns(node))
+            body[d.partition().to_local(node)] = bodies.body_of_material(cell.material);
+      return body;
+    }
+
+    GeometricPenetration penetration_of(const Discretization &d, const ContactPair &pair,
+                                        const Vector &displacement)
+    {
+      const MPI_Comm comm      = d.nodal().communicator();
+      const auto     displaced = vertex_values(pair.nonmortar.surface, d.partition(), displacement);
+      if (pair.obstacle)
+        return sample_rigid_penetration(pair.nonmortar.surface, *pair.obstacle, displaced, comm);
+      return sample_geometric_penetration(
+          {pair.nonmortar.surface, pair.mortar.surface, pair.mapping->overlay()}, displaced,
+          vertex_values(pair.mortar.surface, d.partition(), displacement), pair.prescribed_gap, comm);
+    }
+
+    /// What contact does where bodies touch, and how well the gap is known there.
+    /// @param is_active per vertex of the nonmortar surface
+    void measure_contact(PairResult &result, const ContactPair &pair, const std::vector<bool> &is_active,
+                         const ContactForces &forces, const MPI_Comm comm)
+    {
+      if (!(result.contact_area > 0.) || pair.is_tied)
+        return;
+      // As in Hertz' contact, from the mean pressure: single peaks of a wrong one must not hide it.
+      const double width = std::sqrt(result.contact_area);
+      result.approach    = 4. / 3. * result.load / width *
+                        (pair.nonmortar.material.contact_compliance() +
+                         (pair.obstacle ? 0. : pair.mortar.material.contact_compliance()));
+      if (!pair.prescribed_gap)
+        result.gap_doubt = pair.obstacle ? sample_gap_doubt(pair.nonmortar.surface, is_active, comm)
+                                         : sample_gap_doubt(pair.nonmortar.surface, pair.mortar.surface,
+                                                            pair.mapping->overlay(), is_active, comm);
+      // With a prescribed gap the surfaces need not lie where they touch.
+      if (!pair.obstacle && !pair.prescribed_gap && result.load > 0.)
+        result.moment_balance =
+            (forces.nonmortar.moment + forces.mortar.moment).norm() / (result.load * width);
+    }
   } // namespace
 
 
 
-  std::vector<unsigned int> ContactProblem::bodies_of_nodes() const
+  ContactStress stress_of_pair(const Discretization &d, const ContactStress &stress, const unsigned int p)
   {
-    const Discretization     &d = discretization;
-    std::vector<unsigned int> body(d.partition->n_owned(), numbers::invalid_unsigned_int);
-    for (const NodalSpace::Cell &cell : d.space->cells())
-      for (const NodeIndex node : d.space->nodes(cell))
-        if (d.partition->owns(node))
-          body[d.partition->to_local(node)] = bodies.body_of_material(cell.material);
-    return body;
+    ContactStress result;
+    for (const std::size_t row : d.rows_of_pair[p])
+      {
+        result.traction.push_back(stress.traction[row]);
+        result.pressure.push_back(stress.pressure[row]);
+        result.opening.push_back(stress.opening[row]);
+        result.active.push_back(stress.active[row]);
+      }
+    return result;
   }
 
 
 
-  void ContactProblem::collect_pairs()
+  PairResult evaluate_pair(const Discretization &d, const ContactSolution &solution, const unsigned int p)
   {
-    Discretization &d = discretization;
-    results.pairs.clear();
-    results.pressure.clear();
-    for (unsigned int p = 0; p < d.pairs.size(); ++p)
+    const ContactPair  &pair     = d.pairs[p];
+    const PairCoupling &coupling = d.couplings[p];
+    const ContactStress stress   = stress_of_pair(d, solution.stress, p);
+    PairResult          result;
+    result.name          = pair.name;
+    result.nonmortar     = pair.nonmortar.name;
+    result.mortar        = pair.mortar.name;
+    result.coverage      = coupling.area > 0. ? coupling.covered_area / coupling.area : 0.;
+    result.lost_area     = coupling.lost_area;
+    result.dropped_nodes = coupling.dropped.size();
+    if (!stress.pressure.empty())
       {
-        const ContactPair  &pair     = d.pairs[p];
-        const PairCoupling &coupling = d.couplings[p];
-        PairResult          result;
-        result.name          = pair.name;
-        result.nonmortar     = pair.nonmortar_name;
-        result.mortar        = pair.mortar_name;
-        result.coverage      = coupling.area > 0. ? coupling.covered_area / coupling.area : 0.;
-        result.lost_area     = coupling.lost_area;
-        result.dropped_nodes = coupling.dropped.size();
-        result.min_pressure  = std::numeric_limits<double>::max();
-        result.max_pressure  = -result.min_pressure;
-        std::vector<Vector3> traction(coupling.coupling.n_rows());
-        std::vector<double>  pressure(traction.size(), 0.);
-        std::vector<bool>    is_active(pair.nonmortar.mesh.vertices.size(), false);
-        for (std::size_t row = 0; row < d.coupling.n_rows(); ++row)
-          if (d.origin[row].first == p)
-            {
-              pressure[d.origin[row].second]                     = d.pressure[row];
-              is_active[coupling.vertices[d.origin[row].second]] = d.active[row] != 0;
-            }
-        const auto recovered = recover_pressure(pair.nonmortar, pair.moments, coupling, pressure);
-        for (std::size_t row = 0; row < d.coupling.n_rows(); ++row)
-          if (d.origin[row].first == p)
-            {
-              const std::size_t i = d.origin[row].second;
-              traction[i]         = d.traction[row];
-              result.min_pressure = std::min(result.min_pressure, d.pressure[row]);
-              result.max_pressure = std::max(result.max_pressure, d.pressure[row]);
-              if (d.active[row])
-                {
-                  result.contact_area += coupling.areas[i];
-                  result.load += coupling.areas[i] * d.pressure[row];
-                  result.centre += coupling.areas[i] * d.pressure[row] * Vector3(coupling.positions[i]);
-                }
-              results.pressure.push_back({coupling.positions[i], coupling.areas[i], d.pressure[row],
-                                          recovered[coupling.vertices[i]],
-                                          coupling.mean_gap(i, d.opening[row]), d.active[row] != 0});
-            }
-        if (result.load > 0.)
-          result.centre /= result.load;
-        const ContactForces forces = compute_contact_forces(pair.nonmortar, pair.mortar, coupling, traction);
-        result.force               = forces.nonmortar.force;
-        result.force_on_mortar     = pair.obstacle ? -forces.nonmortar.force : forces.mortar.force;
-        result.moment              = forces.nonmortar.moment;
-        measure_contact(result, p, is_active, forces);
-
-        const auto displaced = vertex_values(pair.nonmortar, *d.partition, d.displacement);
-        const auto penetration =
-            pair.obstacle
-                ? sample_rigid_penetration(pair.nonmortar, *pair.obstacle, displaced, comm)
-                : sample_geometric_penetration(
-                      {pair.nonmortar, pair.mortar, pair.mapping->overlay()}, displaced,
-                      vertex_values(pair.mortar, *d.partition, d.displacement), pair.prescribed_gap, comm);
-        result.min_gap             = penetration.min_gap;
-        result.max_penetration     = std::max(0., penetration.max_penetration());
-        result.initial_penetration = std::max(0., -penetration.min_initial_gap);
-        if (result.min_pressure > result.max_pressure)
-          result.min_pressure = result.max_pressure = 0.;
-        results.pairs.push_back(result);
+        const auto [least, largest] = std::minmax_element(stress.pressure.begin(), stress.pressure.end());
+        result.min_pressure         = *least;
+        result.max_pressure         = *largest;
       }
+    std::vector<bool> is_active(pair.nonmortar.surface.mesh.vertices.size(), false);
+    for (std::size_t i = 0; i < stress.active.size(); ++i)
+      if (stress.active[i])
+        {
+          const double force              = coupling.areas[i] * stress.pressure[i];
+          is_active[coupling.vertices[i]] = true;
+          result.contact_area += coupling.areas[i];
+          result.load += force;
+          result.centre += force * Vector3(coupling.positions[i]);
+        }
+    if (result.load > 0.)
+      result.centre /= result.load;
+    const ContactForces forces =
+        compute_contact_forces(pair.nonmortar.surface, pair.mortar.surface, coupling, stress.traction);
+    result.force           = forces.nonmortar.force;
+    result.force_on_mortar = pair.obstacle ? -forces.nonmortar.force : forces.mortar.force;
+    result.moment          = forces.nonmortar.moment;
+    measure_contact(result, pair, is_active, forces, d.nodal().communicator());
+    const auto penetration     = penetration_of(d, pair, solution.displacement);
+    result.min_gap             = penetration.min_gap;
+    result.max_penetration     = std::max(0., penetration.max_penetration());
+    result.initial_penetration = std::max(0., -penetration.min_initial_gap);
+    return result;
   }
 
 
 
-  void ContactProblem::collect_reactions()
+  std::vector<PressureRow> pressure_rows(const Discretization &d, const ContactStress &all,
+                                         const unsigned int p)
   {
-    Discretization &d        = discretization;
-    Vector          residual = physical_residual(bodies, *d.space, *d.partition, loads, d.displacement);
-    double          scale    = residual.l2_norm();
-    // What is left once the contact forces are put on the other side.
-    const std::vector<unsigned int> body_of_node = bodies_of_nodes();
-    std::vector<BodyBalance>        balance(bodies.n_bodies());
-    for (unsigned int i = 0; i < d.partition->n_owned(); ++i)
-      if (body_of_node[i] != numbers::invalid_unsigned_int)
-        balance[body_of_node[i]].add_scale(d.space->position(d.partition->to_global(i)), nodal(residual, i));
-    const auto subtract = [&](const NodeIndex node, const Vector3 &force) {
-      if (d.partition->owns(node))
-        for (unsigned int c = 0; c < dim; ++c)
-          residual.local_element(dim * d.partition->to_local(node) + c) -= force[c];
-    };
-    for (std::size_t row = 0; row < d.coupling.n_rows(); ++row)
+    const PairCoupling &coupling = d.couplings[p];
+    const ContactStress stress   = stress_of_pair(d, all, p);
+    const auto          recovered =
+        recover_pressure(d.pairs[p].nonmortar.surface, d.pairs[p].moments, coupling, stress.pressure);
+    std::vector<PressureRow> rows;
+    for (std::size_t i = 0; i < stress.pressure.size(); ++i)
+      rows.push_back({coupling.positions[i], coupling.areas[i], stress.pressure[i],
+                      recovered[coupling.vertices[i]], coupling.mean_gap(i, stress.opening[i]),
+                      stress.active[i] != 0});
+    return rows;
+  }
+
+
+
+  namespace
+  {
+    /// Puts the contact forces on the other side of the equilibrium.
+    void subtract_contact_forces(Vector &residual, const Discretization &d, const ContactStress &stress)
+    {
+      const auto subtract = [&](const NodeIndex node, const Vector3 &force) {
+        if (d.partition().owns(node))
+          for (unsigned int c = 0; c < dim; ++c)
+            residual.local_element(dim * d.partition().to_local(node) + c) -= force[c];
+      };
+      for (std::size_t row = 0; row < d.coupling.n_rows(); ++row)
+        {
+          const Vector3 force = d.coupling.weight[row] * stress.traction[row];
+          subtract(d.coupling.rows[row], -force);
+          for (const auto *entry = d.coupling.begin(row); entry != d.coupling.end(row); ++entry)
+            subtract(entry->node, entry->weight * force);
+        }
+    }
+
+    /// Splits what is left at the owned nodes into the reactions of the conditions (their sums) and the rest.
+    class RestOfForces
+    {
+    public:
+      RestOfForces(const Discretization &d, const Vector &residual, const std::size_t n_conditions)
+        : reactions(n_conditions)
+        , rest(d.partition().n_owned())
       {
-        const Vector3 force = d.coupling.weight[row] * d.traction[row];
-        subtract(d.coupling.rows[row], -force);
-        for (const auto *entry = d.coupling.begin(row); entry != d.coupling.end(row); ++entry)
-          subtract(entry->node, entry->weight * force);
-      }
-    std::vector<Vector3> reactions(loads.dirichlet.size());
-    double               unbalanced = 0.;
-    for (unsigned int i = 0; i < d.partition->n_owned(); ++i)
-      {
-        const std::size_t r = d.space->relevant().index_within_set(d.partition->to_global(i));
-        if (d.space->hanging_nodes().is_constrained(d.partition->to_global(i)))
-          continue;
-        Vector3 rest;
-        for (unsigned int c = 0; c < dim; ++c)
+        for (unsigned int i = 0; i < rest.size(); ++i)
           {
-            const double f = residual.local_element(dim * i + c);
-            if (d.dirichlet.condition[r][c] >= 0)
-              reactions[d.dirichlet.condition[r][c]][c] += f;
-            else
-              {
-                unbalanced += f * f;
-                rest[c] = f;
-              }
+            const NodeIndex node = d.partition().to_global(i);
+            if (d.nodal().hanging_nodes().is_constrained(node))
+              continue;
+            const auto &condition = d.dirichlet().condition[d.nodal().relevant().index_within_set(node)];
+            for (unsigned int c = 0; c < dim; ++c)
+              if (const double f = residual.local_element(dim * i + c); condition[c] >= 0)
+                reactions[condition[c]][c] += f;
+              else
+                {
+                  rest[i][c] = f;
+                  square += f * f;
+                }
           }
-        if (body_of_node[i] != numbers::invalid_unsigned_int)
-          balance[body_of_node[i]].add_rest(d.space->position(d.partition->to_global(i)), rest);
       }
-    results.largest_nodal_force = scale;
-    double largest              = 0.;
+
+      std::vector<Vector3> reactions, rest;
+      double               square = 0.;
+    };
+  } // namespace
+
+
+
+  Equilibrium evaluate_equilibrium(const ContactModel &model, const Discretization &d,
+                                   const ContactSolution &solution)
+  {
+    const MPI_Comm comm = model.communicator();
+    Vector         residual =
+        physical_residual(model.bodies(), d.nodal(), d.partition(), model.loads(), solution.displacement);
+    Equilibrium result;
+    result.largest_nodal_force                   = residual.l2_norm();
+    const std::vector<unsigned int> body_of_node = bodies_of_nodes(d, model.bodies());
+    std::vector<BodyBalance>        balance(model.bodies().n_bodies());
+    const auto                      position = [&](const unsigned int i) -> const Point<3>                      &{
+      return d.nodal().position(d.partition().to_global(i));
+    };
+    for (unsigned int i = 0; i < d.partition().n_owned(); ++i)
+      if (body_of_node[i] != numbers::invalid_unsigned_int)
+        balance[body_of_node[i]].add_scale(position(i), nodal(residual, i));
+    subtract_contact_forces(residual, d, solution.stress);
+    const RestOfForces forces(d, residual, model.loads().dirichlet.size());
+    for (unsigned int i = 0; i < d.partition().n_owned(); ++i)
+      if (body_of_node[i] != numbers::invalid_unsigned_int &&
+          !d.nodal().hanging_nodes().is_constrained(d.partition().to_global(i)))
+        balance[body_of_node[i]].add_rest(position(i), forces.rest[i]);
+    double largest = 0.;
     for (BodyBalance &b : balance)
       largest = std::max(largest, b.sum(comm));
     for (const BodyBalance &b : balance)
       {
-        results.certificate.body_force_balance =
-            std::max(results.certificate.body_force_balance, b.relative_force(largest));
-        results.certificate.body_moment_balance =
-            std::max(results.certificate.body_moment_balance, b.relative_moment(largest));
+        result.force_balance  = std::max(result.force_balance, b.relative_force(largest));
+        result.moment_balance = std::max(result.moment_balance, b.relative_moment(largest));
       }
-    results.certificate.equilibrium =
-        scale > 0. ? std::sqrt(Utilities::MPI::sum(unbalanced, comm)) / scale : 0.;
-    for (std::size_t i = 0; i < reactions.size(); ++i)
-      results.boundaries.push_back(
-          {bodies.body_name(loads.dirichlet[i].body), loads.dirichlet[i].boundary, sum(reactions[i], comm)});
+    const double square = Utilities::MPI::sum(forces.square, comm);
+    result.residual = result.largest_nodal_force > 0. ? std::sqrt(square) / result.largest_nodal_force : 0.;
+    for (std::size_t i = 0; i < forces.reactions.size(); ++i)
+      {
+        const DirichletCondition &condition = model.loads().dirichlet[i];
+        result.reactions.push_back(
+            {model.bodies().body_name(condition.body), condition.boundary, sum(forces.reactions[i], comm)});
+      }
+    return result;
   }
 
 
 
-  void ContactProblem::compare_with_exact(CycleResult &cycle)
+  ContactEvaluation evaluate_contact(const ContactModel &model, const Discretization &d,
+                                     const ContactSolution &solution)
   {
-    Discretization &d = discretization;
-    for (unsigned int b = 0; b < bodies.n_bodies(); ++b)
-      if (const std::string &text = parameters.exact_displacements[b]; !text.empty())
-        {
-          const std::string         where   = "Body " + bodies.body_name(b) + "/Exact displacement";
-          const auto                entries = split_vector(text, where);
-          std::array<Expression, 3> exact;
-          for (unsigned int c = 0; c < dim; ++c)
-            exact[c] = Expression(entries[c], where);
-          cycle.exact_errors[bodies.body_name(b)] =
-              compute_exact_error(bodies, b, *d.space, *d.partition, d.displacement, exact);
-        }
+    ContactEvaluation result;
+    for (unsigned int p = 0; p < d.pairs.size(); ++p)
+      {
+        result.pairs.push_back(evaluate_pair(d, solution, p));
+        const auto rows = pressure_rows(d, solution.stress, p);
+        result.pressure.insert(result.pressure.end(), rows.begin(), rows.end());
+      }
+    result.equilibrium = evaluate_equilibrium(model, d, solution);
+    return result;
   }
 
 
 
-  void ContactProblem::collect_probes()
+  namespace
   {
-    Discretization &d = discretization;
-    for (unsigned int b = 0; b < bodies.n_bodies(); ++b)
-      for (const auto &[name, text] :
-           split_named_entries(parameters.probes[b], "Body " + bodies.body_name(b) + "/Probes"))
-        {
-          const std::string where   = "Body " + bodies.body_name(b) + "/Probes, \"" + name + "\"";
-          const auto        entries = split_vector(text, where);
-          Point<3>          point;
-          for (unsigned int c = 0; c < dim; ++c)
-            point[c] = Expression(entries[c], where)(Point<3>());
-          // The cell whose reference coordinates of the point stick out least.
-          double  best = std::numeric_limits<double>::max();
-          Vector3 value;
-          for (const NodalSpace::Cell &cell : d.space->cells())
-            if (cell.is_owned && bodies.body_of_material(cell.material) == b)
-              {
-                const Element element(*d.space, cell);
-                const double  reach = element.diameter();
-                if (point.distance(element.corner(0)) > 2. * reach)
-                  continue;
-                Point<3> reference;
-                if (!element.invert_map(reference, point))
-                  continue;
-                const double outside = element.outside(reference);
-                if (outside >= best)
-                  continue;
-                best              = outside;
-                value             = Vector3();
-                const auto values = element.shape_values(reference);
-                for (unsigned int v = 0; v < cell.n_vertices; ++v)
-                  for (unsigned int c = 0; c < dim; ++c)
-                    value[c] += values[v] * d.displacement.local_element(
-                                                dim * d.partition->to_local(d.space->nodes(cell)[v]) + c);
-              }
-          const auto nearest = Utilities::MPI::min_max_avg(best, comm);
-          if (!(nearest.min < .05))
-            throw InputError(where + ": the point lies outside of the body.");
-          const bool mine = Utilities::MPI::this_mpi_process(comm) == nearest.min_index;
-          results.probes.push_back(
-              {bodies.body_name(b) + ": " + name, point, sum(mine ? value : Vector3(), comm)});
-        }
-  }
+    /// The cell of this rank whose reference coordinates of a point stick out least, by how much, and the
+    /// displacement there.
+    struct ProbedCell
+    {
+      double  outside = std::numeric_limits<double>::max();
+      Vector3 displacement;
+    };
+
+    ProbedCell probe_cells(const Bodies &bodies, const Discretization &d, const Vector &displacement,
+                           const Probe &probe)
+    {
+      ProbedCell best;
+      for (const NodalSpace::Cell &cell : d.nodal().cells())
+        if (cell.is_owned && bodies.body_of_material(cell.material) == probe.body)
+          {
+            const Element element(d.nodal(), cell);
+            Point<3>      reference;
+            if (probe.point.distance(element.corner(0)) > 2. * element.diameter() ||
+                !element.invert_map(reference, probe.point) || element.outside(reference) >= best.outside)
+              continue;
+            best.outside      = element.outside(reference);
+            best.displacement = Vector3();
+            const auto values = element.shape_values(reference);
+            for (unsigned int v = 0; v < cell.n_vertices; ++v)
+              best.displacement +=
+                  values[v] * nodal(displacement, d.partition().to_local(d.nodal().nodes(cell)[v]));
+          }
+      return best;
+    }
+  } // namespace
 
 
 
-  void ContactProblem::finish()
+  std::vector<ProbeResult> evaluate_probes(const ContactModel &model, const Discretization &d,
+                                           const ContactSolution &solution, const std::vector<Probe> &probes)
   {
-    collect_pairs();
-    collect_reactions();
-    collect_probes();
-    certify();
+    const MPI_Comm           comm = model.communicator();
+    std::vector<ProbeResult> results;
+    for (const Probe &probe : probes)
+      {
+        const std::string body    = model.bodies().body_name(probe.body);
+        const ProbedCell  best    = probe_cells(model.bodies(), d, solution.displacement, probe);
+        const auto        nearest = Utilities::MPI::min_max_avg(best.outside, comm);
+        if (!(nearest.min < .05))
+          throw InputError("Body " + body + "/Probes, \"" + probe.name +
+                           "\": the point lies outside of the body.");
+        const bool mine = Utilities::MPI::this_mpi_process(comm) == nearest.min_index;
+        results.push_back(
+            {body + ": " + probe.name, probe.point, sum(mine ? best.displacement : Vector3(), comm)});
+      }
+    return results;
   }
 } // namespace Signorini

@@ -1,11 +1,16 @@
 signorini_add_layer(application
-  adaptivity.cc
   certificate.cc
+  constrained_space.cc
   contact_checks.cc
   contact_evaluation.cc
-  contact_problem.cc
-  contact_setup.cc
+  contact_model.cc
+  contact_solve.cc
+  discretization.cc
+  error_estimate.cc
   free_bodies.cc
+  journal.cc
+  linear_comparison.cc
+  nested_iteration.cc
   parameters.cc
   problem_description.cc
   ties.cc

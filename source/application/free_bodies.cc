@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
-// Bodies, or parts of them, that nothing but contact holds.
-
 #include <signorini/algebra/input_error.h>
 #include <signorini/algebra/replicated_data.h>
 #include <signorini/algebra/vector_span.h>
-#include <signorini/application/contact_problem.h>
+#include <signorini/application/free_bodies.h>
+#include <signorini/application/journal.h>
 
 #include <Eigen/Dense>
 
@@ -14,24 +13,22 @@ namespace Signorini
 {
   using namespace dealii;
 
-  void ContactProblem::check_free_bodies()
+  void check_free_parts(const ContactModel &model, const FreeParts &parts, const SolverMethod method,
+                        Journal &journal)
   {
     std::set<unsigned int> in_contact;
-    for (const PairDefinition &definition : pair_definitions)
-      for (unsigned int i = 0; i < definition.n_sides(); ++i)
-        {
-          const std::set<unsigned int> parts = parts_of(definition, i);
-          in_contact.insert(parts.begin(), parts.end());
-        }
-    const auto &motions = discretization.free_motions;
+    for (const PairModel &pair : model.pairs())
+      for (const PairModel::Side &side : pair.sides)
+        in_contact.merge(model.parts_of(side));
+    const auto &motions = parts.motions;
     for (std::size_t m = 0; m < motions.size(); ++m)
-      if (in_contact.count(motions[m].part) == 0 || parameters.solver.method == SolverMethod::active_set_amg)
+      if (in_contact.count(motions[m].part) == 0 || method == SolverMethod::active_set_amg)
         {
           std::vector<double> coefficients(motions.size(), 0.);
           coefficients[m] = 1.;
-          throw InputError("Body " + bodies.body_name(motions[m].body) +
+          throw InputError("Body " + model.bodies().body_name(motions[m].body) +
                            "/Dirichlet: the conditions do not exclude a rigid motion (" +
-                           describe_motion(motions, coefficients, bodies) + ")" +
+                           describe_motion(motions, coefficients, model.bodies()) + ")" +
                            (in_contact.count(motions[m].part) == 0
                                 ? " and no boundary of what moves belongs to a contact pair"
                                 : ", which \"Solver/Method = active set amg\" needs") +
@@ -40,40 +37,28 @@ namespace Signorini
         }
     std::set<std::string> names;
     for (const FreeMotion &motion : motions)
-      names.insert(bodies.part_name(motion.part));
+      names.insert(model.bodies().part_name(motion.part));
     for (const std::string &name : names)
-      note(name + ": its Dirichlet conditions do not hold it, contact must.");
+      journal.note(name + ": its Dirichlet conditions do not hold it, contact must.");
   }
 
 
 
-  std::set<unsigned int> ContactProblem::parts_of(const PairDefinition &definition,
-                                                  const unsigned int    side) const
+  std::vector<Vector> motions_of_unknowns(const ContactModel &model, const ConstrainedSpace &constrained,
+                                          const NodePartition       &unknowns,
+                                          const BasisTransformation &transformation)
   {
-    std::set<unsigned int> result;
-    for (const types::boundary_id id : bodies.boundary_ids(definition.body[side], definition.boundary[side]))
-      for (unsigned int part = 0; part < bodies.n_parts(); ++part)
-        if (bodies.part(part).boundaries.count(id) > 0)
-          result.insert(part);
-    return result;
-  }
-
-
-
-  std::vector<Vector> ContactProblem::motions_of_unknowns(const NodePartition       &partition,
-                                                          const BasisTransformation &transformation) const
-  {
-    const Discretization &d = discretization;
-    Vector                lift, nothing;
-    partition.reinit(lift);
-    d.partition->reinit(nothing);
+    Vector lift, nothing;
+    unknowns.reinit(lift);
+    constrained.partition.reinit(nothing);
     nothing.update_ghost_values();
     transformation.from_displacement(lift, nothing);
     std::vector<Vector> result;
-    for (const Vector &field : motion_fields(d.free_motions, bodies, *d.space, *d.partition))
+    for (const Vector &field : motion_fields(constrained.free_parts.motions, model.bodies(),
+                                             constrained.nodal(), constrained.partition))
       {
         result.emplace_back();
-        partition.reinit(result.back());
+        unknowns.reinit(result.back());
         transformation.from_displacement(result.back(), field);
         result.back() -= lift;
       }
@@ -82,17 +67,12 @@ namespace Signorini
 
 
 
-  void ContactProblem::hold_free_bodies(Vector &v, ObstacleProblem &problem, MultigridHierarchy &hierarchy,
-                                        const bool settle)
+  void settle_free_parts(Vector &v, const ContactModel &model, const Discretization &d,
+                         const NodePartition &unknowns, const ObstacleProblem &problem)
   {
-    Discretization      &d         = discretization;
-    const NodePartition &partition = hierarchy.finest().matrix.partition();
-    problem.semidefinite           = true;
-    if (!settle)
-      return;
-    const auto                fields = motions_of_unknowns(partition, *d.transformation);
-    const std::size_t         n = fields.size(), n_rows = d.coupling.n_rows();
-    std::vector<double>       rows(n * n_rows), work(n);
+    const auto          fields = motions_of_unknowns(model, *d.constrained, unknowns, *d.transformation);
+    const std::size_t   n = fields.size(), n_rows = d.coupling.n_rows();
+    std::vector<double> rows(n * n_rows), work(n);
     const std::vector<double> bounds = d.transformation->reduce_gaps(d.gaps);
     // The work of the loads on a motion, zero to the rounding of their sums.
     const double scale = problem.rhs.l1_norm();
@@ -100,14 +80,14 @@ namespace Signorini
       {
         work[m]           = problem.rhs * fields[m];
         work[m]           = std::abs(work[m]) > 1e-10 * scale ? work[m] : 0.;
-        const auto values = replicate_values(partition, fields[m], d.coupling.rows);
+        const auto values = replicate_values(unknowns, fields[m], d.coupling.rows);
         for (std::size_t p = 0; p < n_rows; ++p)
           rows[n * p + m] = d.projections[p].direction() * values[p];
       }
     const RigidBalance balance = balance_rigid_motions(rows, bounds, work);
     if (!balance.is_held)
       throw InputError("The loads press no body into contact that could hold it: " +
-                       describe_motion(d.free_motions, balance.flight, bodies) +
+                       describe_motion(d.free_motions(), balance.flight, model.bodies()) +
                        ", would fly away. Prescribe displacements, or change the loads.");
     for (std::size_t m = 0; m < n; ++m)
       v.add(balance.settling[m], fields[m]);
@@ -115,17 +95,13 @@ namespace Signorini
 
 
 
-  void ContactProblem::remove_free_motions(Vector &v, const ObstacleProblem &problem,
-                                           MultigridHierarchy               &hierarchy,
-                                           const std::vector<unsigned char> &active)
+  void remove_free_motions(Vector &v, const std::vector<Vector> &fields, const HalfSpaces &spaces,
+                           const std::vector<unsigned char>                             &active,
+                           const std::function<void(const std::vector<double> &motion)> &undetermined)
   {
-    Discretization      &d         = discretization;
-    const NodePartition &partition = hierarchy.finest().matrix.partition();
-    const auto           fields    = motions_of_unknowns(partition, *d.transformation);
-    const auto           n         = static_cast<Eigen::Index>(fields.size());
-    // The motions that slide along all active contacts.
-    const HalfSpaces &spaces = problem.half_spaces;
-    Eigen::MatrixXd   sums   = Eigen::MatrixXd::Zero(n, n);
+    const MPI_Comm  comm = v.get_mpi_communicator();
+    const auto      n    = static_cast<Eigen::Index>(fields.size());
+    Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(n, n);
     for (std::size_t p = 0; p < spaces.size(); ++p)
       if (active[p])
         for (Eigen::Index i = 0; i < n; ++i)
@@ -146,8 +122,7 @@ namespace Signorini
               coefficients[i] = eigen.eigenvectors()(i, k);
               kernel.back().add(coefficients[i], fields[i]);
             }
-          note("nothing determines " + describe_motion(d.free_motions, coefficients, bodies) +
-               ": the mean of the displacement in it is set to zero.");
+          undetermined(coefficients);
         }
     if (kernel.empty())
       return;

@@ -3,10 +3,14 @@
 
 #include <signorini/algebra/input_error.h>
 #include <signorini/application/parameters.h>
+#include <signorini/mesh/expression.h>
+#include <signorini/mesh/parameter_choice.h>
 
 #include <deal.II/base/utilities.h>
 
 #include <filesystem>
+#include <fstream>
+#include <regex>
 
 namespace Signorini
 {
@@ -23,40 +27,41 @@ namespace Signorini
                       "\"paraboloid: apex, axis, radius of curvature\" or \"function: f(x,y,z)\", positive "
                       "outside of the obstacle. Points and directions as (x, y, z); normal and axis point to "
                       "the body; \"hollow sphere\" and \"hollow cylinder\" have it inside.");
-    prm.add_parameter(
-        "Contact", contact,
+    add_choice(
+        prm, "Contact", contact, {{ContactKind::unilateral, "unilateral"}, {ContactKind::tied, "tied"}},
         "unilateral: frictionless contact. tied: the surfaces are glued together where they are (gaps do "
-        "not count), for bodies whose meshes do not match.",
-        Patterns::Selection("unilateral|tied"));
-    prm.add_parameter("Gap", gap,
-                      "weighted: integrals of the gap with the dual functions, consistent with the weak "
-                      "condition. nodal: the gap at the nodes along their normals (with an obstacle, or a "
-                      "prescribed initial gap).",
-                      Patterns::Selection("weighted|nodal"));
-    prm.add_parameter(
-        "Nonmortar", nonmortar,
-        "Which surface carries the contact pressure. auto picks the softer body (then the finer "
-        "mesh): with the stiffer one the solver needs many times more iterations; it takes the other one "
-        "where "
-        "this one could carry no contact stress (nodes of another pair, prescribed displacements).",
-        Patterns::Selection("auto|first|second"));
+        "not count), for bodies whose meshes do not match.");
+    add_choice(prm, "Gap", gap, {{GapKind::weighted, "weighted"}, {GapKind::nodal, "nodal"}},
+               "weighted: integrals of the gap with the dual functions, consistent with the weak "
+               "condition. nodal: the gap at the nodes along their normals (with an obstacle, or a "
+               "prescribed initial gap).");
+    add_choice(
+        prm, "Nonmortar", nonmortar,
+        {{NonmortarChoice::automatic, "auto"},
+         {NonmortarChoice::first, "first"},
+         {NonmortarChoice::second, "second"}},
+        "Which surface carries the contact pressure. auto picks the softer body (by the materials of the "
+        "cells "
+        "at the surface, then the finer mesh): with the stiffer one the solver needs many times more "
+        "iterations; it takes the other one where this one could carry no contact stress (nodes of another "
+        "pair, prescribed displacements).");
     prm.add_parameter(
         "Initial gap", initial_gap,
         "geometry, or an expression in x, y, z (length) evaluated on the nonmortar surface, for "
         "crowned surfaces that are meshed flat.");
-    prm.add_parameter(
-        "Surface", surface,
+    add_choice(
+        prm, "Surface", surface,
+        {{SurfaceKind::automatic, "automatic"},
+         {SurfaceKind::smooth, "smooth"},
+         {SurfaceKind::faceted, "faceted"}},
         "What the gap and the normals are measured on. automatic: the boundary shapes, where there are any; "
         "else curved patches over the faces of the start mesh where it shows itself that it stands for a "
-        "smooth "
-        "surface, and its facets elsewhere. smooth: curved patches wherever there is no boundary shape. "
-        "faceted: the facets of the mesh. Flat parts and creases stay as they are.",
-        Patterns::Selection("automatic|smooth|faceted"));
-    prm.add_parameter(
-        "Initial penetration", penetration,
-        "What to do where the surfaces overlap at the start: resolve it as an interference fit, or "
-        "refuse to compute.",
-        Patterns::Selection("resolve|refuse"));
+        "smooth surface, and its facets elsewhere. smooth: curved patches wherever there is no boundary "
+        "shape. faceted: the facets of the mesh. Flat parts and creases stay as they are.");
+    add_choice(prm, "Initial penetration", penetration,
+               {{InitialPenetration::resolve, "resolve"}, {InitialPenetration::refuse, "refuse"}},
+               "What to do where the surfaces overlap at the start: resolve it as an interference fit, or "
+               "refuse to compute.");
     prm.add_parameter("First region", first_region,
                       "Expression in x, y, z that is positive where the first surface may touch (a face "
                       "belongs to it if a corner or its centre does); "
@@ -68,21 +73,70 @@ namespace Signorini
 
   namespace
   {
-    struct TopLevel
+    /// From "body: boundary" and an expression.
+    PairSide parse_side(const std::string &text, const std::string &region, const std::string &where)
     {
-      std::string title, bodies, pairs;
+      const std::size_t colon = text.find(':');
+      if (colon == std::string::npos)
+        throw InputError(where + ": \"" + text + "\" should read \"body: boundary\".");
+      PairSide side{Utilities::trim(text.substr(0, colon)), Utilities::trim(text.substr(colon + 1)), {}};
+      if (!Utilities::trim(region).empty())
+        side.region = Expression(region, where + " region");
+      return side;
+    }
+  } // namespace
 
-      void add_parameters(ParameterHandler &prm)
+
+
+  PairDefinition PairParameters::definition() const
+  {
+    const std::string section = "Pair " + name + "/";
+    PairDefinition    pair;
+    pair.name  = name;
+    pair.first = parse_side(first, first_region, section + "First");
+    if (!Utilities::trim(obstacle).empty())
       {
-        prm.add_parameter("Title", title, "Text that appears in the results.");
-        prm.add_parameter("Bodies", bodies,
-                          "Names of the bodies, separated by commas. Each has a subsection \"Body NAME\".");
-        prm.add_parameter(
-            "Contact pairs", pairs,
-            "Names of the contact pairs, separated by commas. Each has a subsection \"Pair NAME\".");
+        pair.obstacle = RigidObstacle::parse(obstacle, section + "Obstacle");
+        // They make no sense, which is said where the pair is looked for.
+        pair.second.body = Utilities::trim(second);
+        if (!Utilities::trim(second_region).empty())
+          pair.second.region = Expression(second_region, section + "Second region");
       }
-    };
+    else
+      pair.second = parse_side(second, second_region, section + "Second");
+    if (Utilities::trim(initial_gap) != "geometry")
+      pair.prescribed_gap = Expression(initial_gap, section + "Initial gap");
+    pair.contact     = contact;
+    pair.gap         = gap;
+    pair.nonmortar   = nonmortar;
+    pair.surface     = surface;
+    pair.penetration = penetration;
+    return pair;
+  }
 
+
+
+  void OutputParameters::add_parameters(ParameterHandler &prm)
+  {
+    prm.add_parameter("Folder", folder, "Where the results go; --output on the command line overrides it.");
+    prm.add_parameter("Verbosity", verbosity,
+                      "0: errors only, 1: a line per cycle, 2: also a line per iteration.",
+                      Patterns::Integer(0, 2));
+    prm.add_parameter("Bodies", bodies, "Write the bodies for ParaView (.pvtu).");
+    prm.add_parameter("Contact surfaces", surfaces, "Write the contact surfaces for ParaView (.pvtu).");
+    prm.add_parameter("Mapping graph", mapping,
+                      "Write the overlay of each pair, the faces of the plane graph cut into triangles, for "
+                      "ParaView (.vtu, one per rank).");
+    prm.add_parameter("Stress", stress, "Nodal averaged stress, von Mises and principal stresses.");
+    prm.add_parameter(
+        "Measure sweeps", measure_sweeps,
+        "Time Gauss-Seidel sweeps and a plain read of memory on the finest level (costs some ten sweeps).");
+  }
+
+
+
+  namespace
+  {
     std::vector<std::string> names(const std::string &list, const std::string &where)
     {
       std::vector<std::string> result;
@@ -95,6 +149,20 @@ namespace Signorini
           result.push_back(name);
         }
       return result;
+    }
+
+    /// What deal.II says of its patterns, in words.
+    std::string explain_patterns(std::string text)
+    {
+      static const std::pair<std::regex, std::string> phrases[] = {
+          {std::regex(R"(<?\[List of <\[Double[^\]]*\]> of length (\d+)\.\.\.\1 \(inclusive\)\]>?)"),
+           "[$1 numbers separated by commas]"},
+          {std::regex(
+               R"(<?\[List of <\[Integer range (\d+)\.\.\.(\d+)[^\]]*\]> of length (\d+)\.\.\.\3 \(inclusive\)\]>?)"),
+           "[$3 integers from $1 to $2 separated by commas]"}};
+      for (const auto &[pattern, words] : phrases)
+        text = std::regex_replace(text, pattern, words);
+      return text;
     }
 
     /// The text of a deal.II exception without its banner.
@@ -119,7 +187,7 @@ namespace Signorini
       for (const char c : line)
         if (c != ' ' || (!result.empty() && result.back() != ' '))
           result += c;
-      return Utilities::trim(result);
+      return explain_patterns(Utilities::trim(result));
     }
 
     /// Applies "Section/Name=value".
@@ -161,119 +229,147 @@ namespace Signorini
           throw InputError(plain_text(e));
         }
     }
+
+    std::string join(const std::vector<std::string> &list)
+    {
+      std::string text;
+      for (const std::string &item : list)
+        text += (text.empty() ? "" : ", ") + item;
+      return text;
+    }
   } // namespace
 
 
 
-  void ProblemParameters::declare(ParameterHandler &prm)
+  void ParameterFile::TopLevel::add_parameters(ParameterHandler &prm)
   {
-    loads.resize(bodies.size());
-    probes.resize(bodies.size());
-    exact_displacements.resize(bodies.size());
+    prm.add_parameter("Title", title, "Text that appears in the results.");
+    prm.add_parameter("Bodies", bodies,
+                      "Names of the bodies, separated by commas. Each has a subsection \"Body NAME\".");
+    prm.add_parameter(
+        "Contact pairs", pairs,
+        "Names of the contact pairs, separated by commas. Each has a subsection \"Pair NAME\".");
+  }
+
+
+
+  void ParameterFile::BodySection::add_parameters(ParameterHandler &prm)
+  {
+    body.add_parameters(prm);
+    loads.add_parameters(prm);
+    prm.add_parameter(
+        "Probes", probes,
+        "Points whose displacement is reported, \"name: (x, y, z); ...\" (length, undeformed).");
+    prm.add_parameter("Exact displacement", exact_displacement,
+                      "A known solution \"(u, v, w)\" in x, y, z; the distance from it is reported for every "
+                      "cycle (L2 and energy norms).");
+  }
+
+
+
+  void ParameterFile::declare(const std::vector<std::string> &body_names,
+                              const std::vector<std::string> &pair_names)
+  {
+    const auto section = [this](const std::string &name, auto &&...parameters) {
+      prm.enter_subsection(name);
+      (parameters.add_parameters(prm), ...);
+      prm.leave_subsection();
+    };
+    bodies.resize(body_names.size());
+    pairs.resize(pair_names.size());
+    top_level.bodies = join(body_names);
+    top_level.pairs  = join(pair_names);
+    top_level.add_parameters(prm);
     for (std::size_t b = 0; b < bodies.size(); ++b)
       {
-        prm.enter_subsection("Body " + bodies[b].name);
-        bodies[b].add_parameters(prm);
-        loads[b].add_parameters(prm);
-        prm.add_parameter(
-            "Probes", probes[b],
-            "Points whose displacement is reported, \"name: (x, y, z); ...\" (length, undeformed).");
-        prm.add_parameter(
-            "Exact displacement", exact_displacements[b],
-            "A known solution \"(u, v, w)\" in x, y, z; the distance from it is reported for every "
-            "cycle (L2 and energy norms).");
-        prm.leave_subsection();
+        bodies[b].body.name = body_names[b];
+        section("Body " + body_names[b], bodies[b]);
       }
-    for (PairParameters &pair : pairs)
+    for (std::size_t p = 0; p < pairs.size(); ++p)
       {
-        prm.enter_subsection("Pair " + pair.name);
-        pair.add_parameters(prm);
-        prm.leave_subsection();
+        pairs[p].name = pair_names[p];
+        section("Pair " + pair_names[p], pairs[p]);
       }
-    prm.enter_subsection("Refinement");
-    refinement.add_parameters(prm);
-    prm.leave_subsection();
+    section("Refinement", refinement);
     prm.enter_subsection("Solver");
     solver.add_parameters(prm);
     prm.add_parameter(
         "Compare linear multigrid", compare_linear,
         "Solve the decoupled linear problem, loaded with the computed contact stresses, by the same V-cycles "
         "from the same start, alone and with conjugate gradients, and report their iterations and times "
-        "beside "
-        "those of contact.");
+        "beside those of contact.");
     prm.leave_subsection();
-    prm.enter_subsection("Output");
-    prm.add_parameter("Folder", output_folder,
-                      "Where the results go; --output on the command line overrides it.");
-    prm.add_parameter("Verbosity", verbosity,
-                      "0: errors only, 1: a line per cycle, 2: also a line per iteration.",
-                      Patterns::Integer(0, 2));
-    prm.add_parameter("Bodies", write_bodies, "Write the bodies for ParaView (.pvtu).");
-    prm.add_parameter("Contact surfaces", write_surfaces, "Write the contact surfaces for ParaView (.pvtu).");
-    prm.add_parameter("Mapping graph", write_mapping,
-                      "Write the overlay of each pair, the faces of the plane graph cut into triangles, for "
-                      "ParaView (.vtu, one per rank).");
-    prm.add_parameter("Stress", write_stress, "Nodal averaged stress, von Mises and principal stresses.");
-    prm.add_parameter(
-        "Measure sweeps", measure_sweeps,
-        "Time Gauss-Seidel sweeps and a plain read of memory on the finest level (costs some ten sweeps).");
-    prm.leave_subsection();
+    section("Output", the_output);
   }
 
 
 
-  void ProblemParameters::read(const std::string &file_name, const std::vector<std::string> &overrides)
+  ParameterFile::ParameterFile(const std::string &file_name, const std::vector<std::string> &overrides)
+    : file(file_name)
+    , base_folder(std::filesystem::path(file_name).parent_path().string())
   {
-    file        = file_name;
-    base_folder = std::filesystem::path(file_name).parent_path().string();
-
-    // The names of bodies and pairs decide which subsections exist, so they are read first.
     TopLevel         top;
     ParameterHandler first_pass;
     top.add_parameters(first_pass);
     parse(first_pass, file, true);
     for (const std::string &text : overrides)
       apply_override(first_pass, text, true);
-
-    for (const std::string &name : names(top.bodies, "Bodies"))
-      {
-        bodies.emplace_back();
-        bodies.back().name = name;
-      }
-    if (bodies.empty())
+    const std::vector<std::string> body_names = names(top.bodies, "Bodies");
+    if (body_names.empty())
       throw InputError("Bodies: name at least one body, e.g. \"set Bodies = ball, block\".");
-    for (const std::string &name : names(top.pairs, "Contact pairs"))
-      {
-        pairs.emplace_back();
-        pairs.back().name = name;
-      }
-
-    ParameterHandler prm;
-    top.add_parameters(prm);
-    declare(prm);
+    declare(body_names, names(top.pairs, "Contact pairs"));
     parse(prm, file, false);
     for (const std::string &text : overrides)
       apply_override(prm, text, false);
-    title = top.title;
   }
 
 
 
-  void ProblemParameters::print(std::ostream &out, const bool with_documentation)
+  ParameterFile::ParameterFile(const std::vector<std::string> &body_names,
+                               const std::vector<std::string> &pair_names)
   {
-    TopLevel top;
-    top.title       = title;
-    const auto join = [](const auto &list) {
-      std::string text;
-      for (const auto &item : list)
-        text += (text.empty() ? "" : ", ") + item.name;
-      return text;
-    };
-    top.bodies = join(bodies);
-    top.pairs  = join(pairs);
-    ParameterHandler prm;
-    top.add_parameters(prm);
-    declare(prm);
+    declare(body_names, pair_names);
+  }
+
+
+
+  ProblemDefinition ParameterFile::problem(const MPI_Comm communicator) const
+  {
+    ProblemDefinition result;
+    for (const BodySection &section : bodies)
+      result.bodies.push_back({section.body.definition(communicator, base_folder),
+                               section.loads.definition("Body " + section.body.name + "/")});
+    for (const PairParameters &pair : pairs)
+      {
+        result.pairs.push_back(pair.definition());
+        check_method(result.pairs.back(), solver.method);
+      }
+    return result;
+  }
+
+
+
+  NestedParameters ParameterFile::nested() const
+  {
+    NestedParameters result;
+    result.refinement = refinement;
+    result.solve      = {solver, compare_linear, the_output.measure_sweeps};
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      {
+        const std::string section = "Body " + bodies[b].body.name + "/";
+        for (const auto &[name, text] : split_named_entries(bodies[b].probes, section + "Probes"))
+          result.probes.push_back({name, b, parse_point(text, section + "Probes, \"" + name + "\"")});
+        result.exact_displacements.emplace_back();
+        if (const std::string &text = bodies[b].exact_displacement; !text.empty())
+          result.exact_displacements.back() = parse_vector_field(text, section + "Exact displacement");
+      }
+    return result;
+  }
+
+
+
+  void ParameterFile::print(std::ostream &out, const bool with_documentation) const
+  {
     prm.print_parameters(out, with_documentation
                                   ? ParameterHandler::PRM | ParameterHandler::KeepDeclarationOrder
                                   : ParameterHandler::ShortPRM | ParameterHandler::KeepDeclarationOrder);

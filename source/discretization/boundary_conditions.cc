@@ -4,6 +4,7 @@
 #include <signorini/algebra/input_error.h>
 #include <signorini/algebra/node_partition.h>
 #include <signorini/discretization/boundary_conditions.h>
+#include <signorini/mesh/expression.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
@@ -29,41 +30,45 @@ namespace Signorini
 
 
 
-  void Loads::add(const Bodies &bodies, const unsigned int body, const LoadParameters &parameters)
+  LoadDefinition LoadParameters::definition(const std::string &section) const
   {
-    const std::string section = "Body " + bodies.body_name(body) + "/";
-    for (const auto &[name, text] : split_named_entries(parameters.dirichlet, section + "Dirichlet"))
+    LoadDefinition result;
+    for (const auto &[name, text] : split_named_entries(dirichlet, section + "Dirichlet"))
       {
-        const std::string  where = section + "Dirichlet, boundary \"" + name + "\"";
-        DirichletCondition condition{body, name, bodies.boundary_ids(body, name, section + "Dirichlet"), {}};
-        const auto         entries = split_vector(text, where);
+        const std::string            where = section + "Dirichlet, boundary \"" + name + "\"";
+        LoadDefinition::Displacement condition{name, {}};
+        const auto                   entries = split_vector(text, where);
         for (unsigned int c = 0; c < dim; ++c)
           if (entries[c] != "*")
             condition.components[c] = Expression(entries[c], where);
-        dirichlet.push_back(condition);
+        result.displacements.push_back(condition);
       }
-    for (const auto &[name, text] : split_named_entries(parameters.tractions, section + "Tractions"))
-      {
-        const std::string where   = section + "Tractions, boundary \"" + name + "\"";
-        const auto        entries = split_vector(text, where);
-        Traction          traction{bodies.boundary_ids(body, name, section + "Tractions"), false, {}};
-        for (unsigned int c = 0; c < dim; ++c)
-          traction.values[c] = Expression(entries[c], where);
-        tractions.push_back(traction);
-      }
-    for (const auto &[name, text] : split_named_entries(parameters.pressures, section + "Pressures"))
-      {
-        Traction traction{bodies.boundary_ids(body, name, section + "Pressures"), true, {}};
-        traction.values[0] = Expression(text, section + "Pressures, boundary \"" + name + "\"");
-        tractions.push_back(traction);
-      }
+    for (const auto &[name, text] : split_named_entries(tractions, section + "Tractions"))
+      result.surface_forces.push_back(
+          {name, parse_vector_field(text, section + "Tractions, boundary \"" + name + "\""), {}});
+    for (const auto &[name, text] : split_named_entries(pressures, section + "Pressures"))
+      result.surface_forces.push_back(
+          {name, {}, Expression(text, section + "Pressures, boundary \"" + name + "\"")});
+    if (!Utilities::trim(volume_force).empty())
+      result.volume_force = parse_vector_field(volume_force, section + "Volume force");
+    return result;
+  }
+
+
+
+  void Loads::add(const Bodies &bodies, const unsigned int body, const LoadDefinition &definition)
+  {
+    const std::string section = "Body " + bodies.body_name(body) + "/";
+    for (const LoadDefinition::Displacement &condition : definition.displacements)
+      dirichlet.push_back({body, condition.boundary,
+                           bodies.boundary_ids(body, condition.boundary, section + "Dirichlet"),
+                           condition.components});
+    for (const LoadDefinition::SurfaceForce &force : definition.surface_forces)
+      tractions.push_back(
+          {bodies.boundary_ids(body, force.boundary, section + (force.traction ? "Tractions" : "Pressures")),
+           force.traction, force.pressure});
     volume_forces.resize(std::max<std::size_t>(volume_forces.size(), body + 1));
-    if (!Utilities::trim(parameters.volume_force).empty())
-      {
-        const auto entries = split_vector(parameters.volume_force, section + "Volume force");
-        for (unsigned int c = 0; c < dim; ++c)
-          volume_forces[body][c] = Expression(entries[c], section + "Volume force");
-      }
+    volume_forces[body] = definition.volume_force;
   }
 
 
@@ -106,11 +111,11 @@ namespace Signorini
 
   Vector3 Traction::force(const Point<3> &position, const Vector3 &area) const
   {
-    if (is_pressure)
-      return -values[0](position) * area;
     Vector3 result;
-    for (unsigned int c = 0; c < dim; ++c)
-      result[c] = values[c](position) * area.norm();
+    if (traction)
+      result = area.norm() * traction(position);
+    if (pressure)
+      result -= pressure(position) * area;
     return result;
   }
 
@@ -153,7 +158,7 @@ namespace Signorini
       for (std::size_t i = 0; i < n; ++i)
         for (unsigned int c = 0; c < dim; ++c)
           if (data.condition[i][c] >= 0)
-            data.value[i][c] = (*loads.dirichlet[data.condition[i][c]].components[c])(
+            data.value[i][c] = loads.dirichlet[data.condition[i][c]].components[c](
                 space.position(space.relevant().nth_index_in_set(i)));
     return data;
   }

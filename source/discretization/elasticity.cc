@@ -178,15 +178,15 @@ namespace Signorini
             throw InputError(message.str());
           }
         data.load.fill(Vector3());
-        const auto &force = loads.volume_forces[material.body];
-        if (!force[0].is_zero() || !force[1].is_zero() || !force[2].is_zero())
+        if (const VectorField &force = loads.volume_forces[material.body])
           for (unsigned int q = 0; q < data.element.n_points(); ++q)
             {
               const auto [weight, point] = data.element.volume_element(q);
-              const auto values          = data.element.shape_at_point(q);
+              const auto    values       = data.element.shape_at_point(q);
+              const Vector3 value        = force(point);
               for (unsigned int v = 0; v < data.n(); ++v)
                 for (unsigned int c = 0; c < dim; ++c)
-                  data.load[v][c] += weight * values[v] * force[c](point);
+                  data.load[v][c] += weight * values[v] * value[c];
             }
         auto face = std::lower_bound(loaded.begin(), loaded.end(), index,
                                      [](const LoadedFace &f, const unsigned int i) { return f.cell < i; });

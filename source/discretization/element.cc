@@ -46,15 +46,13 @@ namespace Signorini
 
   bool Element::stiffness(std::array<double, 576> &blocks, const Material &material) const
   {
-    const double young = material.young, poisson = material.poisson;
     if (n == CellShape::hexahedron)
-      return Hexahedron::stiffness(blocks, corners, young, poisson, material.mean_dilatation);
+      return Hexahedron::stiffness(blocks, corners, material, material.mean_dilatation);
     std::array<Vector3, 8> g;
     if (!shape_gradients(g, Point<3>()))
       return false;
     const double weight = determinant(tetrahedral_jacobian(corners)) / 6.;
-    const double lambda = weight * young * poisson / ((1. + poisson) * (1. - 2. * poisson));
-    const double mu     = weight * .5 * young / (1. + poisson);
+    const double lambda = weight * material.lambda(), mu = weight * material.mu();
     for (unsigned int a = 0; a < n; ++a)
       for (unsigned int b = 0; b < n; ++b)
         {
@@ -191,12 +189,9 @@ namespace Signorini
 
   Block stress(const Block &gradient, const Material &material)
   {
-    const double young = material.young, poisson = material.poisson;
-    const double lambda = young * poisson / ((1. + poisson) * (1. - 2. * poisson));
-    const double mu     = .5 * young / (1. + poisson);
-    Block        sigma  = mu * (gradient + transpose(gradient));
+    Block sigma = material.mu() * (gradient + transpose(gradient));
     for (unsigned int c = 0; c < 3; ++c)
-      sigma[c][c] += lambda * trace(gradient);
+      sigma[c][c] += material.lambda() * trace(gradient);
     return sigma;
   }
 

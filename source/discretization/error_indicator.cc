@@ -70,16 +70,11 @@ namespace Signorini
           }
         return result;
       }
-
-      double shear_modulus() const
-      {
-        return .5 * material.young / (1. + material.poisson);
-      }
     };
 
 
 
-    double cell_residual(const CellStress &cell, const std::array<Expression, 3> &force)
+    double cell_residual(const CellStress &cell, const VectorField &force)
     {
       const Vector3 divergence = cell.divergence();
       double        sum        = 0.;
@@ -87,12 +82,12 @@ namespace Signorini
         {
           const auto [weight, point] = cell.element.volume_element(q);
           Vector3 residual           = divergence;
-          for (unsigned int c = 0; c < dim; ++c)
-            residual[c] += force[c](point);
+          if (force)
+            residual += force(point);
           sum += weight * residual.norm_square();
         }
       const double h = cell.element.diameter();
-      return h * h * sum / (2. * cell.shear_modulus());
+      return h * h * sum / (2. * cell.material.mu());
     }
 
 
@@ -150,7 +145,7 @@ namespace Signorini
               (inside.at_point(point.position) - outside.at_point(point.position)) * point.area;
           square += difference.norm_square() / point.area.norm();
         }
-      return .5 * shape.diameter() * square / (inside.shear_modulus() + outside.shear_modulus());
+      return .5 * shape.diameter() * square / (inside.material.mu() + outside.material.mu());
     }
 
     FixedMask prescribed_components(const Loads &loads, const types::boundary_id id)
@@ -174,7 +169,7 @@ namespace Signorini
         if (load.ids.count(face.id) > 0)
           add_load(traction, shape, load, fixed);
       return shape.diameter() * boundary_residual(cell, face.face, traction, fixed) /
-             (2. * cell.shear_modulus());
+             (2. * cell.material.mu());
     }
   } // namespace
 

@@ -12,22 +12,14 @@ namespace Signorini
 
   namespace
   {
-    Vector3 value_of(const std::array<Expression, 3> &exact, const Point<3> &p)
-    {
-      Vector3 value;
-      for (unsigned int c = 0; c < dim; ++c)
-        value[c] = exact[c](p);
-      return value;
-    }
-
-    Block gradient_of(const std::array<Expression, 3> &exact, const Point<3> &p, const double step)
+    Block gradient_of(const VectorField &exact, const Point<3> &p, const double step)
     {
       Block gradient;
       for (unsigned int d = 0; d < dim; ++d)
         {
           Vector3 h;
           h[d]                = step;
-          const Vector3 slope = (value_of(exact, p + h) - value_of(exact, p - h)) / (2. * step);
+          const Vector3 slope = (exact(p + h) - exact(p - h)) / (2. * step);
           for (unsigned int c = 0; c < dim; ++c)
             gradient[c][d] = slope[c];
         }
@@ -44,7 +36,7 @@ namespace Signorini
 
   ExactError compute_exact_error(const Bodies &bodies, const unsigned int body, const NodalSpace &space,
                                  const NodePartition &partition, const Vector &displacement,
-                                 const std::array<Expression, 3> &exact)
+                                 const VectorField &exact)
   {
     std::array<double, 4> sums = {{0., 0., 0., 0.}};
     for (const NodalSpace::Cell &cell : space.cells())
@@ -62,7 +54,7 @@ namespace Signorini
             {
               const auto [weight, point]   = element.volume_element(q);
               const auto    shape          = element.shape_at_point(q);
-              const Vector3 known          = value_of(exact, point);
+              const Vector3 known          = exact(point);
               const Block   known_gradient = gradient_of(exact, point, 1e-3 * element.diameter());
               Vector3       error          = known;
               const Block   gradient       = known_gradient - discrete.gradient(element.reference_point(q));

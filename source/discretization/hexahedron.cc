@@ -124,15 +124,13 @@ namespace Signorini
 
 
 
-    bool stiffness(std::array<double, 576> &blocks, const Corners &corners, const double young,
-                   const double poisson, const bool mean_dilatation)
+    bool stiffness(std::array<double, 576> &blocks, const Corners &corners, const IsotropicMaterial &material,
+                   const bool mean_dilatation)
     {
-      const double mu   = .5 * young / (1. + poisson);
-      const double bulk = young / (3. * (1. - 2. * poisson));
+      const double mu = material.mu(), bulk = material.bulk_modulus();
       // What is left for the Gauss points beside the mean dilatation is the deviator.
-      const double lambda =
-          mean_dilatation ? -2. / 3. * mu : young * poisson / ((1. + poisson) * (1. - 2. * poisson));
-      double volume = 0., sum[8][3] = {};
+      const double lambda = mean_dilatation ? -2. / 3. * mu : material.lambda();
+      double       volume = 0., sum[8][3] = {};
       blocks.fill(0.);
       for (unsigned int q = 0; q < 8; ++q)
         {

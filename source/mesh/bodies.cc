@@ -8,20 +8,79 @@
 #include <signorini/mesh/nodal_space.h>
 
 #include <deal.II/grid/grid_tools.h>
-#include <deal.II/grid/manifold_lib.h>
 
 namespace Signorini
 {
   using namespace dealii;
 
-  Bodies::Bodies(const MPI_Comm communicator, const std::vector<BodyParameters> &parameters,
-                 const std::string &base_folder)
+  Bodies::Bodies(const MPI_Comm communicator, const std::vector<BodyDefinition> &definitions)
     : comm(communicator)
   {
     std::vector<Placed> placed;
-    for (const BodyParameters &p : parameters)
-      placed.push_back(place(p, base_folder));
+    for (const BodyDefinition &definition : definitions)
+      placed.push_back(add_body(definition));
     create(placed);
+  }
+
+
+
+  Bodies::Placed Bodies::add_body(const BodyDefinition &definition)
+  {
+    const std::string  section = "Body " + definition.name + "/";
+    const unsigned int b       = n_bodies();
+    names.push_back(definition.name);
+    if (definition.mesh.cells.empty())
+      throw InputError(section + "Mesh: it has no cells.");
+    Placed body;
+    body.mesh           = definition.mesh;
+    body.first_boundary = static_cast<types::boundary_id>(shapes.size());
+    first_boundary.push_back(body.first_boundary);
+    // New vertices in the middles of faces would not lie on the surface.
+    start_surfaces.push_back(start_surface(body));
+    if (definition.conversion == CellConversion::to_hexahedra)
+      body.mesh = split_into_hexahedra(body.mesh);
+    if (definition.conversion == CellConversion::to_tetrahedra)
+      body.mesh = split_into_tetrahedra(body.mesh);
+    remarks.insert(remarks.end(), body.mesh.notes.begin(), body.mesh.notes.end());
+    add_materials(definition, body);
+    choose_elements(definition, body);
+    add_shapes(definition, body);
+    for (Point<3> &v : body.mesh.vertices)
+      v = definition.placement(v);
+    for (Point<3> &v : start_surfaces.back().mesh.vertices)
+      v = definition.placement(v);
+    check_shapes(body, section + "Boundary shapes", definition.snap);
+    find_parts(body, b);
+    for (const unsigned int material : body.material_of_cell)
+      stiffest = std::max(stiffest, materials[material].young);
+    if (definition.snap)
+      snap_vertices(body);
+    boundaries.push_back(body.mesh.boundary_names);
+    return body;
+  }
+
+
+
+  void Bodies::add_materials(const BodyDefinition &definition, Placed &placed)
+  {
+    const std::string section = "Body " + definition.name + "/";
+    const auto       &volumes = placed.mesh.volume_names;
+    // One for the body, and one for each volume with its own.
+    const auto add = [&](const IsotropicMaterial &material) {
+      materials.push_back({material, n_bodies() - 1, false, n_parts()});
+      return static_cast<unsigned int>(materials.size() - 1);
+    };
+    check_material(definition.material, section);
+    placed.material_of_volume.assign(volumes.size(), add(definition.material));
+    for (const auto &[name, material] : definition.volume_materials)
+      {
+        const auto it = std::find(volumes.begin(), volumes.end(), name);
+        if (it == volumes.end())
+          throw InputError(section + "Volume materials: the mesh has no volume \"" + name + "\"; it has " +
+                           listed(volumes) + ".");
+        check_material(material, section, " of volume \"" + name + "\"");
+        placed.material_of_volume[it - volumes.begin()] = add(material);
+      }
   }
 
 
@@ -56,12 +115,12 @@ namespace Signorini
           continue;
         const unsigned int shift = static_cast<unsigned int>(vertices.size());
         vertices.insert(vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
-        for (const VolumeMesh::Cell &cell : mesh.cells)
+        for (std::size_t c = 0; c < mesh.cells.size(); ++c)
           {
             cells.emplace_back(8);
             for (unsigned int v = 0; v < 8; ++v)
-              cells.back().vertices[v] = cell.vertices[v] + shift;
-            cells.back().material_id = placed[b].material_of_cell[&cell - mesh.cells.data()];
+              cells.back().vertices[v] = mesh.cells[c].vertices[v] + shift;
+            cells.back().material_id = placed[b].material_of_cell[c];
           }
         for (const auto &face : mesh.faces)
           {
@@ -89,24 +148,23 @@ namespace Signorini
             "a face with more than one other cell, or distorted cells?");
       }
 
-    for (unsigned int b = 0; b < placed.size(); ++b)
-      for (const CurvedBoundary &curved : placed[b].curved)
+    set_given_manifolds(placed);
+    set_manifolds();
+  }
+
+
+
+  void Bodies::set_given_manifolds(const std::vector<Placed> &placed)
+  {
+    for (const Placed &body : placed)
+      for (const auto &[id, manifold] : body.manifolds)
         {
-          const std::set<types::boundary_id> ids = boundary_ids(b, curved.name);
           for (const auto &cell : tria->cell_iterators_on_level(0))
             for (const unsigned int f : cell->face_indices())
-              if (cell->face(f)->at_boundary() && ids.count(cell->face(f)->boundary_id()) > 0)
+              if (cell->face(f)->at_boundary() && cell->face(f)->boundary_id() == id)
                 cell->face(f)->set_all_manifold_ids(next_manifold);
-          const Placement &placement = placed[b].placement;
-          const Point<3>   centre(placement.translation);
-          if (curved.shape == CurvedBoundary::sphere)
-            tria->set_manifold(next_manifold, SphericalManifold<3>(centre));
-          else
-            tria->set_manifold(next_manifold, CylindricalManifold<3>(
-                                                  placement.rotation * Tensor<1, 3>({0., 0., 1.}), centre));
-          ++next_manifold;
+          tria->set_manifold(next_manifold++, *manifold);
         }
-    set_manifolds();
   }
 
 
@@ -129,10 +187,11 @@ namespace Signorini
           for (const auto &face : mesh.faces)
             if (std::find(face.vertices.begin(), face.vertices.end(), v) != face.vertices.end())
               late_vertices[v + shift].insert(first_boundary[b] + face.name);
-        for (const VolumeMesh::Cell &cell : mesh.cells)
+        for (std::size_t c = 0; c < mesh.cells.size(); ++c)
           {
+            const VolumeMesh::Cell &cell = mesh.cells[c];
             cells.emplace_back();
-            cells.back().material = placed[b].material_of_cell[&cell - mesh.cells.data()];
+            cells.back().material = placed[b].material_of_cell[c];
             for (unsigned int f = 0; f < 4; ++f)
               {
                 VolumeMesh::Face face;

@@ -27,12 +27,12 @@ namespace Signorini
 
 
 
-  void Bodies::choose_elements(const BodyParameters &p, const Placed &placed)
+  void Bodies::choose_elements(const BodyDefinition &definition, const Placed &placed)
   {
     const bool tetrahedra = placed.mesh.cells[0].n_vertices == CellShape::tetrahedron;
-    if (tetrahedra && p.element == "mean dilatation")
+    if (tetrahedra && definition.element == ElementChoice::mean_dilatation)
       throw InputError(
-          "Body " + p.name +
+          "Body " + definition.name +
           "/Element: mean dilatation is for hexahedra; in a linear tetrahedron the change of volume "
           "is constant anyway. Choose automatic, or Convert to hexahedra.");
     double largest = 0.;
@@ -41,13 +41,14 @@ namespace Signorini
         Material &material = materials[placed.material_of_volume[cell.volume]];
         largest            = std::max(largest, material.poisson);
         material.mean_dilatation =
-            !tetrahedra && (p.element == "mean dilatation" ||
-                            (p.element == "automatic" && material.poisson > locking_rule.hexahedra));
+            !tetrahedra &&
+            (definition.element == ElementChoice::mean_dilatation ||
+             (definition.element == ElementChoice::automatic && material.poisson > locking_rule.hexahedra));
       }
     if (tetrahedra && largest > locking_rule.tetrahedra)
       {
         std::ostringstream text;
-        text << "body " << p.name << ": linear tetrahedra are too stiff where Poisson's ratio (here "
+        text << "body " << definition.name << ": linear tetrahedra are too stiff where Poisson's ratio (here "
              << largest
              << ") is near 0.5. A shell under pressure on a mesh of gmsh (2,040 unknowns): displacements are "
                 "4.5 % "

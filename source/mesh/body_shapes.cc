@@ -7,7 +7,6 @@
 
 #include <signorini/algebra/input_error.h>
 #include <signorini/mesh/cell_shape.h>
-#include <signorini/mesh/expression.h>
 #include <signorini/mesh/triangulated_shape.h>
 
 #include <sstream>
@@ -16,57 +15,41 @@ namespace Signorini
 {
   using namespace dealii;
 
-  void Bodies::read_shapes(const BodyParameters &p, Placed &body, const std::string &base_folder)
+  void Bodies::add_shapes(const BodyDefinition &definition, Placed &body)
   {
-    const std::string section = "Body " + p.name + "/";
+    const std::string section = "Body " + definition.name + "/";
     const auto       &known   = body.mesh.boundary_names;
     const auto        index   = [&](const std::string &name, const std::string &where) {
       const auto it = std::find(known.begin(), known.end(), name);
       if (it == known.end())
-        throw InputError(where + ": the body has no boundary \"" + name + "\"; it has " + listed(known) +
-                                  ".");
+        throw InputError(section + where + ": the body has no boundary \"" + name + "\"; it has " +
+                                  listed(known) + ".");
       return body.first_boundary + static_cast<types::boundary_id>(it - known.begin());
     };
     shapes.resize(body.first_boundary + known.size());
     is_user_shape.resize(shapes.size(), false);
-    // Of generated meshes. Hexahedra have deal.II's manifolds for them, except where other shapes meet them.
-    for (const CurvedBoundary &curved : body.curved)
+    std::set<BoundaryShapePointer> seen;
+    for (const BoundaryGeometry &geometry : definition.geometry)
       {
-        const types::boundary_id id = index(curved.name, section + "Mesh");
-        for (const auto &face : body.mesh.faces)
-          if (body.first_boundary + face.name == id)
-            {
-              const Point<3> x         = body.mesh.vertices[face.vertices[0]];
-              const bool     is_sphere = curved.shape == CurvedBoundary::sphere;
-              shapes[id] =
-                  make_round_shape(is_sphere, is_sphere ? x.norm() : std::hypot(x[0], x[1]), body.placement);
-              break;
-            }
-      }
-    std::map<std::string, BoundaryShapePointer> made;
-    for (const auto &[name, text] : split_named_entries(p.shapes, section + "Boundary shapes"))
-      {
-        const std::string        where = section + "Boundary shapes, \"" + name + "\"";
-        const types::boundary_id id    = index(name, where);
-        if (made.count(text) == 0)
+        const types::boundary_id id =
+            index(geometry.boundary, "Boundary shapes, \"" + geometry.boundary + "\"");
+        if (geometry.manifold)
           {
-            made[text] = make_boundary_shape(text, body.placement, base_folder, where);
-            if (!made[text]->note().empty())
-              remarks.push_back(made[text]->note());
+            body.manifolds.emplace_back(id, geometry.manifold);
+            has_manifold.insert(id);
           }
-        shapes[id]        = made[text];
-        is_user_shape[id] = true;
+        if (!geometry.shape)
+          continue;
+        shapes[id]        = geometry.shape;
+        is_user_shape[id] = !geometry.manifold;
+        if (seen.insert(geometry.shape).second && !geometry.shape->note().empty())
+          remarks.push_back(geometry.shape->note());
       }
-    for (const std::string &entry : split_list(p.sharp_edges, ';', section + "Sharp edges"))
-      if (!entry.empty())
-        {
-          const auto parts = split_list(entry, '+', section + "Sharp edges");
-          if (parts.size() != 2)
-            throw InputError(section + "Sharp edges: \"" + entry + "\" should read \"boundary + boundary\".");
-          const auto a = index(parts[0], section + "Sharp edges"),
-                     b = index(parts[1], section + "Sharp edges");
-          sharp.insert({std::min(a, b), std::max(a, b)});
-        }
+    for (const auto &[first, second] : definition.sharp_edges)
+      {
+        const auto a = index(first, "Sharp edges"), b = index(second, "Sharp edges");
+        sharp.insert({std::min(a, b), std::max(a, b)});
+      }
   }
 
 
@@ -208,7 +191,8 @@ namespace Signorini
       if (!shapes[id] && shape)
         {
           shapes[id]        = shape;
-          is_user_shape[id] = any = true;
+          is_user_shape[id] = has_manifold.count(id) == 0;
+          any               = true;
         }
     if (!any)
       return;

@@ -82,18 +82,6 @@ namespace Signorini
 
 
 
-    double number_in(const std::string &text, const std::string &where)
-    {
-      return Expression(text, where)(Point<3>());
-    }
-
-    Point<3> point_in(const std::string &text, const std::string &where)
-    {
-      const auto entries = split_vector(text, where);
-      return Point<3>(number_in(entries[0], where), number_in(entries[1], where),
-                      number_in(entries[2], where));
-    }
-
     BoundaryShapePointer read_shape(const std::string &name, const Placement &placement,
                                     const std::string &base_folder, const std::string &where)
     {
@@ -160,31 +148,42 @@ namespace Signorini
     double       radii[2] = {1., 1.};
     if (!is_sphere)
       {
-        axis = placement.rotation * Tensor<1, 3>(point_in(pieces[1], where));
+        axis = placement.rotation * Tensor<1, 3>(parse_point(pieces[1], where));
         if (!(axis.norm() > 0.))
           throw InputError(where + ": the direction \"" + pieces[1] + "\" has no length.");
         axis /= axis.norm();
       }
     for (std::size_t i = is_sphere ? 1 : 2, k = 0; i < pieces.size(); ++i, ++k)
-      if (!((radii[k] = number_in(pieces[i], where)) > 0.))
+      if (!((radii[k] = parse_number(pieces[i], where)) > 0.))
         throw InputError(where + ": the radius \"" + pieces[i] + "\" must be positive.");
-    return std::make_shared<RoundShape>(kind->second.first, placement(point_in(pieces[0], where)), axis,
+    return std::make_shared<RoundShape>(kind->second.first, placement(parse_point(pieces[0], where)), axis,
                                         radii[0], radii[1]);
   }
 
 
 
-  BoundaryShapePointer make_round_shape(const bool is_sphere, const double radius, const Placement &placement)
+  BoundaryShapePointer make_sphere_shape(const Point<3> &centre, const double radius)
   {
-    return std::make_shared<RoundShape>(is_sphere ? RoundShape::sphere : RoundShape::cylinder,
-                                        placement(Point<3>()),
-                                        placement.rotation * Tensor<1, 3>({0., 0., 1.}), radius, 1.);
+    AssertThrow(radius > 0., ExcMessage("The radius of a sphere must be positive."));
+    return std::make_shared<RoundShape>(RoundShape::sphere, centre, Tensor<1, 3>({0., 0., 1.}), radius, 1.);
+  }
+
+
+
+  BoundaryShapePointer make_cylinder_shape(const Point<3> &point, const Tensor<1, 3> &axis,
+                                           const double radius)
+  {
+    AssertThrow(radius > 0. && std::abs(axis.norm() - 1.) < 1e-10,
+                ExcMessage("The radius of a cylinder must be positive, its axis a unit vector."));
+    return std::make_shared<RoundShape>(RoundShape::cylinder, point, axis, radius, 1.);
   }
 
 
 
   BoundaryShapePointer make_plane_shape(const Point<3> &point, const Tensor<1, 3> &normal)
   {
+    AssertThrow(std::abs(normal.norm() - 1.) < 1e-10,
+                ExcMessage("The normal of a plane must be a unit vector."));
     return std::make_shared<RoundShape>(RoundShape::plane, point, normal, 1., 1.);
   }
 

@@ -97,6 +97,35 @@ namespace Signorini
 
 
 
+  double parse_number(const std::string &text, const std::string &where)
+  {
+    return Expression(text, where)(Point<3>());
+  }
+
+
+
+  Point<3> parse_point(const std::string &text, const std::string &where)
+  {
+    const auto entries = split_vector(text, where);
+    return Point<3>(parse_number(entries[0], where), parse_number(entries[1], where),
+                    parse_number(entries[2], where));
+  }
+
+
+
+  VectorField parse_vector_field(const std::string &text, const std::string &where)
+  {
+    const auto                  entries = split_vector(text, where);
+    std::array<Expression, dim> components;
+    for (unsigned int c = 0; c < dim; ++c)
+      components[c] = Expression(entries[c], where);
+    return [components](const Point<3> &p) {
+      return Vector3({components[0](p), components[1](p), components[2](p)});
+    };
+  }
+
+
+
   std::vector<std::string> split_vector(const std::string &text, const std::string &where)
   {
     const std::string trimmed = Utilities::trim(text);

@@ -1,8 +1,9 @@
 signorini_add_layer(mesh
   abaqus_input.cc
   bodies.cc
+  body_definition.cc
   body_elements.cc
-  body_input.cc
+  body_parameters.cc
   body_parts.cc
   body_shapes.cc
   boundary_shape.cc
@@ -10,6 +11,7 @@ signorini_add_layer(mesh
   expression.cc
   generated_mesh.cc
   gmsh_file.cc
+  material.cc
   mesh_input.cc
   nodal_space.cc
   node_movement.cc

@@ -11,13 +11,13 @@ namespace Signorini
   /// The mesh of one body in its place.
   struct Bodies::Placed
   {
-    VolumeMesh                  mesh;
-    std::vector<CurvedBoundary> curved;
-    std::vector<unsigned int>   material_of_volume, material_of_cell;
+    VolumeMesh                mesh;
+    std::vector<unsigned int> material_of_volume, material_of_cell;
     /// Vertices of the start mesh that could not be moved to their shapes.
     std::vector<unsigned int>  late;
-    Placement                  placement;
     dealii::types::boundary_id first_boundary;
+    /// Manifolds that are not the shapes' own.
+    std::vector<std::pair<dealii::types::boundary_id, std::shared_ptr<const dealii::Manifold<3>>>> manifolds;
   };
 
   /// Names for a message.

@@ -3,6 +3,7 @@
 
 #include <signorini/algebra/input_error.h>
 #include <signorini/mesh/expression.h>
+#include <signorini/mesh/parameter_choice.h>
 #include <signorini/mesh/refinement.h>
 
 #include <deal.II/base/utilities.h>
@@ -16,17 +17,17 @@ namespace Signorini
     prm.add_parameter("Initial global levels", initial_global, "Global refinements before the first cycle.");
     prm.add_parameter("Global cycles", global_cycles,
                       "Cycles, each with one global refinement, after the first one.");
-    prm.add_parameter(
-        "Regions", regions,
+    prm.declare_entry(
+        "Regions", "", Patterns::Anything(),
         "Balls and boxes with the number of levels their cells are refined beyond the global levels, one "
         "level per cycle: \"ball: (x, y, z), radius, levels; box: (x, y, z), (x, y, z), levels; ...\".");
+    prm.add_action("Regions", [this](const std::string &text) { regions = parse_regions(text); });
     prm.add_parameter("Adaptive cycles", adaptive_cycles,
                       "Cycles, after the regions have been worked through, that refine where the residual "
                       "error indicator is large.");
-    prm.add_parameter("Marking", marking,
-                      "What an adaptive cycle refines: the cells with the largest indicators that have the "
-                      "marking fraction of the (squared) error together, or that fraction of all cells.",
-                      Patterns::Selection("error|cells"));
+    add_choice(prm, "Marking", marking, {{Marking::error, "error"}, {Marking::cells, "cells"}},
+               "What an adaptive cycle refines: the cells with the largest indicators that have the "
+               "marking fraction of the (squared) error together, or that fraction of all cells.");
     prm.add_parameter("Marking fraction", marking_fraction, "Share of the error or of the cells.",
                       Patterns::Double(0., 1.));
     prm.add_parameter(
@@ -47,15 +48,6 @@ namespace Signorini
 
   namespace
   {
-    Point<3> parse_point(const std::string &text, const std::string &where)
-    {
-      const auto entries = split_vector(text, where);
-      Point<3>   p;
-      for (unsigned int c = 0; c < 3; ++c)
-        p[c] = Expression(entries[c], where)(Point<3>());
-      return p;
-    }
-
     RefinementRegion parse_region(const std::string &kind, const std::string &text)
     {
       const std::string where = "Refinement/Regions, \"" + kind + ": " + text + "\"";
@@ -69,13 +61,13 @@ namespace Signorini
       region.centre_or_lower = parse_point(parts[0], where);
       region.radius          = 0.;
       if (region.is_ball)
-        region.radius = Expression(parts[1], where)(Point<3>());
+        region.radius = parse_number(parts[1], where);
       else
         region.upper = parse_point(parts[1], where);
       for (unsigned int c = 0; c < 3 && !region.is_ball; ++c)
         if (!(region.centre_or_lower[c] <= region.upper[c]))
           throw InputError(where + ": the first corner must be the lower one in x, y and z.");
-      const double levels = Expression(parts[2], where)(Point<3>());
+      const double levels = parse_number(parts[2], where);
       if (!(levels >= 0. && levels <= 20. && levels == std::floor(levels)) ||
           (region.is_ball && !(region.radius > 0.)))
         throw InputError(where + ": the number of levels must be between 0 and 20, and a radius positive.");
@@ -83,6 +75,16 @@ namespace Signorini
       return region;
     }
   } // namespace
+
+
+
+  std::vector<RefinementRegion> parse_regions(const std::string &text)
+  {
+    std::vector<RefinementRegion> regions;
+    for (const auto &[kind, entry] : split_named_entries(text, "Refinement/Regions"))
+      regions.push_back(parse_region(kind, entry));
+    return regions;
+  }
 
 
 
@@ -106,11 +108,8 @@ namespace Signorini
     : parameters(parameters)
     , cycles(parameters.global_cycles)
   {
-    for (const auto &[kind, text] : split_named_entries(parameters.regions, "Refinement/Regions"))
-      {
-        regions.push_back(parse_region(kind, text));
-        cycles = std::max(cycles, parameters.global_cycles + regions.back().levels);
-      }
+    for (const RefinementRegion &region : parameters.regions)
+      cycles = std::max(cycles, parameters.global_cycles + region.levels);
     first_adaptive_cycle = cycles + 1;
     cycles += parameters.adaptive_cycles;
     first_final_cycle = cycles + 1;
@@ -143,7 +142,7 @@ namespace Signorini
               low[d]  = std::min(low[d], space.position(node)[d]);
               high[d] = std::max(high[d], space.position(node)[d]);
             }
-        for (const RefinementRegion &region : regions)
+        for (const RefinementRegion &region : parameters.regions)
           if (space.cells()[c].level < std::min(wanted, base + region.levels) && region.touches(low, high))
             marked[c] = true;
       }

@@ -24,7 +24,7 @@ namespace Signorini
       std::array<NodeIndex, 8>             nodes;
       std::array<std::array<double, 3>, 8> points;
       std::array<FixedMask, 8>             fixed;
-      unsigned int                         owner;
+      unsigned int                         owner, material;
 
       bool operator<(const PackedFace &other) const
       {
@@ -68,6 +68,7 @@ namespace Signorini
       packed.face_number = face.face;
       packed.boundary    = face.id;
       packed.owner       = Utilities::MPI::this_mpi_process(space.communicator());
+      packed.material    = cell.material;
       packed.nodes.fill(invalid_node);
       const auto nodes   = space.nodes(cell);
       const auto corners = CellShape::face(cell.n_vertices, face.face);
@@ -219,6 +220,7 @@ namespace Signorini
         ContactSurface::Face added;
         added.owner    = face.owner;
         added.boundary = face.boundary;
+        added.material = face.material;
         for (unsigned int v = 0; v < 8; ++v)
           if (face.nodes[v] != invalid_node)
             {

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Signorini authors
 
 #include <signorini/algebra/input_error.h>
+#include <signorini/mesh/expression.h>
 #include <signorini/mortar/rigid_obstacle.h>
 
 #include <deal.II/base/mpi.h>
@@ -13,25 +14,6 @@ namespace Signorini
 
   namespace
   {
-    double number(const std::string &text, const std::string &where)
-    {
-      return Expression(text, where)(Point<3>());
-    }
-
-    Point<3> vector(const std::string &text, const std::string &where)
-    {
-      const auto entries = split_vector(text, where);
-      return Point<3>(number(entries[0], where), number(entries[1], where), number(entries[2], where));
-    }
-
-    Vector3 direction(const std::string &text, const std::string &where)
-    {
-      const Vector3 v = vector(text, where);
-      if (!(v.norm() > 0.))
-        throw InputError(where + ": the direction \"" + text + "\" has no length.");
-      return v / v.norm();
-    }
-
     /// The root of a t^2 + 2 b t + c where it falls, of smaller rounding error.
     bool falling_root(double &t, const double a, const double b, const double c)
     {
@@ -59,62 +41,107 @@ namespace Signorini
 
 
 
-  RigidObstacle::RigidObstacle(const std::string &description, const std::string &where)
-    : text(description)
+  RigidObstacle::RigidObstacle(const Kind kind, const std::string &name, const Point<3> &point,
+                               const Vector3 &axis, const double radius, const bool is_hollow)
+    : kind(kind)
+    , text(name)
+    , point(point)
+    , radius(radius)
+    , sign(is_hollow ? -1. : 1.)
   {
-    const std::string usage =
-        where + ": \"" + description +
-        "\" should read \"plane: point, normal\", \"sphere: centre, radius\", \"cylinder: point, axis, "
-        "radius\", \"paraboloid: apex, axis, radius\" or \"function: f(x,y,z)\", with points as (x, y, z).";
-    const std::size_t colon = description.find(':');
-    if (colon == std::string::npos)
-      throw InputError(usage);
-    std::string       name   = Utilities::trim(description.substr(0, colon));
-    const std::string rest   = description.substr(colon + 1);
-    const std::string hollow = "hollow ";
-    if (name.compare(0, hollow.size(), hollow) == 0)
-      {
-        sign = -1.;
-        name = Utilities::trim(name.substr(hollow.size()));
-        if (name != "sphere" && name != "cylinder")
-          throw InputError(usage);
-      }
-    if (name == "function")
-      {
-        kind     = Kind::function;
-        function = Expression(rest, where);
-        return;
-      }
-    const auto pieces = split_list(rest, ',', where);
-    const auto expect = [&](const std::size_t n) {
-      if (pieces.size() != n)
-        throw InputError(usage);
-      point = vector(pieces[0], where);
-    };
-    if (name == "plane")
-      {
-        expect(2);
-        kind = Kind::plane;
-        axis = direction(pieces[1], where);
-        return;
-      }
-    if (name == "sphere")
-      {
-        expect(2);
-        kind = Kind::sphere;
-      }
-    else if (name == "cylinder" || name == "paraboloid")
-      {
-        expect(3);
-        kind = name == "cylinder" ? Kind::cylinder : Kind::paraboloid;
-        axis = direction(pieces[1], where);
-      }
-    else
-      throw InputError(usage);
-    radius = number(pieces.back(), where);
+    if ((kind == Kind::plane || kind == Kind::cylinder || kind == Kind::paraboloid) && !(axis.norm() > 0.))
+      throw InputError(name + ": the direction has no length.");
     if (kind == Kind::paraboloid ? radius == 0. : !(radius > 0.))
-      throw InputError(where + ": the radius should be " +
+      throw InputError(name + ": the radius should be " +
                        (kind == Kind::paraboloid ? "different from 0." : "positive."));
+    this->axis = axis.norm() > 0. ? Vector3(axis / axis.norm()) : axis;
+  }
+
+
+
+  RigidObstacle RigidObstacle::plane(const Point<3> &point, const Vector3 &normal)
+  {
+    return RigidObstacle(Kind::plane, "plane", point, normal, 1., false);
+  }
+
+
+
+  RigidObstacle RigidObstacle::sphere(const Point<3> &centre, const double radius, const bool is_hollow)
+  {
+    return RigidObstacle(Kind::sphere, "sphere", centre, Vector3(), radius, is_hollow);
+  }
+
+
+
+  RigidObstacle RigidObstacle::cylinder(const Point<3> &point, const Vector3 &axis, const double radius,
+                                        const bool is_hollow)
+  {
+    return RigidObstacle(Kind::cylinder, "cylinder", point, axis, radius, is_hollow);
+  }
+
+
+
+  RigidObstacle RigidObstacle::paraboloid(const Point<3> &apex, const Vector3 &axis, const double radius)
+  {
+    return RigidObstacle(Kind::paraboloid, "paraboloid", apex, axis, radius, false);
+  }
+
+
+
+  RigidObstacle RigidObstacle::level_set(const ScalarField &function)
+  {
+    RigidObstacle result(Kind::function, "function", Point<3>(), Vector3(), 1., false);
+    result.function = function;
+    return result;
+  }
+
+
+
+  RigidObstacle RigidObstacle::parse(const std::string &description, const std::string &where)
+  {
+    const std::size_t colon     = description.find(':');
+    std::string       name      = Utilities::trim(description.substr(0, colon));
+    const std::string rest      = colon == std::string::npos ? "" : description.substr(colon + 1);
+    const std::string hollow    = "hollow ";
+    const bool        is_hollow = name.compare(0, hollow.size(), hollow) == 0;
+    if (is_hollow)
+      name = Utilities::trim(name.substr(hollow.size()));
+    // Number of entries; whether it can be hollow.
+    const std::map<std::string, std::pair<std::size_t, bool>> kinds = {
+        {"plane", {2, false}}, {"sphere", {2, true}}, {"cylinder", {3, true}}, {"paraboloid", {3, false}}};
+    const auto kind   = kinds.find(name);
+    const bool is_set = name == "function" && !is_hollow && colon != std::string::npos;
+    const auto pieces = is_set ? std::vector<std::string>() : split_list(rest, ',', where);
+    if (!is_set &&
+        (kind == kinds.end() || pieces.size() != kind->second.first || (is_hollow && !kind->second.second)))
+      throw InputError(
+          where + ": \"" + description +
+          "\" should read \"plane: point, normal\", \"sphere: centre, radius\", \"cylinder: point, axis, "
+          "radius\", \"paraboloid: apex, axis, radius\" or \"function: f(x,y,z)\", with points as (x, y, "
+          "z).");
+    const auto make = [&]() {
+      if (is_set)
+        return level_set(Expression(rest, where));
+      const Point<3> at = parse_point(pieces[0], where);
+      if (name == "plane")
+        return plane(at, parse_point(pieces[1], where));
+      const double radius = parse_number(pieces.back(), where);
+      if (name == "sphere")
+        return sphere(at, radius, is_hollow);
+      const Vector3 axis = parse_point(pieces[1], where);
+      return name == "cylinder" ? cylinder(at, axis, radius, is_hollow) : paraboloid(at, axis, radius);
+    };
+    try
+      {
+        RigidObstacle result = make();
+        result.text          = description;
+        return result;
+      }
+    catch (const InputError &e)
+      {
+        const std::string text = e.what();
+        throw InputError(text.compare(0, where.size(), where) == 0 ? text : where + ": " + text);
+      }
   }
 
 

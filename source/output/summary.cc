@@ -96,13 +96,8 @@ namespace Signorini
       json.number("sweep_bytes_per_s", cycle.sweeps.bytes_per_second);
       json.number("read_bytes_per_s", cycle.sweeps.read_bytes_per_second);
       json.begin('{', "times_s");
-      for (const char *name :
-           {"mesh", "mapping", "mortar", "assembly", "levels", "hierarchy", "solve", "linear_assembly",
-            "linear_hierarchy", "linear_solve", "linear_cg_solve", "estimate", "output"})
-        {
-          const auto it = cycle.times.find(name);
-          json.number(name, it == cycle.times.end() ? 0. : it->second);
-        }
+      for (std::size_t i = 0; i < PhaseTimes::n_phases; ++i)
+        json.number(PhaseTimes::names[i], cycle.times[static_cast<Phase>(i)]);
       json.end('}');
       json.end('}');
     }
@@ -273,17 +268,13 @@ namespace Signorini
            "total [s]\n";
     for (const CycleResult &c : results.cycles)
       {
-        double total = 0.;
-        for (const auto &time : c.times)
-          total += time.second;
-        const auto time = c.times.find("solve");
         out << std::setw(5) << c.cycle << std::setw(10) << c.cells << std::setw(10) << c.dofs << std::setw(11)
             << c.nonlinear.iterations << std::setw(8)
             << (c.has_linear ? std::to_string(c.linear.iterations) : "-") << std::setw(9)
             << (c.has_linear ? std::to_string(c.linear_cg.iterations) : "-") << std::setw(9)
             << c.contact_nodes << std::setw(8) << c.active_nodes << std::setprecision(3) << std::setw(10)
             << rate_text(c.nonlinear.rate) << std::setw(13) << (c.has_linear ? rate_text(c.linear.rate) : "-")
-            << std::setw(11) << (time == c.times.end() ? 0. : time->second) << std::setw(11) << total << '\n';
+            << std::setw(11) << c.times[Phase::solve] << std::setw(11) << c.times.total() << '\n';
       }
   }
 

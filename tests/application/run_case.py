@@ -70,6 +70,30 @@ def swapped_sides(p):
     certificate(s)
 
 
+def volume_materials(p):
+    """The nonmortar side is chosen by the materials at the surfaces, not by those of bodies without a cell of them."""
+    settings = ['Body upper/Young modulus=1000', 'Body lower/Young modulus=100000', 'Body lower/Volume materials=volume: 10, 0.3',
+                'Refinement/Global cycles=0', 'Solver/Compare linear multigrid=false']
+    s = p.solve('patch_test/patch_test.prm', *settings)
+    check(s['pairs'][0]['nonmortar'] == 'lower: top', f'nonmortar: {s["pairs"][0]["nonmortar"]}')
+    # What contact does is that of the materials, too: 1/E* = (1 - nu^2) (1 / 1000 + 1 / 10) on the area 1.
+    near(s['pairs'][0]['approach'], 4 / 3 * s['pairs'][0]['load'] * .91 * (1e-3 + .1), 1e-8, 'approach')
+    certificate(s)
+
+
+def written_parameters(p):
+    """parameters.prm in the results says what was computed, to the last digit."""
+    with tempfile.TemporaryDirectory() as folder:
+        prm, out = os.path.join(TOP, 'prm', 'patch_test', 'patch_test.prm'), os.path.join(folder, 'out')
+        run = p.call('--mesh-only', prm, '--output', out, '--set', 'Solver/Method=truncated newton multigrid', '--set', 'Refinement/Global cycles=0',
+                     '--set', 'Body upper/Radius=1.23456789012')
+        check(run.returncode == 0, f'exit code {run.returncode}: {run.stderr}')
+        with open(os.path.join(out, 'parameters.prm')) as f:
+            text = f.read()
+        for value in ('truncated newton multigrid', '1.23456789012', out):
+            check(value in text, f'parameters.prm does not have "{value}"')
+
+
 # The same linear field with the planes x and y and the right side loaded by its pressure 2.5 instead of held.
 PARTLY_FIXED = [f'Body {b}/{k}' for b, end in (('upper', 'top'), ('lower', 'bottom')) for k in
                 (f'Dirichlet=left: {LINEAR}; {end}: {LINEAR}', 'Pressures=right: 2.5; front: 2.5; back: 2.5')]
@@ -485,6 +509,8 @@ def errors(p):
                  ([prm, '--set', 'Body upper/Young modulus=0'], 'Young modulus'),
                  ([prm, '--set', 'Body upper/Volume force=(1, 0, 0)', '--set', 'Body upper/Dirichlet=top: (*, *, -0.01)'], 'fly away'),
                  ([prm, '--set', 'Body lower/Translation=5, 0, 0'], 'overlay cell'),
+                 ([prm, '--set', 'Body lower/Translation=5, 0'], '3 numbers separated by commas'),
+                 ([prm, '--set', 'Body upper/Divisions=1, 0, 1'], '3 integers from 1'),
                  ([prm, '--set', 'Body upper/Mesh=missing.msh'], 'missing.msh'),
                  ([prm, '--set', 'Pair interface/First=upper: lid'], 'Pair interface/First: body upper has no boundary "lid"'),
                  ([prm, '--set', 'Body upper/Dirichlet=top: (0, 0, bla(x))'], 'bla'),

@@ -49,7 +49,7 @@ ALLOWED = [
     ('source/mesh/gmsh_file.cc', '#include <gmsh.h>'),
     ('source/algebra/algebraic_multigrid.cc', '#include <ml_MultiLevelPreconditioner.h>'),
     ('source/surface/a.cc', '// #include <signorini/mesh/bodies.h>'),
-    ('source/main.cc', '#include <signorini/application/contact_problem.h>'),
+    ('source/main.cc', '#include <signorini/application/contact_model.h>'),
 ]
 
 

@@ -4,10 +4,8 @@
 #ifndef signorini_application_parameters_h
 #define signorini_application_parameters_h
 
-#include <signorini/discretization/boundary_conditions.h>
-#include <signorini/mesh/bodies.h>
-#include <signorini/mesh/refinement.h>
-#include <signorini/solvers/obstacle_solver.h>
+#include <signorini/application/nested_iteration.h>
+#include <signorini/mesh/body_parameters.h>
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -17,58 +15,116 @@
 
 namespace Signorini
 {
-  /// A contact pair as a user writes it.
+  /// The subsection of a contact pair: the front end of PairDefinition.
   struct PairParameters
   {
     std::string name;
-    /// "body: boundary".
-    std::string first, second;
-    /// A rigid obstacle in place of the second surface (RigidObstacle), or empty.
+    /// "body: boundary"; expressions that are positive where the surface may touch, or empty.
+    std::string first, second, first_region, second_region;
+    /// As RigidObstacle::parse() has it, or empty.
     std::string obstacle;
-    std::string contact     = "unilateral";
-    std::string nonmortar   = "auto";
-    std::string initial_gap = "geometry";
-    std::string gap         = "weighted";
-    std::string penetration = "resolve";
-    std::string surface     = "automatic";
-    /// Expressions that are positive where a surface may touch; empty for everywhere.
-    std::string first_region, second_region;
+    /// "geometry" or an expression.
+    std::string        initial_gap = "geometry";
+    ContactKind        contact     = ContactKind::unilateral;
+    GapKind            gap         = GapKind::weighted;
+    NonmortarChoice    nonmortar   = NonmortarChoice::automatic;
+    SurfaceKind        surface     = SurfaceKind::automatic;
+    InitialPenetration penetration = InitialPenetration::resolve;
 
+    /// Declares the parameters in the current subsection.
+    void add_parameters(dealii::ParameterHandler &prm);
+
+    /// Errors: InputError for texts that cannot be understood.
+    PairDefinition definition() const;
+  };
+
+  /// What is written, and what is said meanwhile.
+  struct OutputParameters
+  {
+    std::string folder = "output";
+    /// See Journal.
+    unsigned int verbosity = 2;
+    bool         bodies = true, surfaces = true, stress = true, mapping = false, measure_sweeps = true;
+
+    /// Declares the parameters in the current subsection.
     void add_parameters(dealii::ParameterHandler &prm);
   };
 
-  /// Everything in a parameter file.
-  struct ProblemParameters
+  /// A parameter file: the front end of ProblemDefinition and NestedParameters.
+  class ParameterFile
   {
-    std::string title;
+  public:
+    /// Reads a file. overrides: "Section/Name=value". Errors: InputError with one clear message.
+    ParameterFile(const std::string &file, const std::vector<std::string> &overrides);
 
-    std::vector<BodyParameters> bodies;
-    std::vector<LoadParameters> loads;
-    /// Per body "name: (x, y, z); ...".
-    std::vector<std::string> probes;
-    /// Per body a known displacement (x, y, z) to compare with, or empty.
-    std::vector<std::string>    exact_displacements;
+    /// The defaults of a problem with such bodies and pairs.
+    ParameterFile(const std::vector<std::string> &body_names, const std::vector<std::string> &pair_names);
+
+    ParameterFile(const ParameterFile &) = delete;
+
+    /// The name of the file, or empty.
+    const std::string &path() const
+    {
+      return file;
+    }
+
+    const std::string &title() const
+    {
+      return top_level.title;
+    }
+
+    const OutputParameters &output() const
+    {
+      return the_output;
+    }
+
+    unsigned int n_initial_refinements() const
+    {
+      return refinement.initial_global;
+    }
+
+    /// Collective. Reads the meshes. Errors: InputError for texts and meshes that cannot be understood.
+    ProblemDefinition problem(const MPI_Comm communicator) const;
+
+    /// Errors: InputError for texts that cannot be understood.
+    NestedParameters nested() const;
+
+    /// Prints all parameters, commented if `with_documentation`.
+    void print(std::ostream &out, const bool with_documentation) const;
+
+  private:
+    struct TopLevel
+    {
+      std::string title, bodies, pairs;
+
+      void add_parameters(dealii::ParameterHandler &prm);
+    };
+
+    struct BodySection
+    {
+      BodyParameters body;
+      LoadParameters loads;
+      /// "name: (x, y, z); ...".
+      std::string probes;
+      /// "(u, v, w)", or empty.
+      std::string exact_displacement;
+
+      void add_parameters(dealii::ParameterHandler &prm);
+    };
+
+    /// The names of bodies and pairs decide which subsections exist.
+    void declare(const std::vector<std::string> &body_names, const std::vector<std::string> &pair_names);
+
+    std::string                 file, base_folder;
+    TopLevel                    top_level;
+    std::vector<BodySection>    bodies;
     std::vector<PairParameters> pairs;
     RefinementParameters        refinement;
     SolverParameters            solver;
     bool                        compare_linear = false;
-
-    std::string  output_folder = "output";
-    unsigned int verbosity     = 2;
-    bool         write_bodies = true, write_surfaces = true, write_stress = true, measure_sweeps = true;
-    bool         write_mapping = false;
-
-    /// The parameter file and the folder that file names inside it are relative to.
-    std::string file, base_folder;
-
-    /// Reads a file. overrides: "Section/Name=value". Errors: InputError with one clear message.
-    void read(const std::string &file, const std::vector<std::string> &overrides);
-
-    /// Prints all parameters, commented if `with_documentation`.
-    void print(std::ostream &out, const bool with_documentation);
-
-  private:
-    void declare(dealii::ParameterHandler &prm);
+    OutputParameters            the_output;
+    /// Fills the members above, and remembers what was written.
+    dealii::ParameterHandler prm;
   };
 } // namespace Signorini
 

@@ -4,7 +4,7 @@
 #ifndef signorini_application_write_results_h
 #define signorini_application_write_results_h
 
-#include <signorini/application/contact_problem.h>
+#include <signorini/application/parameters.h>
 #include <signorini/output/output_folder.h>
 
 namespace Signorini
@@ -12,10 +12,16 @@ namespace Signorini
   /// "signorini 0.1.0 (deal.II 9.4.1, ...)".
   std::string version_text();
 
+  /// Collective. Writes bodies, contact surfaces and mappings for ParaView into a folder, as far as `output`
+  /// wants them.
+  void write_fields(const ContactModel &model, const Discretization &discretization,
+                    const ContactSolution &solution, const OutputParameters &output,
+                    const OutputFolder &folder);
+
   /// Collective. Writes everything of a solved problem (or its meshes and mapping only) into a folder, and
   /// prints the certificate.
-  void write_results(ContactProblem &problem, ProblemParameters &parameters, const OutputFolder &folder,
-                     const bool mesh_only, dealii::ConditionalOStream &out);
+  void write_results(NestedSolution &nested, const ContactModel &model, const ParameterFile &file,
+                     const OutputFolder &folder, const bool mesh_only);
 } // namespace Signorini
 
 #endif

@@ -5,20 +5,48 @@
 #define signorini_discretization_boundary_conditions_h
 
 #include <signorini/mesh/bodies.h>
-#include <signorini/mesh/expression.h>
+#include <signorini/mesh/field.h>
 #include <signorini/mesh/nodal_space.h>
 
 #include <deal.II/base/parameter_handler.h>
 
 #include <array>
-#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
 namespace Signorini
 {
-  /// What acts on a body, as a user writes it, in the subsection of the body.
+  /// What acts on a body. Boundaries are those that its mesh names.
+  struct LoadDefinition
+  {
+    /// Prescribed on a boundary (length).
+    struct Displacement
+    {
+      /// A boundary that the mesh names.
+      std::string boundary;
+      /// Free components are empty.
+      std::array<ScalarField, 3> components;
+    };
+
+    /// Acts on a boundary.
+    struct SurfaceForce
+    {
+      /// A boundary that the mesh names.
+      std::string boundary;
+      /// Force per area, and pressure against the outward normal; either may be empty.
+      VectorField traction;
+      ScalarField pressure;
+    };
+
+    /// Where conditions overlap, the later one counts.
+    std::vector<Displacement> displacements;
+    std::vector<SurfaceForce> surface_forces;
+    /// Force per volume; empty for none.
+    VectorField volume_force;
+  };
+
+  /// The same as a user writes it, in the subsection of the body.
   struct LoadParameters
   {
     /// Lists as the parameter file has them, one condition after the other.
@@ -26,26 +54,29 @@ namespace Signorini
 
     /// Declares the parameters in the current subsection.
     void add_parameters(dealii::ParameterHandler &prm);
+
+    /// Errors: InputError for texts that cannot be understood; `section` is what the names of the parameters
+    /// get in front.
+    LoadDefinition definition(const std::string &section) const;
   };
 
-  /// Prescribed displacement on a boundary; components without a value are free.
+  /// Prescribed displacement on a boundary; empty components are free.
   struct DirichletCondition
   {
-    /// Which boundary of which body; values by component, where prescribed (length).
-    unsigned int                             body;
-    std::string                              boundary;
-    std::set<dealii::types::boundary_id>     ids;
-    std::array<std::optional<Expression>, 3> components;
+    /// Which boundary of which body; values by component (length).
+    unsigned int                         body;
+    std::string                          boundary;
+    std::set<dealii::types::boundary_id> ids;
+    std::array<ScalarField, 3>           components;
   };
 
-  /// Force per area on a boundary: a vector, or a pressure against the outward normal.
+  /// Force per area on a boundary: a vector, a pressure against the outward normal, or both.
   struct Traction
   {
-    /// Where; and whether it is a pressure.
+    /// Where; force per area, and pressure against the outward normal; either may be empty.
     std::set<dealii::types::boundary_id> ids;
-    bool                                 is_pressure;
-    /// Three components, or the pressure in the first one.
-    std::array<Expression, 3> values;
+    VectorField                          traction;
+    ScalarField                          pressure;
 
     /// Force on a piece of the boundary, given its outward area vector.
     Vector3 force(const dealii::Point<3> &position, const Vector3 &area) const;
@@ -58,10 +89,10 @@ namespace Signorini
     std::vector<DirichletCondition> dirichlet;
     std::vector<Traction>           tractions;
     /// Force per volume of each body; an entry for all of them is needed, so add() every body.
-    std::vector<std::array<Expression, 3>> volume_forces;
+    std::vector<VectorField> volume_forces;
 
-    /// Reads the parameters of one body. Errors: InputError for unknown boundaries and bad expressions.
-    void add(const Bodies &bodies, const unsigned int body, const LoadParameters &parameters);
+    /// Takes in what acts on one body. Errors: InputError for unknown boundaries.
+    void add(const Bodies &bodies, const unsigned int body, const LoadDefinition &definition);
   };
 
   /// Prescribed components of the relevant nodes of a space.

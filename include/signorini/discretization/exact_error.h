@@ -6,7 +6,7 @@
 
 #include <signorini/algebra/node_partition.h>
 #include <signorini/mesh/bodies.h>
-#include <signorini/mesh/expression.h>
+#include <signorini/mesh/field.h>
 #include <signorini/mesh/nodal_space.h>
 
 namespace Signorini
@@ -23,7 +23,7 @@ namespace Signorini
   /// central differences over a thousandth of the cell.
   ExactError compute_exact_error(const Bodies &bodies, const unsigned int body, const NodalSpace &space,
                                  const NodePartition &partition, const Vector &displacement,
-                                 const std::array<Expression, 3> &exact);
+                                 const VectorField &exact);
 } // namespace Signorini
 
 #endif

@@ -5,6 +5,7 @@
 #define signorini_discretization_hexahedron_h
 
 #include <signorini/algebra/types.h>
+#include <signorini/mesh/material.h>
 
 #include <deal.II/base/point.h>
 
@@ -22,8 +23,8 @@ namespace Signorini
     /// nine numbers row by row. Units: E times length. With mean dilatation the change of volume is the mean
     /// over the cell instead of that at each Gauss point (B-bar): no locking where nu is near 0.5.
     /// @return false if the Jacobian is not positive at a Gauss point.
-    bool stiffness(std::array<double, 576> &blocks, const Corners &corners, const double young,
-                   const double poisson, const bool mean_dilatation = false);
+    bool stiffness(std::array<double, 576> &blocks, const Corners &corners, const IsotropicMaterial &material,
+                   const bool mean_dilatation = false);
 
     /// Values of the 8 shape functions at a point of the reference cell.
     std::array<double, 8> shape_values(const dealii::Point<3> &reference);

@@ -4,14 +4,14 @@
 #ifndef signorini_mesh_bodies_h
 #define signorini_mesh_bodies_h
 
+#include <signorini/mesh/body_definition.h>
 #include <signorini/mesh/boundary_shape.h>
-#include <signorini/mesh/generated_mesh.h>
+#include <signorini/mesh/material.h>
 #include <signorini/mesh/node_movement.h>
 #include <signorini/mesh/tetrahedral_forest.h>
 #include <signorini/mesh/volume_mesh.h>
 #include <signorini/surface/surface_mesh.h>
 
-#include <deal.II/base/parameter_handler.h>
 #include <deal.II/distributed/tria.h>
 
 #include <algorithm>
@@ -25,41 +25,6 @@ namespace Signorini
 {
   struct MeshView;
   class NodalSpace;
-
-  /// Shape, place and material of a body, as a user writes them.
-  struct BodyParameters
-  {
-    /// As the parameters of the same names say (add_parameters()): lengths in the unit of the problem,
-    /// Young's modulus as force per area, angles in degrees.
-    std::string name;
-    std::string mesh   = "block";
-    double      radius = 1., inner_radius = .5, height = 1.;
-    std::string lower_corner = "0, 0, 0", upper_corner = "1, 1, 1", divisions = "1, 1, 1";
-    std::string translation = "0, 0, 0", rotation_axis = "0, 0, 1";
-    double      rotation_angle = 0.;
-    double      young = 1., poisson = .3;
-    std::string shapes, sharp_edges;
-    bool        snap                 = false;
-    bool        convert_to_hexahedra = false, convert_to_tetrahedra = false;
-    std::string element = "automatic";
-    std::string volumes, volume_materials;
-
-    /// Declares the parameters in the current subsection.
-    void add_parameters(dealii::ParameterHandler &prm);
-  };
-
-  /// Isotropic linear elastic material of a part of a body.
-  struct Material
-  {
-    /// Number of the body.
-    unsigned int body;
-    /// Young's modulus (force per area) and Poisson's ratio.
-    double young, poisson;
-    /// Whether hexahedra have the mean change of volume of the cell everywhere in it (B-bar).
-    bool mean_dilatation = false;
-    /// The part of the body (Bodies::part()).
-    unsigned int part = 0;
-  };
 
   /// A connected part of a body: most bodies have one.
   struct BodyPart
@@ -78,10 +43,9 @@ namespace Signorini
   class Bodies
   {
   public:
-    /// Collective. Mesh file names are relative to base_folder.
-    /// Errors: InputError naming the parameter for unknown or senseless values and bad mesh files.
-    Bodies(const MPI_Comm communicator, const std::vector<BodyParameters> &parameters,
-           const std::string &base_folder);
+    /// Collective. Errors: InputError naming body and parameter for unknown or senseless values and meshes
+    /// that cannot be used.
+    Bodies(const MPI_Comm communicator, const std::vector<BodyDefinition> &definitions);
 
     /// The ranks among which the meshes are distributed.
     MPI_Comm communicator() const
@@ -138,10 +102,16 @@ namespace Signorini
     }
 
     /// The material of a body where its volumes have none of their own.
-    const Material &material_of_body(const unsigned int body) const
+    const IsotropicMaterial &material_of_body(const unsigned int body) const
     {
       return *std::find_if(materials.begin(), materials.end(),
                            [body](const Material &m) { return m.body == body; });
+    }
+
+    /// Young's modulus of the stiffest material of all cells.
+    double largest_modulus() const
+    {
+      return stiffest;
     }
 
     /// The body that cells with an id belong to.
@@ -218,14 +188,11 @@ namespace Signorini
 
   private:
     struct Placed;
-    /// Reads a body, takes it into the lists of bodies, boundaries, materials and parts, and puts it in its
-    /// place.
-    Placed place(const BodyParameters &parameters, const std::string &base_folder);
-    /// One for the body, and one for each volume with its own.
-    void add_materials(Placed &placed, const BodyParameters &parameters);
-
-    void choose_elements(const BodyParameters &parameters, const Placed &placed);
-    void read_shapes(const BodyParameters &parameters, Placed &placed, const std::string &base_folder);
+    /// Takes a body into the lists of bodies, boundaries, materials and parts, and puts it in its place.
+    Placed add_body(const BodyDefinition &definition);
+    void   add_materials(const BodyDefinition &definition, Placed &placed);
+    void   choose_elements(const BodyDefinition &definition, const Placed &placed);
+    void   add_shapes(const BodyDefinition &definition, Placed &placed);
     /// Connected parts, and the materials of cells, which are those of their volumes for the first part.
     void find_parts(Placed &placed, const unsigned int body);
     /// Refuses shapes of the parameters that lie elsewhere than their boundaries, notes those that are off.
@@ -246,6 +213,7 @@ namespace Signorini
     void                              create(const std::vector<Placed> &placed);
     void                              create_hexahedra(const std::vector<Placed> &placed);
     void                              create_tetrahedra(const std::vector<Placed> &placed);
+    void                              set_given_manifolds(const std::vector<Placed> &placed);
 
     /// The boundary of a start mesh, in its place.
     struct StartSurface
@@ -270,14 +238,17 @@ namespace Signorini
     /// By boundary id; null where a boundary has no shape of its own.
     std::vector<BoundaryShapePointer> shapes;
     std::vector<StartSurface>         start_surfaces;
-    /// By boundary id: whether the shape is not that of a generated mesh.
+    /// By boundary id: whether it is the shape that places new vertices of hexahedra.
     std::vector<bool> is_user_shape;
+    /// Boundaries with manifolds of their own.
+    std::set<dealii::types::boundary_id> has_manifold;
     /// Pairs of boundary ids whose common edges stay as they are, the smaller id first.
     std::set<std::pair<dealii::types::boundary_id, dealii::types::boundary_id>> sharp;
     /// Vertices of the forest that are not yet where their shapes want them.
     std::map<unsigned int, std::set<dealii::types::boundary_id>> late_vertices;
     MovementReport                                               last_movement;
     dealii::types::manifold_id                                   next_manifold = 1;
+    double                                                       stiffest      = 0.;
   };
 } // namespace Signorini
 

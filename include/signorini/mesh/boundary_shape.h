@@ -66,9 +66,11 @@ namespace Signorini
   BoundaryShapePointer make_boundary_shape(const std::string &text, const Placement &placement,
                                            const std::string &base_folder, const std::string &where);
 
-  /// A sphere around the origin, or a cylinder around the z axis, through a point of it.
-  BoundaryShapePointer make_round_shape(const bool is_sphere, const double radius,
-                                        const Placement &placement);
+  BoundaryShapePointer make_sphere_shape(const dealii::Point<3> &centre, const double radius);
+
+  /// The axis and the normal are unit vectors.
+  BoundaryShapePointer make_cylinder_shape(const dealii::Point<3> &point, const dealii::Tensor<1, 3> &axis,
+                                           const double radius);
 
   BoundaryShapePointer make_plane_shape(const dealii::Point<3> &point, const dealii::Tensor<1, 3> &normal);
 

@@ -32,6 +32,8 @@ namespace Signorini
       unsigned int n_corners = 4;
       /// Of the boundary that the face belongs to.
       dealii::types::boundary_id boundary = dealii::numbers::invalid_boundary_id;
+      /// Of the cell (Bodies::material()).
+      dealii::types::material_id material = 0;
     };
 
     /// Triangles of all faces. Hanging vertices on the edges of a face are corners of its triangles:

@@ -4,7 +4,7 @@
 #ifndef signorini_mesh_expression_h
 #define signorini_mesh_expression_h
 
-#include <signorini/algebra/types.h>
+#include <signorini/mesh/field.h>
 
 #include <deal.II/base/function_parser.h>
 #include <deal.II/base/point.h>
@@ -28,12 +28,6 @@ namespace Signorini
     /// Errors: InputError where the value is not finite (not collective: one rank alone may throw).
     double operator()(const dealii::Point<3> &p) const;
 
-    /// Whether it is the constant 0.
-    bool is_zero() const
-    {
-      return !parser && constant == 0.;
-    }
-
     /// As it was written.
     const std::string &text() const
     {
@@ -47,6 +41,15 @@ namespace Signorini
   };
 
 
+
+  /// A number, which may be an expression like sqrt(2).
+  double parse_number(const std::string &text, const std::string &where);
+
+  /// A point "(x, y, z)" of such numbers.
+  dealii::Point<3> parse_point(const std::string &text, const std::string &where);
+
+  /// A function from three expressions "(f, g, h)".
+  VectorField parse_vector_field(const std::string &text, const std::string &where);
 
   /// Pieces of a list; separators inside parentheses do not count. Pieces are trimmed.
   std::vector<std::string> split_list(const std::string &text, const char separator,

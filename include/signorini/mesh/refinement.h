@@ -13,21 +13,6 @@
 
 namespace Signorini
 {
-  /// Prescribed refinement, worked through one level per cycle of the nested iteration.
-  struct RefinementParameters
-  {
-    /// As the parameters of the same names say (add_parameters()).
-    unsigned int initial_global = 0, global_cycles = 0, adaptive_cycles = 0, final_global_cycles = 0;
-    std::string  regions;
-    std::string  marking          = "error";
-    double       marking_fraction = .5;
-    double       max_dofs         = 0.;
-    bool         compare_cycles   = false;
-
-    /// Declares the parameters in the current subsection.
-    void add_parameters(dealii::ParameterHandler &prm);
-  };
-
   /// A ball or box and how many times cells in it are refined beyond the coarse mesh and the global levels.
   struct RefinementRegion
   {
@@ -41,11 +26,39 @@ namespace Signorini
     bool touches(const dealii::Point<3> &lower_corner, const dealii::Point<3> &upper_corner) const;
   };
 
+  /// "ball: (x, y, z), radius, levels; box: (x, y, z), (x, y, z), levels; ...". Errors: InputError for
+  /// regions that cannot be understood.
+  std::vector<RefinementRegion> parse_regions(const std::string &text);
+
+  /// Prescribed refinement, worked through one level per cycle of the nested iteration.
+  struct RefinementParameters
+  {
+    /// What an adaptive cycle refines: the largest indicators that have a share of the error together, or
+    /// that share of the cells.
+    enum class Marking
+    {
+      error,
+      cells
+    };
+
+    /// As the parameters of the same names say (add_parameters()).
+    unsigned int initial_global = 0, global_cycles = 0, adaptive_cycles = 0, final_global_cycles = 0;
+    std::vector<RefinementRegion> regions;
+    Marking                       marking          = Marking::error;
+    double                        marking_fraction = .5;
+    /// No adaptive cycle is begun that would have more unknowns; 0 for no limit.
+    double max_dofs       = 0.;
+    bool   compare_cycles = false;
+
+    /// Declares the parameters in the current subsection.
+    void add_parameters(dealii::ParameterHandler &prm);
+  };
+
   /// Which cells are refined from one mesh of the nested iteration to the next.
   class Refinement
   {
   public:
-    /// Errors: InputError for regions that cannot be understood.
+    /// The cycles that the parameters ask for.
     explicit Refinement(const RefinementParameters &parameters);
 
     /// Number of cycles after the first.
@@ -64,9 +77,8 @@ namespace Signorini
     std::vector<bool> mark(const NodalSpace &space, const unsigned int cycle) const;
 
   private:
-    RefinementParameters          parameters;
-    std::vector<RefinementRegion> regions;
-    unsigned int                  cycles, first_adaptive_cycle, first_final_cycle;
+    RefinementParameters parameters;
+    unsigned int         cycles, first_adaptive_cycle, first_final_cycle;
   };
 } // namespace Signorini
 

@@ -6,7 +6,7 @@
 
 #include <signorini/algebra/types.h>
 #include <signorini/mesh/contact_surface.h>
-#include <signorini/mesh/expression.h>
+#include <signorini/mesh/field.h>
 #include <signorini/mortar/face_moments.h>
 #include <signorini/mortar/geometric_penetration.h>
 
@@ -20,7 +20,22 @@ namespace Signorini
   class RigidObstacle
   {
   public:
-    RigidObstacle() = default;
+    /// The normal points to the elastic body. Errors, here and below: InputError for directions without
+    /// length and radii that are not positive.
+    static RigidObstacle plane(const dealii::Point<3> &point, const Vector3 &normal);
+
+    /// @param is_hollow whether the elastic body is inside
+    static RigidObstacle sphere(const dealii::Point<3> &centre, const double radius,
+                                const bool is_hollow = false);
+    static RigidObstacle cylinder(const dealii::Point<3> &point, const Vector3 &axis, const double radius,
+                                  const bool is_hollow = false);
+
+    /// @param axis points to the elastic body
+    /// @param radius of curvature at the apex; negative for a bowl
+    static RigidObstacle paraboloid(const dealii::Point<3> &apex, const Vector3 &axis, const double radius);
+
+    /// The set where a function is negative.
+    static RigidObstacle level_set(const ScalarField &function);
 
     /// From text:
     ///   plane: point, normal              the normal points to the elastic body
@@ -31,7 +46,7 @@ namespace Signorini
     ///   function: f                       an expression in x, y, z, positive outside of the obstacle
     /// with points and directions as (x, y, z).
     /// Errors: InputError naming `where`.
-    RigidObstacle(const std::string &text, const std::string &where);
+    static RigidObstacle parse(const std::string &text, const std::string &where);
 
     /// The distance along the unit vector n from x to where the line enters the obstacle, negative if x lies
     /// in it (length). `size` is a length of the problem. False if the line does not enter it.
@@ -53,6 +68,9 @@ namespace Signorini
       function
     };
 
+    RigidObstacle(const Kind kind, const std::string &name, const dealii::Point<3> &point,
+                  const Vector3 &axis, const double radius, const bool is_hollow);
+
     bool function_gap(double &distance, const dealii::Point<3> &x, const Vector3 &n, const double size) const;
 
     Kind             kind = Kind::plane;
@@ -61,8 +79,8 @@ namespace Signorini
     Vector3          axis;
     double           radius = 0.;
     /// -1 if the elastic body is inside.
-    double     sign = 1.;
-    Expression function;
+    double      sign = 1.;
+    ScalarField function;
   };
 
   /// The images of points of a surface on an obstacle, both of which must outlive the function.

@@ -7,6 +7,7 @@
 #include <signorini/algebra/types.h>
 #include <signorini/discretization/exact_error.h>
 #include <signorini/mesh/node_movement.h>
+#include <signorini/output/phase_times.h>
 #include <signorini/solvers/convergence_report.h>
 #include <signorini/solvers/sweep_measurement.h>
 #include <signorini/surface/mapping_quality.h>
@@ -46,8 +47,7 @@ namespace Signorini
     SweepMeasurement sweeps;
     /// By body, where a known displacement was given.
     std::map<std::string, ExactError> exact_errors;
-    /// Seconds.
-    std::map<std::string, double> times;
+    PhaseTimes                        times;
   };
 
   /// What a contact pair does, after the last solve.

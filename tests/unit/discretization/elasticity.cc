@@ -6,6 +6,7 @@
 #include <signorini/discretization/elasticity.h>
 #include <signorini/discretization/rigid_support.h>
 #include <signorini/mesh/bodies.h>
+#include <signorini/mesh/body_parameters.h>
 #include <signorini/mesh/nodal_space.h>
 
 #include <gtest/gtest.h>
@@ -22,7 +23,7 @@ namespace
     Bodies bodies;
 
     Block123()
-      : bodies(MPI_COMM_WORLD, {parameters()}, ".")
+      : bodies(MPI_COMM_WORLD, define_bodies(MPI_COMM_WORLD, {parameters()}, "."))
     {
       for (const auto &cell : bodies.triangulation().active_cell_iterators())
         if (cell->is_locally_owned() && cell->center().norm() < 1.5)
@@ -35,8 +36,8 @@ namespace
       BodyParameters p;
       p.name         = "body";
       p.mesh         = "block";
-      p.upper_corner = "1, 2, 3";
-      p.divisions    = "2, 3, 4";
+      p.upper_corner = Point<3>(1, 2, 3);
+      p.divisions    = {2, 3, 4};
       p.young        = 7.;
       p.poisson      = .3;
       return p;
@@ -71,7 +72,7 @@ TEST(Elasticity, LoadsAddUpToForces)
   u.update_ghost_values();
   const auto force_of = [&](const LoadParameters &parameters) {
     Loads loads;
-    loads.add(block.bodies, 0, parameters);
+    loads.add(block.bodies, 0, parameters.definition(""));
     return -1. * total(physical_residual(block.bodies, space, partition, loads, u), partition);
   };
   LoadParameters p;
@@ -126,7 +127,7 @@ TEST(Elasticity, FreeMotions)
     Loads          loads;
     LoadParameters p;
     p.dirichlet = conditions;
-    loads.add(block.bodies, 0, p);
+    loads.add(block.bodies, 0, p.definition(""));
     return free_motions(block.bodies, space, evaluate_dirichlet(space, loads, false)).size();
   };
   EXPECT_EQ(n_free("bottom: (0, 0, 0)"), 0u);

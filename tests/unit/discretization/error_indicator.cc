@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Signorini authors
 
 #include <signorini/discretization/error_indicator.h>
+#include <signorini/mesh/body_parameters.h>
 
 #include <gtest/gtest.h>
 
@@ -17,7 +18,7 @@ namespace
     NodalSpace space;
 
     explicit Bar(const bool tetrahedra = false)
-      : bodies(MPI_COMM_WORLD, {parameters(tetrahedra)}, ".")
+      : bodies(MPI_COMM_WORLD, define_bodies(MPI_COMM_WORLD, {parameters(tetrahedra)}, "."))
       , space(MPI_COMM_WORLD, bodies.mesh(), true)
     {
     }
@@ -27,8 +28,8 @@ namespace
       BodyParameters p;
       p.name                  = "bar";
       p.mesh                  = "block";
-      p.upper_corner          = "10, 1, 1";
-      p.divisions             = "10, 1, 1";
+      p.upper_corner          = Point<3>(10, 1, 1);
+      p.divisions             = {10, 1, 1};
       p.young                 = 2.;
       p.poisson               = 0.;
       p.convert_to_tetrahedra = tetrahedra;
@@ -120,7 +121,7 @@ TEST(ResidualIndicator, JumpsLoadsAndTractions)
       parameters.dirichlet = "left: (0, *, *)";
       parameters.tractions = "right: (4, 0, 0)";
       Loads loads;
-      loads.add(bar.bodies, 0, parameters);
+      loads.add(bar.bodies, 0, parameters.definition(""));
       const auto total = [&](const Loads &l, const std::map<unsigned int, FaceTraction> &contact) {
         const auto indicator = residual_indicator(bar.bodies, bar.space, partition, l, u, contact);
         double     sum       = 0.;
@@ -136,7 +137,7 @@ TEST(ResidualIndicator, JumpsLoadsAndTractions)
       // Without the traction: h / (2 mu) 16 more.
       Loads other;
       parameters.tractions = "";
-      other.add(bar.bodies, 0, parameters);
+      other.add(bar.bodies, 0, parameters.definition(""));
       EXPECT_NEAR(total(other, {}), 2. * h + 8. * h, 1e-11) << tetrahedra;
       // The same traction as contact.
       std::map<unsigned int, FaceTraction> contact;
@@ -154,7 +155,7 @@ TEST(ResidualIndicator, JumpsLoadsAndTractions)
       parameters.tractions    = "right: (4, 0, 0)";
       parameters.volume_force = "(0, 3, 0)";
       Loads volume;
-      volume.add(bar.bodies, 0, parameters);
+      volume.add(bar.bodies, 0, parameters.definition(""));
       // The diagonal of the cube; in a tetrahedron with a face and the centre the longest edge is the face's
       // diagonal.
       EXPECT_NEAR(total(volume, {}), 2. * h + .5 * (tetrahedra ? 2. : 3.) * 9. * 10., 1e-10) << tetrahedra;

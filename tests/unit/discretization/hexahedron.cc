@@ -87,7 +87,7 @@ TEST_P(HexahedronElement, RigidMotionsCauseNoForces)
 {
   const auto              x = skew_cell();
   std::array<double, 576> blocks;
-  ASSERT_TRUE(Hexahedron::stiffness(blocks, x, 7., .3, GetParam()));
+  ASSERT_TRUE(Hexahedron::stiffness(blocks, x, {7., .3}, GetParam()));
   for (unsigned int mode = 0; mode < 6; ++mode)
     {
       std::array<Vector3, 8> u;
@@ -112,7 +112,7 @@ TEST_P(HexahedronElement, EnergyOfAConstantStrain)
                lambda       = young * nu / ((1. + nu) * (1. - 2. * nu));
   const auto              x = skew_cell();
   std::array<double, 576> blocks;
-  ASSERT_TRUE(Hexahedron::stiffness(blocks, x, young, nu, GetParam()));
+  ASSERT_TRUE(Hexahedron::stiffness(blocks, x, {young, nu}, GetParam()));
   const double gradient[3][3] = {{.1, .2, -.3}, {.4, -.5, .6}, {-.7, .8, .9}};
   double       volume = 0., energy = 0., trace = 0., strain2 = 0.;
   for (unsigned int q = 0; q < 8; ++q)
@@ -138,7 +138,7 @@ TEST(Hexahedron, RefusesInvertedCells)
   auto x = skew_cell();
   std::swap(x[0], x[4]);
   std::array<double, 576> blocks;
-  EXPECT_FALSE(Hexahedron::stiffness(blocks, x, 1., .3));
+  EXPECT_FALSE(Hexahedron::stiffness(blocks, x, {1., .3}));
 }
 
 TEST(Hexahedron, FindsThePointOfAReferencePoint)
@@ -164,7 +164,7 @@ TEST(Hexahedron, MeanDilatationCostsVolumeOnlyOnce)
   for (const bool mean_dilatation : {false, true})
     {
       std::array<double, 576> blocks;
-      ASSERT_TRUE(Hexahedron::stiffness(blocks, skew_cell(), young, poisson, mean_dilatation));
+      ASSERT_TRUE(Hexahedron::stiffness(blocks, skew_cell(), {young, poisson}, mean_dilatation));
       Eigen::MatrixXd matrix(24, 24);
       for (unsigned int a = 0; a < 8; ++a)
         for (unsigned int b = 0; b < 8; ++b)

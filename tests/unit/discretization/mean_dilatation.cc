@@ -5,6 +5,7 @@
 #include <signorini/discretization/elasticity.h>
 #include <signorini/discretization/element.h>
 #include <signorini/discretization/error_indicator.h>
+#include <signorini/mesh/body_parameters.h>
 
 #include "../mesh/mesh_file.h"
 
@@ -22,14 +23,14 @@ namespace
     NodalSpace    space;
     NodePartition partition;
 
-    explicit Ball(const std::string &element)
-      : bodies(MPI_COMM_WORLD, {parameters(element)}, ".")
+    explicit Ball(const ElementChoice element)
+      : bodies(MPI_COMM_WORLD, define_bodies(MPI_COMM_WORLD, {parameters(element)}, "."))
       , space(refined(bodies), bodies.mesh(), true)
       , partition(space.owned(), space.relevant(), MPI_COMM_WORLD)
     {
     }
 
-    static BodyParameters parameters(const std::string &element, const double poisson = .49)
+    static BodyParameters parameters(const ElementChoice element, const double poisson = .49)
     {
       BodyParameters p;
       p.name    = "ball";
@@ -74,7 +75,7 @@ namespace
 
   bool has_mean_dilatation(const BodyParameters &p)
   {
-    return Bodies(MPI_COMM_WORLD, {p}, ".").material_of_body(0).mean_dilatation;
+    return Bodies(MPI_COMM_WORLD, define_bodies(MPI_COMM_WORLD, {p}, ".")).material(0).mean_dilatation;
   }
 } // namespace
 
@@ -82,22 +83,22 @@ namespace
 
 TEST(MeanDilatation, WhereItIs)
 {
-  EXPECT_FALSE(has_mean_dilatation(Ball::parameters("automatic", .3)));
-  EXPECT_FALSE(has_mean_dilatation(Ball::parameters("automatic", .4)));
-  EXPECT_TRUE(has_mean_dilatation(Ball::parameters("automatic", .41)));
-  EXPECT_FALSE(has_mean_dilatation(Ball::parameters("standard", .49)));
-  EXPECT_TRUE(has_mean_dilatation(Ball::parameters("mean dilatation", .3)));
+  EXPECT_FALSE(has_mean_dilatation(Ball::parameters(ElementChoice::automatic, .3)));
+  EXPECT_FALSE(has_mean_dilatation(Ball::parameters(ElementChoice::automatic, .4)));
+  EXPECT_TRUE(has_mean_dilatation(Ball::parameters(ElementChoice::automatic, .41)));
+  EXPECT_FALSE(has_mean_dilatation(Ball::parameters(ElementChoice::standard, .49)));
+  EXPECT_TRUE(has_mean_dilatation(Ball::parameters(ElementChoice::mean_dilatation, .3)));
 
-  BodyParameters p        = Ball::parameters("automatic");
+  BodyParameters p        = Ball::parameters(ElementChoice::automatic);
   p.convert_to_tetrahedra = true;
-  const Bodies tetrahedra(MPI_COMM_WORLD, {p}, ".");
-  EXPECT_FALSE(tetrahedra.material_of_body(0).mean_dilatation);
+  const Bodies tetrahedra(MPI_COMM_WORLD, define_bodies(MPI_COMM_WORLD, {p}, "."));
+  EXPECT_FALSE(tetrahedra.material(0).mean_dilatation);
   ASSERT_EQ(tetrahedra.notes().size(), 1u);
   EXPECT_NE(tetrahedra.notes()[0].find("too stiff"), std::string::npos);
   p.poisson = .45;
-  EXPECT_TRUE(Bodies(MPI_COMM_WORLD, {p}, ".").notes().empty());
-  p.element = "mean dilatation";
-  EXPECT_THROW(Bodies(MPI_COMM_WORLD, {p}, "."), InputError);
+  EXPECT_TRUE(Bodies(MPI_COMM_WORLD, define_bodies(MPI_COMM_WORLD, {p}, ".")).notes().empty());
+  p.element = ElementChoice::mean_dilatation;
+  EXPECT_THROW(Bodies(MPI_COMM_WORLD, define_bodies(MPI_COMM_WORLD, {p}, ".")), InputError);
 }
 
 
@@ -115,7 +116,7 @@ TEST(MeanDilatation, MaterialByMaterial)
   p.mesh             = file.path;
   p.poisson          = .3;
   p.volume_materials = "rubber: 1, 0.49";
-  const Bodies     bodies(MPI_COMM_WORLD, {p}, ".");
+  const Bodies     bodies(MPI_COMM_WORLD, define_bodies(MPI_COMM_WORLD, {p}, "."));
   const NodalSpace space(MPI_COMM_WORLD, bodies.mesh());
   unsigned int     n = 0;
   for (const NodalSpace::Cell &cell : space.cells())
@@ -136,7 +137,7 @@ TEST(MeanDilatation, StressesBelongToTheStiffness)
   double energies[2];
   for (const bool mean : {false, true})
     {
-      const Ball   ball(mean ? "mean dilatation" : "standard");
+      const Ball   ball(mean ? ElementChoice::mean_dilatation : ElementChoice::standard);
       const Vector u      = ball.nodal(wild);
       double       energy = 0.;
       for (const NodalSpace::Cell &cell : ball.space.cells())
@@ -169,12 +170,12 @@ TEST(MeanDilatation, StressesBelongToTheStiffness)
 // inside.
 TEST(MeanDilatation, PatchTest)
 {
-  const Ball     ball("automatic");
+  const Ball     ball(ElementChoice::automatic);
   const Vector   u = ball.nodal(linear);
   Loads          loads;
   LoadParameters parameters;
   parameters.dirichlet = "sphere: (x, y, z)";
-  loads.add(ball.bodies, 0, parameters);
+  loads.add(ball.bodies, 0, parameters.definition(""));
   const Vector forces  = physical_residual(ball.bodies, ball.space, ball.partition, loads, u);
   const double largest = forces.linfty_norm();
   for (unsigned int i = 0; i < ball.partition.n_owned(); ++i)

@@ -7,6 +7,7 @@
 #include <signorini/discretization/basis_transformation.h>
 #include <signorini/discretization/elasticity.h>
 #include <signorini/mesh/bodies.h>
+#include <signorini/mesh/body_parameters.h>
 
 #include <gtest/gtest.h>
 
@@ -21,8 +22,8 @@ namespace
     BodyParameters p;
     p.name         = "body";
     p.mesh         = "block";
-    p.upper_corner = "1, 2, 3";
-    p.divisions    = "2, 3, 4";
+    p.upper_corner = Point<3>(1, 2, 3);
+    p.divisions    = {2, 3, 4};
     p.young        = 7.;
     p.poisson      = .3;
     return p;
@@ -58,7 +59,7 @@ namespace
 // nodes on both.
 TEST(PartlyFixed, TransformedProblemIsTheSameProblem)
 {
-  Bodies bodies(MPI_COMM_WORLD, {block()}, ".");
+  Bodies bodies(MPI_COMM_WORLD, define_bodies(MPI_COMM_WORLD, {block()}, "."));
   for (const auto &cell : bodies.triangulation().active_cell_iterators())
     if (cell->is_locally_owned() && cell->center()[0] + cell->center()[1] < .9)
       cell->set_refine_flag();
@@ -69,7 +70,7 @@ TEST(PartlyFixed, TransformedProblemIsTheSameProblem)
   LoadParameters      parameters;
   parameters.dirichlet = "left: (0.1*y - 0.2*z, *, *); right: (*, 0.3 + 0.1*z, 0.2*y)";
   parameters.tractions = "front: (1, 2, 3)";
-  loads.add(bodies, 0, parameters);
+  loads.add(bodies, 0, parameters.definition(""));
   const DirichletData dirichlet = evaluate_dirichlet(space, loads, true);
 
   InterfaceCoupling          coupling;

@@ -5,7 +5,9 @@
 
 #include <signorini/algebra/input_error.h>
 #include <signorini/mesh/bodies.h>
+#include <signorini/mesh/body_parameters.h>
 #include <signorini/mesh/cell_shape.h>
+#include <signorini/mesh/generated_mesh.h>
 #include <signorini/mesh/nodal_space.h>
 #include <signorini/mesh/node_movement.h>
 
@@ -68,8 +70,8 @@ namespace
     BodyParameters p;
     p.name                  = "body";
     p.mesh                  = "block";
-    p.lower_corner          = "-1, -1, -1";
-    p.divisions             = "2, 2, 2";
+    p.lower_corner          = Point<3>(-1, -1, -1);
+    p.divisions             = {2, 2, 2};
     p.convert_to_tetrahedra = tetrahedra;
     return p;
   }
@@ -182,7 +184,7 @@ TEST(BoundaryShape, MeshesFollowOnBothKindsOfCells)
           "top: sphere: (0, 0, -2), sqrt(11); left: plane: (-1, 0, 0), (1, 0, 0); right: plane: (1, 0, 0), "
           "(1, 0, 0); front: plane: (0, -1, 0), (0, 1, 0); back: plane: (0, 1, 0), (0, 1, 0)";
       p.snap = true;
-      Bodies bodies(MPI_COMM_WORLD, {p}, ".");
+      Bodies bodies(MPI_COMM_WORLD, define_bodies(MPI_COMM_WORLD, {p}, "."));
       EXPECT_EQ(bodies.movement().n_damped, 0u);
       for (unsigned int i = 0; i < 3; ++i)
         refine(bodies);
@@ -197,7 +199,7 @@ TEST(BoundaryShape, MeshesFollowOnBothKindsOfCells)
       p.shapes         = "top: sphere: (0, 0, -2), sqrt(11)";
       p.sharp_edges    = "top + left; top + right; top + front; top + back";
       p.snap           = true;
-      Bodies bodies(MPI_COMM_WORLD, {p}, ".");
+      Bodies bodies(MPI_COMM_WORLD, define_bodies(MPI_COMM_WORLD, {p}, "."));
       refine(bodies);
       refine(bodies);
       const NodalSpace space(MPI_COMM_WORLD, bodies.mesh());
@@ -225,7 +227,7 @@ TEST(BoundaryShape, SharpEdgesOfGeneratedMeshes)
         p.convert_to_tetrahedra = tetrahedra;
         if (is_sharp)
           p.sharp_edges = "sphere + top";
-        Bodies bodies(MPI_COMM_WORLD, {p}, ".");
+        Bodies bodies(MPI_COMM_WORLD, define_bodies(MPI_COMM_WORLD, {p}, "."));
         refine(bodies);
         const NodalSpace space(MPI_COMM_WORLD, bodies.mesh());
         const double     off_sphere =

@@ -4,6 +4,7 @@
 #include <signorini/algebra/input_error.h>
 #include <signorini/discretization/element.h>
 #include <signorini/mesh/bodies.h>
+#include <signorini/mesh/body_parameters.h>
 #include <signorini/mesh/coarser_meshes.h>
 #include <signorini/mesh/nodal_space.h>
 
@@ -33,8 +34,8 @@ namespace
     p.radius       = 2.;
     p.inner_radius = 1.;
     p.height       = 3.;
-    p.upper_corner = "1, 2, 3";
-    p.divisions    = "1, 2, 2";
+    p.upper_corner = Point<3>(1, 2, 3);
+    p.divisions    = {1, 2, 2};
     return p;
   }
 
@@ -71,7 +72,7 @@ namespace
 TEST_P(GeneratedMeshes, HaveVolumesAndAreasThatConverge)
 {
   const Shape shape = GetParam();
-  Bodies      bodies(MPI_COMM_WORLD, {body(shape.kind)}, ".");
+  Bodies      bodies(MPI_COMM_WORLD, define_bodies(MPI_COMM_WORLD, {body(shape.kind)}, "."));
   double      last = 0.;
   for (unsigned int level = 0; level < 3; ++level)
     {
@@ -137,13 +138,13 @@ TEST(GeneratedMesh, RefusesSizesThatMakeNoSense)
 {
   BodyParameters p = body("ball");
   p.radius         = 0.;
-  EXPECT_THROW(Bodies(MPI_COMM_WORLD, {p}, "."), InputError);
+  EXPECT_THROW(Bodies(MPI_COMM_WORLD, define_bodies(MPI_COMM_WORLD, {p}, ".")), InputError);
   p           = body("block");
-  p.divisions = "1, 0, 1";
-  EXPECT_THROW(Bodies(MPI_COMM_WORLD, {p}, "."), InputError);
+  p.divisions = {1, 0, 1};
+  EXPECT_THROW(Bodies(MPI_COMM_WORLD, define_bodies(MPI_COMM_WORLD, {p}, ".")), InputError);
   p              = body("spherical shell");
   p.inner_radius = 3.;
-  EXPECT_THROW(Bodies(MPI_COMM_WORLD, {p}, "."), InputError);
+  EXPECT_THROW(Bodies(MPI_COMM_WORLD, define_bodies(MPI_COMM_WORLD, {p}, ".")), InputError);
 }
 
 
@@ -168,7 +169,7 @@ namespace
 // The same cells as deal.II's own sequence, on every level.
 TEST(CoarseningSequence, HasTheMeshesOfDealII)
 {
-  Bodies bodies(MPI_COMM_WORLD, {body("half ball")}, ".");
+  Bodies bodies(MPI_COMM_WORLD, define_bodies(MPI_COMM_WORLD, {body("half ball")}, "."));
   refine_near_pole(bodies);
   CoarseningSequence                                                sequence(bodies.triangulation());
   std::vector<std::unique_ptr<CoarseningSequence::DistributedMesh>> ours;
@@ -207,7 +208,7 @@ TEST(CoarseningSequence, HasTheMeshesOfDealII)
 // Levels that come up again after a refinement are those of before; the others are as if built anew.
 TEST(CoarserSpaces, KnowsTheLevelsOfTheLastMesh)
 {
-  Bodies        bodies(MPI_COMM_WORLD, {body("half ball")}, ".");
+  Bodies        bodies(MPI_COMM_WORLD, define_bodies(MPI_COMM_WORLD, {body("half ball")}, "."));
   CoarserSpaces remembering;
   const auto    space_of = [&] { return std::make_shared<const NodalSpace>(MPI_COMM_WORLD, bodies.mesh()); };
   refine_near_pole(bodies);
@@ -247,7 +248,7 @@ TEST(CoarserSpaces, KnowsTheLevelsOfTheLastMesh)
 // Node positions follow the sphere and survive refinement and repartitioning.
 TEST(NodalSpace, NodesLieOnTheSphere)
 {
-  Bodies bodies(MPI_COMM_WORLD, {body("half ball")}, ".");
+  Bodies bodies(MPI_COMM_WORLD, define_bodies(MPI_COMM_WORLD, {body("half ball")}, "."));
   refine_near_pole(bodies);
   const NodalSpace                   space(MPI_COMM_WORLD, bodies.mesh());
   const std::set<types::boundary_id> sphere    = bodies.boundary_ids(0, "sphere");

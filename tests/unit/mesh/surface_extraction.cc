@@ -4,6 +4,7 @@
 #include "mesh_file.h"
 
 #include <signorini/mesh/bodies.h>
+#include <signorini/mesh/body_parameters.h>
 #include <signorini/mesh/surface_extraction.h>
 #include <signorini/surface/contact_mapping.h>
 
@@ -74,8 +75,8 @@ namespace
 TEST(SurfaceExtraction, TopOfABlockWithHangingNodes)
 {
   BodyParameters p;
-  p.divisions = "3, 3, 3";
-  Bodies bodies(MPI_COMM_WORLD, {p}, ".");
+  p.divisions = {3, 3, 3};
+  Bodies bodies(MPI_COMM_WORLD, define_bodies(MPI_COMM_WORLD, {p}, "."));
   refine_near(bodies, Point<3>(.5, .5, 1.), .2);
   const NodalSpace space(MPI_COMM_WORLD, bodies.mesh());
   const auto       surface = extract(bodies, space, "top");
@@ -100,8 +101,8 @@ TEST(SurfaceExtraction, TopOfABlockWithHangingNodes)
 TEST(SurfaceExtraction, HangingNodesAtTheBorderOfARegion)
 {
   BodyParameters p;
-  p.divisions = "3, 3, 3";
-  Bodies bodies(MPI_COMM_WORLD, {p}, ".");
+  p.divisions = {3, 3, 3};
+  Bodies bodies(MPI_COMM_WORLD, define_bodies(MPI_COMM_WORLD, {p}, "."));
   refine_near(bodies, Point<3>(.5, .5, 1.), .2);
   const NodalSpace space(MPI_COMM_WORLD, bodies.mesh());
   const auto       surface =
@@ -128,8 +129,8 @@ TEST(SurfaceExtraction, HangingNodesAtTheBorderOfARegion)
 TEST(SurfaceExtraction, ParentsWithoutFaces)
 {
   BodyParameters p;
-  p.divisions = "3, 3, 3";
-  Bodies bodies(MPI_COMM_WORLD, {p}, ".");
+  p.divisions = {3, 3, 3};
+  Bodies bodies(MPI_COMM_WORLD, define_bodies(MPI_COMM_WORLD, {p}, "."));
   refine_near(bodies, Point<3>(.5, .5, 1.), .2);
   const NodalSpace space(MPI_COMM_WORLD, bodies.mesh());
   // The one fine face at the corner (2/3, 2/3).
@@ -155,7 +156,7 @@ TEST(SurfaceExtraction, SkewFacesWithAHangingNodeHaveNoFlatTriangles)
                                               "5 2 1 1 1 2 3 4 7 8 9 10", "5 2 1 1 4 3 5 6 10 9 11 12"}));
   BodyParameters      p;
   p.mesh = file.path;
-  Bodies bodies(MPI_COMM_WORLD, {p}, ".");
+  Bodies bodies(MPI_COMM_WORLD, define_bodies(MPI_COMM_WORLD, {p}, "."));
   refine_near(bodies, Point<3>(.5, -.5, .5), .1);
   const NodalSpace space(MPI_COMM_WORLD, bodies.mesh());
   const auto       surface = extract(bodies, space, "9");

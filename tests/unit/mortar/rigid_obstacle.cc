@@ -15,7 +15,7 @@ namespace
 {
   RigidObstacle obstacle(const std::string &text)
   {
-    return RigidObstacle(text, "test");
+    return RigidObstacle::parse(text, "test");
   }
 
   /// The gap, or infinity.

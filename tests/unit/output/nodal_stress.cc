@@ -3,6 +3,7 @@
 
 #include <signorini/discretization/hexahedron.h>
 #include <signorini/mesh/bodies.h>
+#include <signorini/mesh/body_parameters.h>
 #include <signorini/mesh/nodal_space.h>
 #include <signorini/output/field_output.h>
 
@@ -21,8 +22,8 @@ TEST(NodalStress, OfTheMeanDilatation)
   p.poisson = .45;
   for (const bool mean : {false, true})
     {
-      p.element = mean ? "mean dilatation" : "standard";
-      const Bodies     bodies(MPI_COMM_WORLD, {p}, ".");
+      p.element = mean ? ElementChoice::mean_dilatation : ElementChoice::standard;
+      const Bodies     bodies(MPI_COMM_WORLD, define_bodies(MPI_COMM_WORLD, {p}, "."));
       const NodalSpace space(MPI_COMM_WORLD, bodies.mesh());
       const auto       field = [](const Point<3> &x) {
         return Vector3({std::sin(3. * x[1] + x[2]), x[0] * x[1], std::cos(5. * x[0]) - x[2] * x[2]});

@@ -94,7 +94,7 @@ namespace CubeProblem
     for (unsigned int v = 0; v < 8; ++v)
       corners[v] = Point<3>((v & 1) / double(n), (v >> 1 & 1) / double(n), height * (v >> 2) / double(n));
     std::array<double, 576> k;
-    Hexahedron::stiffness(k, corners, 1., .3);
+    Hexahedron::stiffness(k, corners, {1., .3});
     for (const auto &cell : cells)
       for (unsigned int a = 0; a < 8; ++a)
         for (unsigned int b = 0; b < 8; ++b)

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_application_constrained_space_h
+#define signorini_application_constrained_space_h
+
+#include <signorini/algebra/node_partition.h>
+#include <signorini/algebra/replicated_data.h>
+#include <signorini/application/contact_model.h>
+#include <signorini/discretization/rigid_support.h>
+
+#include <memory>
+#include <vector>
+
+namespace Signorini
+{
+  /// Rigid motions of connected parts of bodies that neither conditions nor ties exclude.
+  struct FreeParts
+  {
+    std::vector<FreeMotion> motions;
+    /// Whether there is a part that only a tie holds: its decoupled linear problem has no unique solution.
+    bool has_tied_part = false;
+  };
+
+  /// Collective. Errors: InputError for tied groups of which no part is held by conditions of its own.
+  FreeParts find_free_parts(const ContactModel &model, const NodalSpace &space,
+                            const DirichletData &dirichlet);
+
+  /// The nodal space of one mesh with its Dirichlet conditions, and what these leave free. Constant.
+  struct ConstrainedSpace
+  {
+    /// Collective. Inner faces are what estimate_error() needs. Errors: those of find_free_parts().
+    explicit ConstrainedSpace(const ContactModel &model, const bool with_inner_faces = false);
+
+    /// Collective. The nodal interpolant of a displacement on the mesh that this one was refined from. Ghosts
+    /// are up to date.
+    /// @param rows of interpolation_rows() between the two spaces
+    Vector interpolate(const Vector &displacement, const ConstrainedSpace &coarser,
+                       const NodeRows &rows) const;
+
+    const NodalSpace &nodal() const
+    {
+      return *space;
+    }
+
+    const std::shared_ptr<const NodalSpace> space;
+    const NodePartition                     partition;
+    const DirichletData                     dirichlet;
+    const FreeParts                         free_parts;
+  };
+
+  /// The prescribed displacements (zero at free components) at the owned nodes of a partition of the space.
+  Vector prescribed_displacement(const NodalSpace &space, const NodePartition &partition,
+                                 const DirichletData &dirichlet);
+} // namespace Signorini
+
+#endif

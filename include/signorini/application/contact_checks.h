@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_application_contact_checks_h
+#define signorini_application_contact_checks_h
+
+#include <signorini/application/discretization.h>
+
+namespace Signorini
+{
+  /// The pairs of a mesh with their couplings, before they are joined.
+  struct CoupledPairs
+  {
+    const ContactModel              &model;
+    const ConstrainedSpace          &constrained;
+    const std::vector<ContactPair>  &pairs;
+    const std::vector<PairCoupling> &couplings;
+  };
+
+  /// Why the choice of the nonmortar side of a pair should be turned round, if it may be: the part of it that
+  /// could carry no contact stress, in words. Empty if it should not.
+  std::string reason_to_turn(const ContactPair &pair, const PairCoupling &coupling);
+
+  /// Errors: InputError for pairs of which conditions or other pairs take away the multipliers, and for
+  /// prescribed displacements that make both sides overlap.
+  void refuse_lost_contact(const CoupledPairs &coupled);
+
+  /// Errors: InputError for nonmortar surfaces so much coarser than their partners that their rows would fill
+  /// the matrix.
+  void refuse_dense_coupling(const CoupledPairs &coupled);
+
+  /// Collective. Errors: InputError for an initial overlap of the order of a body.
+  /// @param overlap largest negative weighted gap of the pair
+  void refuse_large_overlap(const CoupledPairs &coupled, const ContactPair &pair, const double overlap);
+} // namespace Signorini
+
+#endif

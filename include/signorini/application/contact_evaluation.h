@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_application_contact_evaluation_h
+#define signorini_application_contact_evaluation_h
+
+#include <signorini/application/contact_solve.h>
+#include <signorini/output/results.h>
+
+#include <string>
+#include <vector>
+
+namespace Signorini
+{
+  /// A point whose displacement is reported.
+  struct Probe
+  {
+    std::string      name;
+    unsigned int     body;
+    dealii::Point<3> point;
+  };
+
+  /// Multipliers of one pair, per row of its own coupling.
+  ContactStress stress_of_pair(const Discretization &discretization, const ContactStress &stress,
+                               const unsigned int pair);
+
+  /// The whole equilibrium of a solution.
+  struct Equilibrium
+  {
+    /// Per Loads::dirichlet.
+    std::vector<BoundaryResult> reactions;
+    /// Norm of the nodal forces before reactions and contact forces are taken off (force).
+    double largest_nodal_force = 0.;
+    /// Certificate::equilibrium, Certificate::body_force_balance, Certificate::body_moment_balance.
+    double residual = 0., force_balance = 0., moment_balance = 0.;
+  };
+
+  /// Collective. Forces, areas, gaps and extrema of one pair.
+  PairResult evaluate_pair(const Discretization &discretization, const ContactSolution &solution,
+                           const unsigned int pair);
+
+  /// Pressures at the contact nodes of one pair.
+  std::vector<PressureRow> pressure_rows(const Discretization &discretization, const ContactStress &stress,
+                                         const unsigned int pair);
+
+  /// Collective. Reactions, and what is left of the forces on every body.
+  Equilibrium evaluate_equilibrium(const ContactModel &model, const Discretization &discretization,
+                                   const ContactSolution &solution);
+
+  /// What a solution says, for a person and for its certificate.
+  struct ContactEvaluation
+  {
+    std::vector<PairResult>  pairs;
+    std::vector<PressureRow> pressure;
+    Equilibrium              equilibrium;
+  };
+
+  /// Collective. All of the above.
+  ContactEvaluation evaluate_contact(const ContactModel &model, const Discretization &discretization,
+                                     const ContactSolution &solution);
+
+  /// Collective. Errors: InputError for points outside of their bodies.
+  std::vector<ProbeResult> evaluate_probes(const ContactModel &model, const Discretization &discretization,
+                                           const ContactSolution &solution, const std::vector<Probe> &probes);
+} // namespace Signorini
+
+#endif

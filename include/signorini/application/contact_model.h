@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_application_contact_model_h
+#define signorini_application_contact_model_h
+
+#include <signorini/application/problem_definition.h>
+#include <signorini/mesh/true_shape.h>
+
+#include <set>
+#include <string>
+#include <vector>
+
+namespace Signorini
+{
+  class Journal;
+
+  /// A pair whose boundaries have been found on the bodies.
+  struct PairModel
+  {
+    struct Side
+    {
+      unsigned int                         body;
+      std::string                          boundary;
+      std::set<dealii::types::boundary_id> ids;
+      ScalarField                          region;
+      SurfaceShapes                        shapes;
+    };
+
+    PairDefinition definition;
+    /// One with an obstacle, else two.
+    std::vector<Side> sides;
+
+    bool is_tied() const
+    {
+      return definition.contact == ContactKind::tied;
+    }
+  };
+
+  /// A problem on its bodies: loads and pairs, which stay, and the meshes, which are refined.
+  class ContactModel
+  {
+  public:
+    /// Collective. Errors: InputError for definitions that make no sense, with the name of the parameter as
+    /// in a parameter file.
+    ContactModel(const MPI_Comm communicator, ProblemDefinition problem);
+
+    MPI_Comm communicator() const
+    {
+      return the_bodies.communicator();
+    }
+
+    const Bodies &bodies() const
+    {
+      return the_bodies;
+    }
+
+    const Loads &loads() const
+    {
+      return the_loads;
+    }
+
+    const std::vector<PairModel> &pairs() const
+    {
+      return the_pairs;
+    }
+
+    /// Collective. As Bodies::refine(). Spaces and discretizations of the mesh before stay as they are.
+    bool refine(const NodalSpace &space, const std::vector<bool> &marked)
+    {
+      return the_bodies.refine(space, marked);
+    }
+
+    /// Collective.
+    void refine_globally(const unsigned int times);
+
+    /// The connected parts of bodies with faces on a side of a pair.
+    std::set<unsigned int> parts_of(const PairModel::Side &side) const;
+
+    /// Notes what boundary shapes did to the mesh in the last refinement.
+    void note_movement(Journal &journal) const;
+
+  private:
+    PairModel find_pair(const PairDefinition &definition);
+
+    Bodies                 the_bodies;
+    Loads                  the_loads;
+    std::vector<PairModel> the_pairs;
+  };
+} // namespace Signorini
+
+#endif

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_application_discretization_h
+#define signorini_application_discretization_h
+
+#include <signorini/algebra/interface_coupling.h>
+#include <signorini/algebra/row_projection.h>
+#include <signorini/application/constrained_space.h>
+#include <signorini/discretization/basis_transformation.h>
+#include <signorini/mesh/contact_surface.h>
+#include <signorini/mortar/pair_coupling.h>
+#include <signorini/surface/contact_mapping.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace Signorini
+{
+  class Journal;
+
+  /// One side of a pair on a mesh. The partner of a surface is empty where that is an obstacle.
+  struct ContactSide
+  {
+    unsigned int body = dealii::numbers::invalid_unsigned_int;
+    /// "body: boundary".
+    std::string                          name;
+    std::set<dealii::types::boundary_id> ids;
+    ContactSurface                       surface;
+    /// Of the cells behind the surface, the mean over its area.
+    IsotropicMaterial material;
+  };
+
+  /// One contact pair on a mesh.
+  struct ContactPair
+  {
+    std::string                  name;
+    bool                         is_tied = false;
+    ContactSide                  nonmortar, mortar;
+    std::optional<RigidObstacle> obstacle;
+    /// Null with an obstacle.
+    std::unique_ptr<const ContactMapping> mapping;
+    /// Seconds it took.
+    double                   mapping_time = 0.;
+    std::vector<FaceMoments> moments;
+    GapFunction              prescribed_gap;
+  };
+
+  /// The discrete contact problem on one mesh. Constant.
+  struct Discretization
+  {
+    /// Collective. Joins the couplings of the pairs. Errors: those of join_couplings().
+    Discretization(std::shared_ptr<const ConstrainedSpace> constrained, std::vector<ContactPair> pairs,
+                   std::vector<PairCoupling> couplings, std::vector<bool> turned);
+    Discretization(const Discretization &) = delete;
+
+    const NodalSpace &nodal() const
+    {
+      return *constrained->space;
+    }
+
+    const NodePartition &partition() const
+    {
+      return constrained->partition;
+    }
+
+    const std::vector<FreeMotion> &free_motions() const
+    {
+      return constrained->free_parts.motions;
+    }
+
+    /// Those of the space, but with a lift that has no jump at tied nodes.
+    const DirichletData &dirichlet() const
+    {
+      return lifted ? *lifted : constrained->dirichlet;
+    }
+
+    bool has_ties() const
+    {
+      return std::find(tied.begin(), tied.end(), 1) != tied.end();
+    }
+
+    std::shared_ptr<const ConstrainedSpace> constrained;
+    std::vector<ContactPair>                pairs;
+    std::vector<PairCoupling>               couplings;
+    /// Per pair: whether an automatic choice of the nonmortar side was turned round, because the other side
+    /// left contact without multipliers. What the next mesh begins with.
+    std::vector<bool> turned;
+
+    InterfaceCoupling coupling;
+    /// Per pair and row of its coupling the row of the joined one; rows of a pair stay in order.
+    std::vector<std::vector<std::size_t>> rows_of_pair;
+    /// Per row of the joined coupling: A_p with the normal, gap, whether the pair is tied (û_p = 0) instead
+    /// of in contact.
+    std::vector<RowProjection> projections;
+    std::vector<double>        gaps;
+    std::vector<unsigned char> tied;
+    /// Null without ties; see dirichlet().
+    std::unique_ptr<const DirichletData>       lifted;
+    std::unique_ptr<const BasisTransformation> transformation;
+  };
+
+  /// Collective. Maps and couples all pairs of a model on its mesh.
+  /// @param turned Discretization::turned of the mesh before; empty on the first one
+  /// @param cycle number of the mesh, for notes; on the first one initial overlaps are noted
+  /// Errors: InputError for pairs that cannot do what they are there for (contact_checks.h).
+  std::unique_ptr<const Discretization> discretize(const ContactModel                     &model,
+                                                   std::shared_ptr<const ConstrainedSpace> constrained,
+                                                   const std::vector<bool> &turned, const unsigned int cycle,
+                                                   Journal &journal);
+} // namespace Signorini
+
+#endif

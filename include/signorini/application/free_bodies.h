@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_application_free_bodies_h
+#define signorini_application_free_bodies_h
+
+#include <signorini/application/discretization.h>
+#include <signorini/solvers/obstacle_problem.h>
+#include <signorini/solvers/obstacle_solver.h>
+
+namespace Signorini
+{
+  // Bodies, or parts of them, that nothing but contact holds.
+
+  /// Notes the parts that contact must hold. Errors: InputError for those that have no contact, or that the
+  /// method cannot deal with.
+  void check_free_parts(const ContactModel &model, const FreeParts &parts, const SolverMethod method,
+                        Journal &journal);
+
+  /// Collective. The displacements of free motions as unknowns of a transformed problem.
+  std::vector<Vector> motions_of_unknowns(const ContactModel &model, const ConstrainedSpace &constrained,
+                                          const NodePartition       &unknowns,
+                                          const BasisTransformation &transformation);
+
+  /// Collective. Adds to a start the motion that brings free parts into the contacts that hold them. Errors:
+  /// InputError for loads that no contact can hold.
+  /// @param unknowns partition of v
+  void settle_free_parts(Vector &v, const ContactModel &model, const Discretization &discretization,
+                         const NodePartition &unknowns, const ObstacleProblem &problem);
+
+  /// Collective. Takes motions that slide along all active contacts out of a solution, with a note, where
+  /// that is admissible.
+  void remove_free_motions(Vector &v, const std::vector<Vector> &motions, const HalfSpaces &half_spaces,
+                           const std::vector<unsigned char>                             &active,
+                           const std::function<void(const std::vector<double> &motion)> &undetermined);
+} // namespace Signorini
+
+#endif

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_application_journal_h
+#define signorini_application_journal_h
+
+#include <signorini/output/phase_times.h>
+#include <signorini/output/progress.h>
+
+#include <iostream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace Signorini
+{
+  /// What a run tells: lines and progress on the terminal, notes that are kept for the results, and times.
+  class Journal
+  {
+  public:
+    /// Says nothing, but keeps notes and times.
+    Journal()
+      : Journal(false, 0)
+    {
+    }
+
+    /// @param is_root whether this rank may print
+    /// @param verbosity 0: nothing, 1: a line per cycle, 2: also a line per iteration
+    Journal(const bool is_root, const unsigned int verbosity)
+      : prints(is_root && verbosity > 0)
+      , prints_iterations(verbosity > 1)
+      , progress(std::cout, Progress::wanted(is_root, verbosity))
+    {
+    }
+
+    /// A remark for the results; the same one is kept once.
+    void note(const std::string &text);
+
+    const std::vector<std::string> &notes() const
+    {
+      return remarks;
+    }
+
+    void print(const std::string &line)
+    {
+      if (!prints)
+        return;
+      progress.clear();
+      std::cout << line << std::endl;
+    }
+
+    bool wants_iterations() const
+    {
+      return prints_iterations;
+    }
+
+    /// What is going on; with a share of what is done.
+    void show(const std::string &phase)
+    {
+      progress.show(phase);
+    }
+
+    void show(const std::string &phase, const double fraction)
+    {
+      progress.show(phase, fraction);
+    }
+
+    void clear()
+    {
+      progress.clear();
+    }
+
+    /// Books the time until the end of the scope.
+    PhaseTimes::Scope measure(const Phase phase)
+    {
+      return times.measure(phase);
+    }
+
+    /// The times since the last call.
+    PhaseTimes take_times()
+    {
+      return std::exchange(times, PhaseTimes());
+    }
+
+  private:
+    const bool               prints, prints_iterations;
+    Progress                 progress;
+    std::vector<std::string> remarks;
+    PhaseTimes               times;
+  };
+} // namespace Signorini
+
+#endif

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_application_nested_iteration_h
+#define signorini_application_nested_iteration_h
+
+#include <signorini/application/contact_evaluation.h>
+#include <signorini/mesh/refinement.h>
+
+#include <memory>
+#include <vector>
+
+namespace Signorini
+{
+  /// How the meshes come about, how each of them is solved, and what is asked of the solutions.
+  struct NestedParameters
+  {
+    RefinementParameters refinement;
+    /// Sweeps are measured on the last mesh only.
+    SolveParameters    solve;
+    std::vector<Probe> probes;
+    /// Per body a known displacement to compare with; may be empty.
+    std::vector<VectorField> exact_displacements;
+  };
+
+  /// The last mesh with its solution, and the results of all.
+  struct NestedSolution
+  {
+    std::unique_ptr<const Discretization> discretization;
+    ContactSolution                       solution;
+    Results                               results;
+  };
+
+  /// Collective. Solves on one mesh after the other; each begins with the solution of the one before. The
+  /// model is left with the last mesh.
+  NestedSolution run_nested_iteration(ContactModel &model, const NestedParameters &parameters,
+                                      Journal &journal);
+
+  /// Collective. Builds the meshes of all cycles that need no solutions and the contact mapping of the last,
+  /// and solves nothing.
+  NestedSolution build_meshes(ContactModel &model, const NestedParameters &parameters, Journal &journal);
+} // namespace Signorini
+
+#endif

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/algebra/input_error.h>
+#include <signorini/application/constrained_space.h>
+
+namespace Signorini
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// For each part of the bodies a number that all parts have that are tied to it.
+    std::vector<unsigned int> tied_groups(const ContactModel &model)
+    {
+      std::vector<unsigned int> group(model.bodies().n_parts());
+      for (unsigned int part = 0; part < group.size(); ++part)
+        group[part] = part;
+      for (const PairModel &pair : model.pairs())
+        if (pair.is_tied())
+          {
+            const unsigned int to = group[*model.parts_of(pair.sides[0]).begin()];
+            for (const PairModel::Side &side : pair.sides)
+              for (const unsigned int part : model.parts_of(side))
+                {
+                  const unsigned int from = group[part];
+                  std::replace(group.begin(), group.end(), from, to);
+                }
+          }
+      return group;
+    }
+  } // namespace
+
+
+
+  FreeParts find_free_parts(const ContactModel &model, const NodalSpace &space,
+                            const DirichletData &dirichlet)
+  {
+    const std::vector<FreeMotion>   motions = free_motions(model.bodies(), space, dirichlet);
+    const std::vector<unsigned int> group   = tied_groups(model);
+    std::set<unsigned int>          moving, held;
+    for (const FreeMotion &motion : motions)
+      moving.insert(motion.part);
+    for (unsigned int part = 0; part < group.size(); ++part)
+      if (moving.count(part) == 0)
+        held.insert(group[part]);
+    FreeParts result;
+    for (const FreeMotion &motion : motions)
+      if (std::count(group.begin(), group.end(), group[motion.part]) == 1)
+        result.motions.push_back(motion);
+      else if (held.count(group[motion.part]) > 0)
+        result.has_tied_part = true;
+      else
+        throw InputError(
+            "Body " + model.bodies().body_name(motion.body) +
+            "/Dirichlet: the conditions do not exclude rigid motions, and neither do those of any body that "
+            "it is tied to. One body of a tied group must be held by conditions of its own.");
+    return result;
+  }
+
+
+
+  ConstrainedSpace::ConstrainedSpace(const ContactModel &model, const bool with_inner_faces)
+    : space(std::make_shared<const NodalSpace>(model.communicator(), model.bodies().mesh(), with_inner_faces))
+    , partition(space->owned(), space->relevant(), model.communicator())
+    , dirichlet(evaluate_dirichlet(*space, model.loads(), true))
+    , free_parts(find_free_parts(model, *space, dirichlet))
+  {
+  }
+
+
+
+  namespace
+  {
+    /// The owned values of a field, and those of the nodes that rows of interpolation need.
+    NodePartition replicate_sources(Vector &values, const Vector &field, const NodalSpace &space,
+                                    const NodeRows &rows)
+    {
+      std::vector<NodeIndex> columns;
+      for (const NodeIndex column : rows.columns)
+        if (!space.owned().is_element(column))
+          columns.push_back(column);
+      std::sort(columns.begin(), columns.end());
+      columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
+      IndexSet needed = space.owned();
+      needed.add_indices(columns.begin(), columns.end());
+      NodePartition sources(space.owned(), needed, space.communicator());
+      sources.reinit(values);
+      for (unsigned int i = 0; i < dim * sources.n_owned(); ++i)
+        values.local_element(i) = field.local_element(i);
+      values.update_ghost_values();
+      return sources;
+    }
+  } // namespace
+
+
+
+  Vector ConstrainedSpace::interpolate(const Vector &displacement, const ConstrainedSpace &coarser,
+                                       const NodeRows &rows) const
+  {
+    Vector              values, result;
+    const NodePartition sources = replicate_sources(values, displacement, *coarser.space, rows);
+    partition.reinit(result);
+    const auto add = [&](const NodeIndex to, const double weight, const Vector &from, const unsigned int i) {
+      for (unsigned int c = 0; c < dim; ++c)
+        result.local_element(dim * to + c) += weight * from.local_element(dim * i + c);
+    };
+    for (unsigned int i = 0; i < partition.n_owned(); ++i)
+      for (std::size_t k = rows.start[i]; k < rows.start[i + 1]; ++k)
+        add(i, rows.weights[k], values, sources.to_local(rows.columns[k]));
+    result.update_ghost_values();
+    for (const auto &line : space->hanging_nodes().get_lines())
+      if (partition.owns(line.index))
+        for (const auto &[parent, weight] : line.entries)
+          add(partition.to_local(line.index), weight, result, partition.to_local(parent));
+    result.update_ghost_values();
+    return result;
+  }
+
+
+
+  Vector prescribed_displacement(const NodalSpace &space, const NodePartition &partition,
+                                 const DirichletData &dirichlet)
+  {
+    Vector result;
+    partition.reinit(result);
+    for (unsigned int i = 0; i < partition.n_owned(); ++i)
+      for (unsigned int c = 0; c < dim; ++c)
+        result.local_element(dim * i + c) =
+            dirichlet.value[space.relevant().index_within_set(partition.to_global(i))][c];
+    return result;
+  }
+} // namespace Signorini

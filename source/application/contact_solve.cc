@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/algebra/input_error.h>
+#include <signorini/application/contact_solve.h>
+#include <signorini/application/free_bodies.h>
+#include <signorini/application/journal.h>
+#include <signorini/application/ties.h>
+
+#include <iomanip>
+#include <numeric>
+#include <sstream>
+
+namespace Signorini
+{
+  using namespace dealii;
+
+  ContactStress no_stress(const Discretization &d)
+  {
+    const std::size_t n = d.coupling.n_rows();
+    return {std::vector<Vector3>(n), std::vector<double>(n, 0.), d.gaps, std::vector<unsigned char>(n, 0)};
+  }
+
+
+
+  namespace
+  {
+    /// Of the contact nodes that a rank owns.
+    /// @param bounds of BasisTransformation::reduce_gaps()
+    HalfSpaces make_half_spaces(const Discretization &d, const NodePartition &unknowns,
+                                const std::vector<double> &bounds)
+    {
+      HalfSpaces result;
+      for (std::size_t p = 0; p < d.coupling.n_rows(); ++p)
+        if (!d.tied[p] && unknowns.owns(d.coupling.rows[p]))
+          {
+            result.nodes.push_back(unknowns.to_local(d.coupling.rows[p]));
+            result.normals.push_back(d.projections[p].direction());
+            result.bounds.push_back(bounds[p]);
+            result.shares.push_back(d.projections[p].share());
+          }
+      return result;
+    }
+
+    bool has_stiff_nonmortar(const Discretization &d)
+    {
+      return std::any_of(d.pairs.begin(), d.pairs.end(), [](const ContactPair &pair) {
+        return !pair.obstacle && pair.nonmortar.material.young > pair.mortar.material.young;
+      });
+    }
+
+    /// @param start null, or what the active set is guessed from
+    std::unique_ptr<MultigridHierarchy> make_hierarchy(LinearSystem &&system, const LevelSpaces &levels,
+                                                       const ContactModel &model, const Discretization &d,
+                                                       const SolverParameters &parameters,
+                                                       HierarchyOptions        options)
+    {
+      if (!needs_levels(parameters.method))
+        return std::make_unique<MultigridHierarchy>(std::move(system.matrix), std::move(system.fixed));
+      options.coarse_obstacles    = parameters.method == SolverMethod::monotone_multigrid;
+      options.level_zero          = parameters.level_zero;
+      options.level_zero_steps    = parameters.level_zero_steps;
+      options.free_motions        = d.free_motions();
+      options.bodies              = &model.bodies();
+      options.tied                = d.tied;
+      options.has_stiff_nonmortar = has_stiff_nonmortar(d);
+      // Corrections of a slow interface, for a stiff nonmortar side, are linear ones on the coarser levels,
+      // which are no obstacle problems then; and what is measured for them must not depend on the start. Free
+      // bodies are not where the start is.
+      if ((options.start == nullptr && parameters.method != SolverMethod::accelerated) ||
+          options.has_stiff_nonmortar || !options.free_motions.empty())
+        {
+          options.problem = nullptr;
+          options.start   = nullptr;
+        }
+      return std::make_unique<MultigridHierarchy>(
+          build_hierarchy(std::move(system), levels, d.coupling, d.projections, options));
+    }
+
+    ObstacleSolver::Monitor make_monitor(const double tolerance, Journal &journal)
+    {
+      return [tolerance, &journal](const unsigned int iteration, const double correction,
+                                   const unsigned int active) {
+        if (journal.wants_iterations())
+          {
+            std::ostringstream line;
+            line << "    iteration " << std::setw(3) << iteration << "   correction " << std::scientific
+                 << std::setprecision(3) << correction << "   active " << active;
+            journal.print(line.str());
+          }
+        journal.show("solving", correction > 0. ? std::log(correction) / std::log(tolerance) : 1.);
+      };
+    }
+
+    ContactStress evaluate_stress(const Discretization &d, const NodeBlockMatrix &matrix, const Vector &v,
+                                  const ObstacleProblem &problem, const std::vector<unsigned char> &active)
+    {
+      Vector residual;
+      residual.reinit(v);
+      matrix.symmetric_residual(residual, v, problem.rhs);
+      const NodePartition      &partition = matrix.partition();
+      const auto                forces    = replicate_values(partition, residual, d.coupling.rows);
+      const auto                values    = replicate_values(partition, v, d.coupling.rows);
+      const std::vector<double> bounds    = d.transformation->reduce_gaps(d.gaps);
+      // The active set is what the projection of the solver wrote.
+      Vector flags;
+      flags.reinit(v);
+      for (std::size_t p = 0; p < problem.half_spaces.size(); ++p)
+        flags.local_element(dim * problem.half_spaces.nodes[p]) = active[p];
+      const auto    active_rows = replicate_values(partition, flags, d.coupling.rows);
+      ContactStress stress      = no_stress(d);
+      for (std::size_t p = 0; p < d.coupling.n_rows(); ++p)
+        {
+          const RowProjection &projection = d.projections[p];
+          stress.pressure[p] =
+              (forces[p] * projection.direction()) / (d.coupling.weight[p] * projection.share());
+          stress.traction[p] = stress.pressure[p] * projection.normal();
+          stress.opening[p]  = projection.share() * (bounds[p] - projection.direction() * values[p]);
+          stress.active[p]   = active_rows[p][0] != 0. && stress.pressure[p] > 0.;
+        }
+      return stress;
+    }
+
+    /// The obstacle problem of a mesh with its hierarchy, its start and what is known of it.
+    struct AlgebraicProblem
+    {
+      ObstacleProblem                     problem;
+      std::shared_ptr<const LevelSpaces>  levels;
+      std::unique_ptr<MultigridHierarchy> hierarchy;
+      Vector                              v;
+    };
+
+    AlgebraicProblem build_problem(const ContactModel &model, const Discretization &d, CoarserSpaces &coarser,
+                                   const NestedStart *const start, const SolverParameters &parameters,
+                                   Journal &journal)
+    {
+      AlgebraicProblem  result;
+      ObstacleProblem  &problem  = result.problem;
+      PhaseTimes::Scope assembly = journal.measure(Phase::assembly);
+      journal.show("assembling");
+      LinearSystem system = assemble_elasticity(model.bodies(), d.nodal(), model.loads(), d.dirichlet(),
+                                                d.coupling, d.projections);
+      fix_tied_unknowns(system, d);
+      problem.rhs = std::move(system.rhs);
+      assembly.stop();
+
+      PhaseTimes::Scope building_levels = journal.measure(Phase::levels);
+      journal.show("building levels");
+      result.levels = std::make_shared<const LevelSpaces>(
+          d.nodal(), coarser.update(model.bodies(), d.constrained->space), model.bodies(), model.loads());
+      building_levels.stop();
+
+      const auto          time      = journal.measure(Phase::hierarchy);
+      const NodePartition partition = system.matrix.partition();
+      problem.half_spaces           = make_half_spaces(d, partition, d.transformation->reduce_gaps(d.gaps));
+      problem.semidefinite          = !d.free_motions().empty();
+      partition.reinit(result.v);
+      if (start != nullptr)
+        d.transformation->from_displacement(result.v, start->displacement);
+      HierarchyOptions options;
+      options.problem  = &problem;
+      options.start    = start != nullptr ? &result.v : nullptr;
+      result.hierarchy = make_hierarchy(std::move(system), *result.levels, model, d, parameters, options);
+      return result;
+    }
+
+    /// Solves; returns the active half-spaces.
+    std::vector<unsigned char> solve(ConvergenceReport &report, AlgebraicProblem &algebraic,
+                                     const ContactModel &model, const Discretization &d,
+                                     const SolverParameters &parameters, Journal &journal)
+    {
+      ObstacleProblem     &problem   = algebraic.problem;
+      MultigridHierarchy  &hierarchy = *algebraic.hierarchy;
+      const NodePartition &partition = hierarchy.finest().matrix.partition();
+      if (parameters.method == SolverMethod::active_set_amg)
+        problem.near_kernel =
+            rigid_motions(d.nodal(), partition, hierarchy.finest().fixed, d.coupling, d.projections);
+      const auto solver = make_solver(hierarchy, parameters);
+      report            = solver->solve(algebraic.v, problem, make_monitor(parameters.tolerance, journal));
+      if (!d.free_motions().empty())
+        remove_free_motions(
+            algebraic.v, motions_of_unknowns(model, *d.constrained, partition, *d.transformation),
+            problem.half_spaces, solver->active(), [&](const std::vector<double> &motion) {
+              journal.note("nothing determines " + describe_motion(d.free_motions(), motion, model.bodies()) +
+                           ": the mean of the displacement in it is set to zero.");
+            });
+      return solver->active();
+    }
+
+  } // namespace
+
+
+
+  void check_method(const PairDefinition &pair, const SolverMethod method)
+  {
+    if (pair.contact != ContactKind::tied && is_linear(method))
+      throw InputError("Pair " + pair.name +
+                       "/Contact: the solvers multigrid and multigrid cg (Solver/Method) are for linear "
+                       "problems. Choose accelerated, or tie the pair.");
+  }
+
+
+
+  ContactSolution solve_contact(const ContactModel &model, const Discretization &d, CoarserSpaces &coarser,
+                                const NestedStart *const start, const SolveParameters &parameters,
+                                Journal &journal)
+  {
+    for (const PairModel &pair : model.pairs())
+      check_method(pair.definition, parameters.solver.method);
+    check_free_parts(model, d.constrained->free_parts, parameters.solver.method, journal);
+    const bool       has_tied_part = d.constrained->free_parts.has_tied_part;
+    const bool       compares      = parameters.compare_linear && !has_tied_part && !d.pairs.empty();
+    ContactSolution  result;
+    AlgebraicProblem algebraic = build_problem(model, d, coarser, start, parameters.solver, journal);
+    result.n_levels            = algebraic.levels->n_levels();
+    if (!compares)
+      algebraic.levels.reset();
+    const NodeBlockMatrix &matrix = algebraic.hierarchy->finest().matrix;
+
+    PhaseTimes::Scope solving = journal.measure(Phase::solve);
+    if (start == nullptr && !d.free_motions().empty())
+      settle_free_parts(algebraic.v, model, d, matrix.partition(), algebraic.problem);
+    SolverParameters solver_parameters = parameters.solver;
+    // What was slow on one mesh is slow on the next.
+    solver_parameters.starts_with_interface_sweeps = start != nullptr && start->needed_interface_sweeps;
+    const auto active = solve(result.report, algebraic, model, d, solver_parameters, journal);
+    solving.stop();
+
+    result.stress = evaluate_stress(d, matrix, algebraic.v, algebraic.problem, active);
+    result.n_active =
+        std::accumulate(result.stress.active.begin(), result.stress.active.end(), std::size_t(0));
+    result.displacement = d.transformation->to_displacement(algebraic.v, matrix.partition());
+    set_tie_stress(result.stress, model, d, result.displacement);
+    if (parameters.measure_sweeps)
+      result.sweeps = measure_sweeps(*algebraic.hierarchy, algebraic.problem.rhs);
+    if (parameters.compare_linear && has_tied_part)
+      journal.note("no comparison with the linear problem: a body is held by its ties alone.");
+    if (compares)
+      {
+        // Make room for the linear hierarchy.
+        algebraic.hierarchy.reset();
+        journal.show("linear comparison");
+        result.linear = compare_linear(model, d,
+                                       {*algebraic.levels, result.displacement, result.stress,
+                                        start != nullptr ? &start->displacement : nullptr},
+                                       parameters.solver, journal);
+      }
+    return result;
+  }
+} // namespace Signorini

@@ -1,0 +1,341 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/algebra/input_error.h>
+#include <signorini/application/contact_checks.h>
+#include <signorini/application/discretization.h>
+#include <signorini/application/journal.h>
+#include <signorini/application/ties.h>
+#include <signorini/mesh/surface_extraction.h>
+#include <signorini/surface/mapping_quality.h>
+
+#include <deal.II/base/utilities.h>
+
+namespace Signorini
+{
+  using namespace dealii;
+
+  Discretization::Discretization(std::shared_ptr<const ConstrainedSpace> space,
+                                 std::vector<ContactPair>                some_pairs,
+                                 std::vector<PairCoupling> some_couplings, std::vector<bool> turned)
+    : constrained(std::move(space))
+    , pairs(std::move(some_pairs))
+    , couplings(std::move(some_couplings))
+    , turned(std::move(turned))
+    , rows_of_pair(pairs.size())
+  {
+    std::vector<std::string> names;
+    for (const ContactPair &pair : pairs)
+      names.push_back(pair.name);
+    for (const auto &[p, row] : join_couplings(coupling, couplings, names))
+      {
+        const PairCoupling &c = couplings[p];
+        AssertDimension(rows_of_pair[p].size(), row);
+        rows_of_pair[p].push_back(projections.size());
+        tied.push_back(pairs[p].is_tied);
+        projections.push_back(tied.back() ? RowProjection::tied(c.fixed[row], c.normals[row])
+                                          : RowProjection(c.fixed[row], c.normals[row]));
+        gaps.push_back(c.gaps[row]);
+      }
+    if (has_ties())
+      lifted = std::make_unique<const DirichletData>(lift_ties(*constrained, coupling, projections, tied));
+    transformation =
+        std::make_unique<const BasisTransformation>(nodal(), partition(), dirichlet(), coupling, projections);
+  }
+
+
+
+  namespace
+  {
+    double average_face_area(const ContactSurface &surface)
+    {
+      double area = 0.;
+      for (unsigned int t = 0; t < surface.mesh.triangles.size(); ++t)
+        area += triangle_area(surface.mesh, t);
+      return surface.faces.empty() ? 0. : area / static_cast<double>(surface.faces.size());
+    }
+
+    /// Exact where there is only one material.
+    IsotropicMaterial mean_material(const ContactSurface &surface, const Bodies &bodies)
+    {
+      std::map<std::pair<double, double>, double> areas;
+      double                                      total = 0.;
+      for (unsigned int t = 0; t < surface.mesh.triangles.size(); ++t)
+        {
+          const Material &m    = bodies.material(surface.faces[surface.triangle_face[t]].material);
+          const double    area = triangle_area(surface.mesh, t);
+          areas[{m.young, m.poisson}] += area;
+          total += area;
+        }
+      if (areas.size() == 1)
+        return {areas.begin()->first.first, areas.begin()->first.second};
+      IsotropicMaterial mean{0., 0.};
+      for (const auto &[material, area] : areas)
+        {
+          mean.young += area / total * material.first;
+          mean.poisson += area / total * material.second;
+        }
+      return mean;
+    }
+
+    ContactSide extract_side(const PairModel &pair, const PairModel::Side &side, const ContactModel &model,
+                             const ConstrainedSpace &constrained)
+    {
+      const NodalSpace &space = constrained.nodal();
+      ContactSide       result;
+      result.body = side.body;
+      result.name = model.bodies().body_name(side.body) + ": " + side.boundary;
+      result.ids  = side.ids;
+      std::function<bool(const Point<3> &)> region;
+      if (side.region)
+        region = [&side](const Point<3> &p) { return side.region(p) > 0.; };
+      result.surface = extract_contact_surface(
+          space, side.ids,
+          [&](const NodeIndex node) {
+            return constrained.dirichlet.mask[space.relevant().index_within_set(node)];
+          },
+          region, side.shapes);
+      if (result.surface.faces.empty())
+        throw InputError("Pair " + pair.definition.name + ": the boundary \"" + side.boundary +
+                         "\" of body \"" + model.bodies().body_name(side.body) +
+                         "\" has no faces in its region.");
+      result.material = mean_material(result.surface, model.bodies());
+      return result;
+    }
+
+    unsigned int choose_nonmortar(const PairDefinition &pair, const std::vector<ContactSide> &sides,
+                                  const bool is_turned, const Bodies &bodies, Journal &journal)
+    {
+      const double young[2] = {sides[0].material.young, sides[1].material.young};
+      unsigned int softer   = 0;
+      if (std::abs(young[0] - young[1]) > 1e-6 * std::max(young[0], young[1]))
+        softer = young[0] < young[1] ? 0 : 1;
+      else
+        softer =
+            average_face_area(sides[0].surface) <= average_face_area(sides[1].surface) * (1. + 1e-9) ? 0 : 1;
+      if (is_turned)
+        return 1 - softer;
+      if (pair.nonmortar == NonmortarChoice::automatic)
+        {
+          journal.note("pair " + pair.name + ": \"" + bodies.body_name(sides[softer].body) +
+                       "\" is the nonmortar side (the softer body, then the finer mesh).");
+          return softer;
+        }
+      const unsigned int chosen = pair.nonmortar == NonmortarChoice::first ? 0 : 1;
+      if (young[chosen] > 10. * young[1 - chosen])
+        journal.note(
+            "warning: pair " + pair.name +
+            ": the nonmortar side is the stiffer body; the contact nodes need a direct solver this way.");
+      return chosen;
+    }
+
+    void map_pair(ContactPair &pair, const MPI_Comm comm, const unsigned int cycle, Journal &journal)
+    {
+      const unsigned int    rank      = Utilities::MPI::this_mpi_process(comm);
+      const ContactSurface &nonmortar = pair.nonmortar.surface;
+      {
+        PhaseTimes::Scope time = journal.measure(Phase::mapping);
+        pair.mapping           = std::make_unique<const ContactMapping>(
+            nonmortar.mesh, pair.mortar.surface.mesh,
+            [&](const unsigned int t) { return nonmortar.faces[nonmortar.triangle_face[t]].owner == rank; },
+            comm);
+        if (Utilities::MPI::sum(pair.mapping->report().n_cells, comm) == 0)
+          throw InputError("Pair " + pair.name + ": the surfaces \"" + pair.nonmortar.name + "\" and \"" +
+                           pair.mortar.name +
+                           "\" do not face each other anywhere: there is not a single overlay cell.");
+        pair.mapping_time = time.stop();
+      }
+      if (const std::string errors = describe_errors(sum_reports(pair.mapping->report(), comm));
+          !errors.empty())
+        journal.note("warning: pair " + pair.name + ", cycle " + std::to_string(cycle) +
+                     ": the contact mapping has errors (" + errors +
+                     "): pressures and forces near those places are wrong. Look at the surfaces with "
+                     "signorini-map; a finer or smoother mesh on the bent or folded parts, or the other side "
+                     "as nonmortar side, helps.");
+      const auto time = journal.measure(Phase::mortar);
+      pair.moments    = compute_face_moments(nonmortar, pair.mortar.surface, pair.mapping->overlay(),
+                                             pair.prescribed_gap, comm);
+    }
+
+    void meet_obstacle(ContactPair &pair, const MPI_Comm comm, Journal &journal)
+    {
+      const auto time = journal.measure(Phase::mortar);
+      pair.moments    = compute_rigid_moments(pair.nonmortar.surface, *pair.obstacle, comm);
+      if (std::none_of(pair.moments.begin(), pair.moments.end(),
+                       [](const FaceMoments &m) { return m.covered > 0.; }))
+        throw InputError("Pair " + pair.name + ": the surface \"" + pair.nonmortar.name +
+                         "\" does not face the obstacle \"" + pair.mortar.name +
+                         "\" anywhere: no outward normal meets it from outside.");
+    }
+
+    /// Turns pair models into pairs on a mesh.
+    class PairMaker
+    {
+    public:
+      PairMaker(const ContactModel &model, const ConstrainedSpace &constrained, const unsigned int cycle,
+                Journal &journal)
+        : model(model)
+        , constrained(constrained)
+        , cycle(cycle)
+        , journal(journal)
+      {
+      }
+
+      ContactPair operator()(const PairModel &definition, const bool is_turned) const
+      {
+        ContactPair pair;
+        pair.name           = definition.definition.name;
+        pair.is_tied        = definition.is_tied();
+        pair.prescribed_gap = definition.definition.prescribed_gap;
+        pair.obstacle       = definition.definition.obstacle;
+        {
+          const auto               time = journal.measure(Phase::mesh);
+          std::vector<ContactSide> sides;
+          for (const PairModel::Side &side : definition.sides)
+            sides.push_back(extract_side(definition, side, model, constrained));
+          const unsigned int non = pair.obstacle ? 0
+                                                 : choose_nonmortar(definition.definition, sides, is_turned,
+                                                                    model.bodies(), journal);
+          pair.nonmortar         = std::move(sides[non]);
+          if (pair.obstacle)
+            pair.mortar.name = pair.obstacle->description();
+          else
+            pair.mortar = std::move(sides[1 - non]);
+        }
+        if (pair.obstacle)
+          meet_obstacle(pair, model.communicator(), journal);
+        else
+          map_pair(pair, model.communicator(), cycle, journal);
+        return pair;
+      }
+
+    private:
+      const ContactModel     &model;
+      const ConstrainedSpace &constrained;
+      const unsigned int      cycle;
+      Journal                &journal;
+    };
+
+    std::vector<PairCoupling> couple_pairs(const std::vector<ContactPair> &pairs)
+    {
+      std::vector<std::set<NodeIndex>> nonmortar_nodes, mortar_nodes;
+      for (const ContactPair &pair : pairs)
+        {
+          nonmortar_nodes.push_back(touched_nonmortar_nodes(pair.nonmortar.surface, pair.moments));
+          mortar_nodes.push_back(touched_mortar_nodes(pair.mortar.surface, pair.moments));
+        }
+      const auto                excluded = excluded_nodes(nonmortar_nodes, mortar_nodes);
+      std::vector<PairCoupling> couplings;
+      for (unsigned int p = 0; p < pairs.size(); ++p)
+        couplings.push_back(couple(pairs[p].nonmortar.surface, pairs[p].mortar.surface, pairs[p].moments,
+                                   excluded[p], static_cast<bool>(pairs[p].prescribed_gap)));
+      return couplings;
+    }
+
+    /// The pairs whose automatic choice of sides is to be turned round now; none of them was before.
+    std::vector<unsigned int> pairs_to_turn(const ContactModel &model, const std::vector<ContactPair> &pairs,
+                                            const std::vector<PairCoupling> &couplings,
+                                            const std::vector<bool> &turned, Journal &journal)
+    {
+      std::vector<unsigned int> result;
+      for (unsigned int p = 0; p < pairs.size(); ++p)
+        {
+          if (pairs[p].obstacle || turned[p] ||
+              model.pairs()[p].definition.nonmortar != NonmortarChoice::automatic)
+            continue;
+          if (const std::string reason = reason_to_turn(pairs[p], couplings[p]); !reason.empty())
+            {
+              result.push_back(p);
+              journal.note("pair " + pairs[p].name + ": its sides are swapped, because " + reason + ".");
+            }
+        }
+      return result;
+    }
+
+    void use_nodal_gaps(PairCoupling &coupling, const ContactPair &pair)
+    {
+      const double size = surface_size(pair.nonmortar.surface);
+      for (std::size_t row = 0; row < coupling.gaps.size(); ++row)
+        if (pair.prescribed_gap)
+          coupling.gaps[row] = pair.prescribed_gap(coupling.positions[row]);
+        else if (double gap; pair.obstacle->gap(gap, coupling.positions[row], coupling.normals[row], size))
+          coupling.gaps[row] = gap;
+    }
+
+    void note_dropped_nodes(const ContactPair &pair, const PairCoupling &coupling, const unsigned int cycle,
+                            Journal &journal)
+    {
+      std::map<std::string, unsigned int> reasons;
+      for (const DroppedNode &node : coupling.dropped)
+        ++reasons[to_string(node.reason)];
+      for (const auto &[reason, n] : reasons)
+        journal.note("pair " + pair.name + ", cycle " + std::to_string(cycle) + ": " + std::to_string(n) +
+                     " nonmortar nodes without multiplier (" + reason + ").");
+      if (coupling.lost_area > 1e-12 * coupling.area)
+        journal.note("pair " + pair.name + ": an area of " + std::to_string(coupling.lost_area) +
+                     " is covered but carries no multiplier.");
+    }
+
+    void note_overlap(const CoupledPairs &coupled, const unsigned int p, Journal &journal)
+    {
+      const PairDefinition &definition = coupled.model.pairs()[p].definition;
+      const PairCoupling   &c          = coupled.couplings[p];
+      const double          smallest = c.gaps.empty() ? 0. : *std::min_element(c.gaps.begin(), c.gaps.end());
+      double                size     = 0.;
+      for (const Point<3> &x : c.positions)
+        size = std::max(size, x.distance(c.positions[0]));
+      // Faceted curved surfaces overlap by rounding and by their sagitta; report what exceeds rounding.
+      if (!(smallest < -1e-12 * size) || coupled.pairs[p].is_tied)
+        return;
+      refuse_large_overlap(coupled, coupled.pairs[p], -smallest);
+      std::ostringstream text;
+      text << "pair " << definition.name << ": initial penetration of " << -smallest << " (weighted gap)";
+      if (definition.penetration == InitialPenetration::refuse)
+        throw InputError(text.str() + "; \"Initial penetration = refuse\" does not allow it.");
+      journal.note(text.str() + ", resolved as an interference fit.");
+    }
+  } // namespace
+
+
+
+  std::unique_ptr<const Discretization> discretize(const ContactModel                     &model,
+                                                   std::shared_ptr<const ConstrainedSpace> constrained,
+                                                   const std::vector<bool>                &turned_before,
+                                                   const unsigned int cycle, Journal &journal)
+  {
+    std::vector<bool> turned = turned_before;
+    turned.resize(model.pairs().size(), false);
+    const PairMaker          make_pair(model, *constrained, cycle, journal);
+    std::vector<ContactPair> pairs;
+    for (unsigned int p = 0; p < turned.size(); ++p)
+      pairs.push_back(make_pair(model.pairs()[p], turned[p]));
+
+    const auto                time      = journal.measure(Phase::mortar);
+    std::vector<PairCoupling> couplings = couple_pairs(pairs);
+    while (true)
+      {
+        const auto some = pairs_to_turn(model, pairs, couplings, turned, journal);
+        if (some.empty())
+          break;
+        for (const unsigned int p : some)
+          {
+            turned[p] = true;
+            pairs[p]  = make_pair(model.pairs()[p], true);
+          }
+        couplings = couple_pairs(pairs);
+      }
+    const CoupledPairs coupled{model, *constrained, pairs, couplings};
+    refuse_lost_contact(coupled);
+    refuse_dense_coupling(coupled);
+    for (unsigned int p = 0; p < pairs.size(); ++p)
+      {
+        if (model.pairs()[p].definition.gap == GapKind::nodal)
+          use_nodal_gaps(couplings[p], pairs[p]);
+        note_dropped_nodes(pairs[p], couplings[p], cycle, journal);
+        if (cycle == 0)
+          note_overlap(coupled, p, journal);
+      }
+    return std::make_unique<const Discretization>(constrained, std::move(pairs), std::move(couplings),
+                                                  std::move(turned));
+  }
+} // namespace Signorini

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/application/contact_evaluation.h>
+#include <signorini/application/error_estimate.h>
+#include <signorini/discretization/error_indicator.h>
+#include <signorini/mesh/surface_extraction.h>
+#include <signorini/mortar/contact_indicator.h>
+
+namespace Signorini
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// The contact stress lambda n (force per area) of a pair at all vertices of its nonmortar surface.
+    std::vector<Vector3> stress_at_vertices(const Discretization &d, const ContactStress &all,
+                                            const unsigned int p)
+    {
+      const ContactSurface &surface = d.pairs[p].nonmortar.surface;
+      std::vector<Vector3>  stress(surface.vertex_node.size());
+      std::vector<bool>     known(stress.size(), false);
+      for (std::size_t i = 0; i < d.rows_of_pair[p].size(); ++i)
+        {
+          const unsigned int v = d.couplings[p].vertices[i];
+          stress[v]            = all.traction[d.rows_of_pair[p][i]];
+          known[v]             = true;
+        }
+      // Vertices without a multiplier: the mean of the neighbours that have one.
+      std::vector<Vector3>      sum(stress.size());
+      std::vector<unsigned int> n(stress.size(), 0);
+      for (const ContactSurface::Face &face : surface.faces)
+        for (unsigned int a = 0; a < face.n_corners; ++a)
+          for (unsigned int b = 0; b < face.n_corners; ++b)
+            if (!known[face.corners[a]] && known[face.corners[b]])
+              {
+                sum[face.corners[a]] += stress[face.corners[b]];
+                ++n[face.corners[a]];
+              }
+      for (std::size_t v = 0; v < stress.size(); ++v)
+        if (!known[v] && n[v] > 0)
+          stress[v] = sum[v] / static_cast<double>(n[v]);
+      for (std::size_t v = 0; v < stress.size(); ++v)
+        if (!surface.hanging[v].empty())
+          {
+            stress[v] = Vector3();
+            for (const auto &[parent, weight] : surface.hanging[v])
+              stress[v] += weight * stress[parent];
+          }
+      return stress;
+    }
+
+    /// How far a pair is from its conditions, face by face of the nonmortar surface.
+    std::vector<double> violation_of(const Discretization &d, const ContactPair &pair,
+                                     const std::vector<Vector3> &stress, const Vector &displacement)
+    {
+      const ContactSurface &non = pair.nonmortar.surface, &mor = pair.mortar.surface;
+      const double          mu  = pair.nonmortar.material.mu();
+      const auto            own = vertex_values(non, d.partition(), displacement);
+      if (pair.obstacle)
+        return contact_violation(non, rigid_images(non, *pair.obstacle), stress, own, mu,
+                                 Utilities::MPI::this_mpi_process(d.nodal().communicator()));
+      const auto           other   = vertex_values(mor, d.partition(), displacement);
+      const auto           overlay = pair.mapping->overlay();
+      const FacingSurfaces facing{non, mor, overlay};
+      return pair.is_tied ? tie_violation(facing, own, other, mu)
+                          : contact_violation(facing, stress, own, other, pair.prescribed_gap, mu);
+    }
+  } // namespace
+
+
+
+  std::vector<double> estimate_error(const ContactModel &model, const Discretization &d,
+                                     const ContactSolution &solution)
+  {
+    std::map<unsigned int, FaceTraction>         tractions;
+    std::vector<std::pair<unsigned int, double>> violations;
+    for (unsigned int p = 0; p < d.pairs.size(); ++p)
+      {
+        const ContactPair         &pair   = d.pairs[p];
+        const std::vector<Vector3> stress = stress_at_vertices(d, solution.stress, p);
+        const ContactFaces         non(d.nodal(), pair.nonmortar.surface, pair.nonmortar.ids);
+        const auto add = [&](const ContactFaces &faces, const std::vector<FaceTraction> &list) {
+          for (unsigned int f = 0; f < list.size(); ++f)
+            faces.add(tractions, f, list[f]);
+        };
+        add(non, nonmortar_tractions(pair.nonmortar.surface, pair.moments, stress));
+        if (!pair.obstacle)
+          add(ContactFaces(d.nodal(), pair.mortar.surface, pair.mortar.ids),
+              mortar_tractions(pair.nonmortar.surface, pair.mortar.surface, pair.mapping->overlay(), stress,
+                               model.communicator()));
+        const auto violation = violation_of(d, pair, stress, solution.displacement);
+        for (unsigned int f = 0; f < violation.size(); ++f)
+          if (const int cell = non.cell(f); cell >= 0)
+            violations.emplace_back(cell, violation[f]);
+      }
+    std::vector<double> indicator = residual_indicator(model.bodies(), d.nodal(), d.partition(),
+                                                       model.loads(), solution.displacement, tractions);
+    for (const auto &[cell, value] : violations)
+      indicator[cell] += value;
+    return indicator;
+  }
+
+
+
+  double total_indicator(const NodalSpace &space, const std::vector<double> &indicator)
+  {
+    double total = 0.;
+    for (std::size_t c = 0; c < indicator.size(); ++c)
+      if (space.cells()[c].is_owned)
+        total += indicator[c];
+    return std::sqrt(Utilities::MPI::sum(total, space.communicator()));
+  }
+
+
+
+  double expected_dofs(const NodalSpace &space, const std::vector<bool> &marked)
+  {
+    // Each marked cell becomes eight; the closure of tetrahedral meshes refines about as many again.
+    double weight = 0.;
+    for (std::size_t c = 0; c < marked.size(); ++c)
+      if (marked[c])
+        weight += space.cells()[c].n_vertices == CellShape::tetrahedron ? 14. : 7.;
+    return dim * static_cast<double>(space.n_conforming_nodes()) *
+           (1. +
+            Utilities::MPI::sum(weight, space.communicator()) / static_cast<double>(space.n_global_cells()));
+  }
+} // namespace Signorini

@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/application/certificate.h>
+#include <signorini/application/error_estimate.h>
+#include <signorini/application/free_bodies.h>
+#include <signorini/application/journal.h>
+#include <signorini/application/nested_iteration.h>
+#include <signorini/discretization/elasticity.h>
+#include <signorini/discretization/error_indicator.h>
+#include <signorini/discretization/exact_error.h>
+#include <signorini/discretization/level_hierarchy.h>
+
+#include <sstream>
+
+namespace Signorini
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// What an adaptive cycle refines, after the cycle `last`; nothing where that makes no sense, with a
+    /// note.
+    std::vector<bool> mark_adaptively(const NodalSpace &space, const std::vector<double> &indicator,
+                                      const CycleResult &last, const unsigned int cycle,
+                                      const RefinementParameters &p, Journal &journal)
+    {
+      const std::vector<bool> none(space.cells().size(), false);
+      // The indicator of an exact solution is rounding: 1e-8 of what a difference of squares consists of.
+      if (last.indicator * last.indicator <= 1e-14 * std::abs(last.nonlinear.energy))
+        {
+          journal.note("cycle " + std::to_string(last.cycle) +
+                       ": the error indicator is at the level of rounding, there is nothing to refine.");
+          return none;
+        }
+      const std::vector<bool> marked = p.marking == RefinementParameters::Marking::cells
+                                           ? mark_share_of_cells(space, indicator, p.marking_fraction)
+                                           : mark_share_of_error(space, indicator, p.marking_fraction);
+      if (p.max_dofs > 0.)
+        if (const double expected = expected_dofs(space, marked); expected > p.max_dofs)
+          {
+            journal.note("cycle " + std::to_string(cycle) + " would have about " +
+                         std::to_string(static_cast<std::size_t>(expected)) +
+                         " dofs, more than \"Max dofs\": no further adaptive refinement.");
+            return none;
+          }
+      return marked;
+    }
+
+    void compare_with_exact(CycleResult &result, const ContactModel &model, const Discretization &d,
+                            const Vector &displacement, const std::vector<VectorField> &exact)
+    {
+      AssertThrow(exact.size() <= model.bodies().n_bodies(), ExcMessage("There is no such body."));
+      for (unsigned int b = 0; b < exact.size(); ++b)
+        if (exact[b])
+          result.exact_errors[model.bodies().body_name(b)] =
+              compute_exact_error(model.bodies(), b, d.nodal(), d.partition(), displacement, exact[b]);
+    }
+
+    /// What a cycle says on the terminal.
+    std::string describe(const CycleResult &result, const bool has_indicator)
+    {
+      std::ostringstream line;
+      line << "  " << result.nonlinear.iterations << " iterations";
+      if (result.has_linear)
+        line << " (linear multigrid " << result.linear.iterations << ", with conjugate gradients "
+             << result.linear_cg.iterations << ", difference " << result.difference << ")";
+      line << ", " << result.active_nodes << " of " << result.contact_nodes << " contact nodes active";
+      if (has_indicator)
+        line << ", error indicator " << result.indicator;
+      return line.str();
+    }
+
+    void store(CycleResult &result, const Discretization &d, const ContactSolution &solution)
+    {
+      result.levels        = solution.n_levels;
+      result.nonlinear     = solution.report;
+      result.contact_nodes = d.coupling.n_rows();
+      result.active_nodes  = solution.n_active;
+      result.sweeps        = solution.sweeps;
+      result.has_linear    = solution.linear.has_value();
+      if (!solution.linear)
+        return;
+      result.linear     = solution.linear->multigrid;
+      result.linear_cg  = solution.linear->multigrid_cg;
+      result.difference = solution.linear->difference;
+    }
+
+    /// The state of the nested iteration between two meshes.
+    class NestedIteration
+    {
+    public:
+      NestedIteration(ContactModel &model, const NestedParameters &parameters, Journal &journal)
+        : model(model)
+        , parameters(parameters)
+        , journal(journal)
+        , refinement(parameters.refinement)
+        , is_adaptive(parameters.refinement.adaptive_cycles > 0)
+      {
+      }
+
+      NestedSolution run()
+      {
+        for (unsigned int cycle = 0; cycle <= refinement.n_cycles(); ++cycle)
+          if (next_mesh(cycle))
+            solve_mesh(cycle);
+        compare_cycles();
+        journal.show("evaluating");
+        evaluate();
+        journal.clear();
+        return std::move(last);
+      }
+
+    private:
+      bool next_mesh(const unsigned int cycle)
+      {
+        const auto time = journal.measure(Phase::mesh);
+        if (cycle == 0)
+          {
+            space = std::make_shared<const ConstrainedSpace>(model, is_adaptive);
+            check_free_parts(model, space->free_parts, parameters.solve.solver.method, journal);
+            return true;
+          }
+        journal.show("refining");
+        const NodalSpace &old = space->nodal();
+        if (!model.refine(old, refinement.is_adaptive(cycle)
+                                   ? mark_adaptively(old, indicator, last.results.cycles.back(), cycle,
+                                                     parameters.refinement, journal)
+                                   : refinement.mark(old, cycle)))
+          return false;
+        model.note_movement(journal);
+        carry_over(std::make_shared<const ConstrainedSpace>(model, is_adaptive));
+        return true;
+      }
+
+      /// Solutions of the old mesh become those of the new one.
+      void carry_over(std::shared_ptr<const ConstrainedSpace> next)
+      {
+        const NodeRows rows = interpolation_rows(next->nodal(), space->nodal(), model.bodies().tetrahedra());
+        start               = {next->interpolate(last.solution.displacement, *space, rows),
+                               last.solution.report.needed_interface_sweeps};
+        for (Vector &displacement : earlier_displacements)
+          displacement = next->interpolate(displacement, *space, rows);
+        turned = last.discretization->turned;
+        last.discretization.reset();
+        space = std::move(next);
+      }
+
+      void solve_mesh(const unsigned int cycle)
+      {
+        CycleResult result;
+        result.cycle    = cycle;
+        result.movement = model.bodies().movement();
+        result.cells    = space->nodal().n_global_cells();
+        result.dofs     = dim * space->nodal().n_conforming_nodes();
+        journal.print("cycle " + std::to_string(cycle) + ": " + std::to_string(result.cells) + " cells, " +
+                      std::to_string(result.dofs) + " dofs");
+        journal.show("contact mapping and mortar integrals");
+        last.discretization     = discretize(model, space, turned, cycle, journal);
+        SolveParameters how_to  = parameters.solve;
+        how_to.measure_sweeps   = how_to.measure_sweeps && cycle == refinement.n_cycles();
+        const NestedStart *from = cycle > 0 ? &start : nullptr;
+        last.solution           = solve_contact(model, *last.discretization, coarser, from, how_to, journal);
+        const Discretization    &d      = *last.discretization;
+        const ConvergenceReport &report = last.solution.report;
+        last.results.converged          = last.results.converged && report.converged;
+        if (!report.converged || report.stagnated)
+          journal.note("cycle " + std::to_string(cycle) + ": " + report.note + ".");
+        store(result, d, last.solution);
+        compare_with_exact(result, model, d, last.solution.displacement, parameters.exact_displacements);
+        if (is_adaptive)
+          estimate(result);
+        if (parameters.refinement.compare_cycles && cycle < refinement.n_cycles())
+          earlier_displacements.push_back(last.solution.displacement);
+        result.times = journal.take_times();
+        journal.print(describe(result, is_adaptive));
+        last.results.cycles.push_back(result);
+      }
+
+      void estimate(CycleResult &result)
+      {
+        const auto time = journal.measure(Phase::estimate);
+        journal.show("estimating the error");
+        indicator               = estimate_error(model, *last.discretization, last.solution);
+        result.indicator        = total_indicator(space->nodal(), indicator);
+        result.potential_energy = potential_energy(model.bodies(), space->nodal(), space->partition,
+                                                   model.loads(), last.solution.displacement);
+      }
+
+      /// How far the solutions of all cycles are from the last.
+      void compare_cycles()
+      {
+        std::vector<CycleResult> &cycles = last.results.cycles;
+        for (std::size_t k = 0; k < earlier_displacements.size() && k + 1 < cycles.size(); ++k)
+          {
+            Vector &difference = earlier_displacements[k];
+            difference -= last.solution.displacement;
+            difference.update_ghost_values();
+            cycles[k].error_to_last =
+                std::sqrt(2. * std::max(0., strain_energy(model.bodies(), space->nodal(), space->partition,
+                                                          difference)));
+          }
+        earlier_displacements.clear();
+      }
+
+      void evaluate()
+      {
+        const Discretization &d          = *last.discretization;
+        Results              &results    = last.results;
+        ContactEvaluation     evaluation = evaluate_contact(model, d, last.solution);
+        results.probes                   = evaluate_probes(model, d, last.solution, parameters.probes);
+        results.certificate = certify(model, d, last.solution, evaluation, parameters.solve.solver.tolerance,
+                                      results.converged);
+        results.cycles.back().potential_energy = results.certificate.potential_energy;
+        for (unsigned int p = 0; p < d.pairs.size(); ++p)
+          {
+            const auto active = stress_of_pair(d, last.solution.stress, p).active;
+            if (std::find(active.begin(), active.end(), 1) == active.end())
+              journal.note("pair " + d.pairs[p].name +
+                           ": the surfaces are separated, there is no contact force.");
+          }
+        results.boundaries          = std::move(evaluation.equilibrium.reactions);
+        results.largest_nodal_force = evaluation.equilibrium.largest_nodal_force;
+        results.pairs               = std::move(evaluation.pairs);
+        results.pressure            = std::move(evaluation.pressure);
+      }
+
+      ContactModel                           &model;
+      const NestedParameters                 &parameters;
+      Journal                                &journal;
+      const Refinement                        refinement;
+      const bool                              is_adaptive;
+      std::shared_ptr<const ConstrainedSpace> space;
+      CoarserSpaces                           coarser;
+      NestedStart                             start;
+      std::vector<bool>                       turned;
+      std::vector<double>                     indicator;
+      /// Those of the cycles before, on the current mesh, if they are to be compared.
+      std::vector<Vector> earlier_displacements;
+      NestedSolution      last;
+    };
+  } // namespace
+
+
+
+  NestedSolution run_nested_iteration(ContactModel &model, const NestedParameters &parameters,
+                                      Journal &journal)
+  {
+    return NestedIteration(model, parameters, journal).run();
+  }
+
+
+
+  NestedSolution build_meshes(ContactModel &model, const NestedParameters &parameters, Journal &journal)
+  {
+    const Refinement refinement(parameters.refinement);
+    auto             space = std::make_shared<const ConstrainedSpace>(model);
+    for (unsigned int c = 1; c <= refinement.n_cycles(); ++c)
+      if (!refinement.is_adaptive(c) && model.refine(space->nodal(), refinement.mark(space->nodal(), c)))
+        {
+          model.note_movement(journal);
+          space = std::make_shared<const ConstrainedSpace>(model);
+        }
+    if (parameters.refinement.adaptive_cycles > 0)
+      journal.note("the meshes are without the adaptive cycles, which need solutions.");
+    NestedSolution result;
+    result.discretization   = discretize(model, space, {}, 0, journal);
+    const Discretization &d = *result.discretization;
+    d.partition().reinit(result.solution.displacement);
+    result.solution.displacement.update_ghost_values();
+    result.solution.stress = no_stress(d);
+    for (unsigned int p = 0; p < d.pairs.size(); ++p)
+      {
+        result.results.pairs.push_back(evaluate_pair(d, result.solution, p));
+        const auto rows = pressure_rows(d, result.solution.stress, p);
+        result.results.pressure.insert(result.results.pressure.end(), rows.begin(), rows.end());
+      }
+    return result;
+  }
+} // namespace Signorini
