@@ -145,7 +145,7 @@ namespace Signorini
             const unsigned int m = incident[first].mortar_triangle;
             for (last = first + 1; last < incident.size() && incident[last].mortar_triangle == m;)
               ++last;
-            if (!incidence.triangles_face(t, m))
+            if (!meet(t, m, first, last))
               continue;
             faces_any = true;
             if (last - first >= 3)
@@ -185,6 +185,22 @@ namespace Signorini
         if ((p.on == On::edge && mortar.is_border(p.index)) || (p.on == On::vertex && mortar_border[p.index]))
           is_covered_all = false;
         add_incident(incident, mortar, graph.nodes[node], node);
+      }
+
+      // The paths of the plane graph go where the normals of the mortar surface lead them: at its creases
+      // these are not those of its triangles.
+      bool is_facing(const unsigned int t, const unsigned int m, const unsigned int node) const
+      {
+        return incidence.triangles_face(t, m) || incidence.point_faces(t, m, graph.nodes[node].mortar);
+      }
+
+      bool meet(const unsigned int t, const unsigned int m, const std::size_t first,
+                const std::size_t last) const
+      {
+        return incidence.triangles_face(t, m) ||
+               std::all_of(incident.begin() + static_cast<std::ptrdiff_t>(first),
+                           incident.begin() + static_cast<std::ptrdiff_t>(last),
+                           [&](const Incident &i) { return is_facing(t, m, i.node); });
       }
 
       void add_polygon(const unsigned int t, const unsigned int m, const std::size_t first,
@@ -239,8 +255,11 @@ namespace Signorini
                 if (nonmortar.is_border(e) || !lies_on(nonmortar, a.nonmortar, e) ||
                     !lies_on(nonmortar, b.nonmortar, e))
                   continue;
-                const auto &beside = nonmortar.edge_triangles[e];
-                bool        skip   = !incidence.triangles_face(beside[beside[0] == t ? 1 : 0], m);
+                const auto        &beside    = nonmortar.edge_triangles[e];
+                const unsigned int neighbour = beside[beside[0] == t ? 1 : 0];
+                bool               skip      = false;
+                for (const unsigned int node : {unsorted[k].node, unsorted[(k + 1) % unsorted.size()].node})
+                  skip = skip || !is_facing(t, m, node) || !is_facing(neighbour, m, node);
                 for (const unsigned int f : mortar.triangle_edges[m])
                   skip = skip || (mortar.is_border(f) && lies_on(mortar, a.mortar, f) &&
                                   lies_on(mortar, b.mortar, f));

@@ -69,6 +69,10 @@ namespace Signorini
                     const unsigned int nonmortar_triangle) const;
     bool triangles_face(const unsigned int nonmortar_triangle, const unsigned int mortar_triangle) const;
 
+    /// Whether a nonmortar triangle faces the normal at a point of a mortar triangle.
+    bool point_faces(const unsigned int nonmortar_triangle, const unsigned int mortar_triangle,
+                     const SurfacePoint &mortar_point) const;
+
     /// Whether the line of a mortar vertex passes a nonmortar vertex within the tolerance.
     bool is_at(const unsigned int mortar_vertex, const unsigned int nonmortar_vertex) const;
 
