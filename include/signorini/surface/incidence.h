@@ -76,6 +76,12 @@ namespace Signorini
     /// Whether the line of a mortar vertex passes a nonmortar vertex within the tolerance.
     bool is_at(const unsigned int mortar_vertex, const unsigned int nonmortar_vertex) const;
 
+    /// Length of the shortest edge there.
+    double size_at_mortar_vertex(const unsigned int vertex) const
+    {
+      return mortar_size[vertex];
+    }
+
     /// Moves a mortar vertex so that its line meets a point of the nonmortar surface.
     void move_mortar_vertex(const unsigned int vertex, const dealii::Point<3> &image);
 
