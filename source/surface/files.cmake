@@ -13,4 +13,5 @@ signorini_add_layer(surface
   smooth_surface.cc
   surface_feet.cc
   surface_mesh.cc
+  triangle_polygons.cc
 )

@@ -201,6 +201,24 @@ TEST(Layers, PlatesInTurn)
 
 
 
+// Parts of the nonmortar surface see the same layers as the whole.
+TEST(Layers, PartsSeeTheSameLayers)
+{
+  const SurfaceMesh plane  = rectangle(8, 0., 2., 0., 2., 0., true),
+                    mortar = join(rectangle(3, -.1, 2.2, -.1, 2.2, .1, false),
+                                  rectangle(5, -1., 3., -1., 3., .7, false));
+  const ContactMapping                               whole(plane, mortar);
+  std::vector<std::pair<unsigned int, unsigned int>> pairs;
+  for (unsigned int p = 0; p < 4; ++p)
+    {
+      const ContactMapping part(plane, mortar, [&](const unsigned int t) { return t / 32 == p; });
+      pairs.insert(pairs.end(), part.polygon_triangles.begin(), part.polygon_triangles.end());
+    }
+  EXPECT_EQ(pairs, whole.polygon_triangles);
+}
+
+
+
 // The mortar side folds back over itself.
 TEST(Layers, FoldedMortarSurfaceAboveAPlate)
 {
