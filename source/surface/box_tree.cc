@@ -115,9 +115,17 @@ namespace Signorini
     const double reach = std::max(std::abs(low.get<0>() - p[0]), std::abs(high.get<0>() - p[0])) +
                          std::max(std::abs(low.get<1>() - p[1]), std::abs(high.get<1>() - p[1])) +
                          std::max(std::abs(low.get<2>() - p[2]), std::abs(high.get<2>() - p[2]));
-    const bg::model::segment<TreePoint> line(tree_point(p - reach * direction),
-                                             tree_point(p + reach * direction));
-    tree->values.query(bgi::intersects(line), Collector{&found});
+    find_along_segment(found, p - reach * direction, p + reach * direction);
+  }
+
+
+
+  void BoxTree::find_along_segment(std::vector<unsigned int> &found, const Point<3> &a,
+                                   const Point<3> &b) const
+  {
+    found.clear();
+    const bg::model::segment<TreePoint> segment(tree_point(a), tree_point(b));
+    tree->values.query(bgi::intersects(segment), Collector{&found});
   }
 
 

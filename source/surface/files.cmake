@@ -9,7 +9,9 @@ signorini_add_layer(surface
   plane_graph.cc
   plane_graph_borders.cc
   plane_graph_edges.cc
+  plane_graph_layers.cc
   smooth_surface.cc
   surface_feet.cc
   surface_mesh.cc
+  triangle_polygons.cc
 )

@@ -251,4 +251,15 @@ namespace Signorini
   {
     return facing(nonmortar_normal[t], mortar_normal[m]);
   }
+
+
+
+  bool Incidence::point_faces(const unsigned int t, const unsigned int m, const SurfacePoint &point) const
+  {
+    const auto   w = point.weights_in(mortar_topology, m);
+    Tensor<1, 3> normal;
+    for (unsigned int i = 0; i < 3; ++i)
+      normal += w[i] * mortar.vertex_normals[mortar_topology.triangles[m][i]];
+    return facing(nonmortar_normal[t], normal);
+  }
 } // namespace Signorini

@@ -136,6 +136,8 @@ namespace Signorini
           return "outside the rim";
         case Unmapped::wrong_side:
           return "wrong side";
+        case Unmapped::behind:
+          return "behind another layer";
         default:
           return "mapped";
       }

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include "plane_graph_walk.h"
+
 #include <signorini/surface/box_tree.h>
 #include <signorini/surface/normal_projection.h>
-#include <signorini/surface/plane_graph.h>
 
 #include <queue>
 
@@ -14,26 +15,6 @@ namespace Signorini
 
   namespace
   {
-    BoxTree tree_of_triangles(const SurfaceMesh &mesh)
-    {
-      std::vector<BoxTree::Box> boxes;
-      boxes.reserve(mesh.triangles.size());
-      for (const auto &t : mesh.triangles)
-        {
-          BoxTree::Box box{mesh.vertices[t[0]], mesh.vertices[t[0]]};
-          box.include(mesh.vertices[t[1]]);
-          box.include(mesh.vertices[t[2]]);
-          boxes.push_back(box);
-        }
-      return BoxTree(boxes);
-    }
-
-    std::array<Point<3>, 3> corners_of(const SurfaceMesh &mesh, const unsigned int triangle)
-    {
-      const auto &t = mesh.triangles[triangle];
-      return {{mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]}};
-    }
-
     std::array<Tensor<1, 3>, 3> normals_of(const SurfaceMesh &mesh, const unsigned int triangle)
     {
       const auto &t = mesh.triangles[triangle];
@@ -70,6 +51,7 @@ namespace Signorini
     if (!nonmortar.triangles.empty() && !mortar.triangles.empty())
       {
         mortar_order = spatial_order(incidence.mortar);
+        has_layers   = may_lie_over_itself();
         select_mortar_edges(communicator);
         map_mortar_vertices();
         trace_mortar_edges();
@@ -182,7 +164,7 @@ namespace Signorini
           continue;
         nonmortar_tree->find_along_line(candidates, incidence.mortar.vertices[v],
                                         incidence.mortar.vertex_normals[v]);
-        double       nearest = std::numeric_limits<double>::max();
+        double       nearest = std::numeric_limits<double>::max(), way = 0.;
         SurfacePoint best;
         bool         turned_away = false;
         for (const unsigned int t : candidates)
@@ -195,12 +177,19 @@ namespace Signorini
             else if (is_hit(place, eta, v, t) && std::abs(eta) < nearest)
               {
                 nearest = std::abs(eta);
+                way     = eta;
                 best    = place;
               }
           }
         if (best.on == On::nothing)
           {
             state[v] = turned_away ? Unmapped::wrong_side : Unmapped::no_hit;
+            continue;
+          }
+        if (has_layers && is_behind(incidence.mortar.vertices[v], incidence.mortar.vertex_normals[v], way,
+                                    Incidence::near_end * incidence.size_at_mortar_vertex(v)))
+          {
+            state[v] = Unmapped::behind;
             continue;
           }
         mortar_vertex_node[v] = static_cast<unsigned int>(nodes.size());
@@ -269,10 +258,8 @@ namespace Signorini
 
   unsigned int PlaneGraph::search_triangle(const unsigned int vertex)
   {
-    if (!mortar_tree)
-      mortar_tree = std::make_unique<BoxTree>(tree_of_triangles(incidence.mortar));
     std::vector<unsigned int> candidates;
-    mortar_tree->find_nearest(candidates, incidence.nonmortar.vertices[vertex], 16);
+    tree_of_mortar_triangles().find_nearest(candidates, incidence.nonmortar.vertices[vertex], 16);
     unsigned int best    = none;
     double       nearest = std::numeric_limits<double>::max();
     Point<3>     foot;
@@ -304,23 +291,6 @@ namespace Signorini
     const auto  &any  = nonmortar.triangles[nonmortar.fan[nonmortar.fan_start[vertex]]];
     const double size = incidence.nonmortar.vertices[any[0]].distance(incidence.nonmortar.vertices[any[1]]);
     return best != none && is_hidden(foot, normal, nearest, Incidence::near_end * size) ? none : best;
-  }
-
-
-
-  bool PlaneGraph::is_hidden(const Point<3> &foot, const Tensor<1, 3> &normal, const double distance,
-                             const double margin) const
-  {
-    std::vector<unsigned int> candidates;
-    nonmortar_tree->find_along_line(candidates, foot, normal);
-    return std::any_of(candidates.begin(), candidates.end(), [&](const unsigned int t) {
-      std::array<double, 3> w;
-      double                eta;
-      constexpr double      rounding = 1e-9;
-      return incidence.faces(t, normal) &&
-             NormalProjection::intersect_line(w, eta, foot, normal, corners_of(incidence.nonmortar, t)) &&
-             *std::min_element(w.begin(), w.end()) >= -rounding && std::abs(eta) + margin < distance;
-    });
   }
 
 

@@ -94,21 +94,6 @@ namespace Signorini
 
 
 
-  bool PlaneGraph::is_hidden_at(const unsigned int mortar_edge, const double s, const unsigned int edge,
-                                const double t) const
-  {
-    const auto [p, q]      = mortar.edges[mortar_edge];
-    const auto [a, b]      = nonmortar.edges[edge];
-    const SurfaceMesh &non = incidence.nonmortar, &mor = incidence.mortar;
-    const Point<3>     foot   = mor.vertices[p] + s * (mor.vertices[q] - mor.vertices[p]);
-    const Tensor<1, 3> normal = (1. - s) * mor.vertex_normals[p] + s * mor.vertex_normals[q],
-                       along = non.vertices[b] - non.vertices[a], way = non.vertices[a] + t * along - foot;
-    return is_hidden(foot, normal, std::abs(way * normal) / normal.norm_square(),
-                     Incidence::near_end * along.norm());
-  }
-
-
-
   void PlaneGraph::enter_at(const unsigned int e, const unsigned int f)
   {
     const auto        &ends = nonmortar.edges[e];

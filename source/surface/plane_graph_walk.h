@@ -8,6 +8,14 @@
 
 namespace Signorini
 {
+  inline std::array<dealii::Point<3>, 3> corners_of(const SurfaceMesh &mesh, const unsigned int triangle)
+  {
+    const auto &t = mesh.triangles[triangle];
+    return {{mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]}};
+  }
+
+  BoxTree tree_of_triangles(const SurfaceMesh &mesh);
+
   /// The way of the image of a mortar edge over the nonmortar surface.
   struct PlaneGraph::Walk
   {

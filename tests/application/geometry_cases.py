@@ -7,7 +7,7 @@ import struct
 import tempfile
 
 from harness import TOP, certificate, check, constant_pressure, iterations, near
-from input_cases import held_surfaces, overlaps, parts, shared_surfaces  # noqa: F401
+from input_cases import dense_coupling, held_surfaces, overlaps, parts, shared_surfaces  # noqa: F401
 
 PATCH_TEST = 'patch_test/patch_test.prm'
 LINEAR = '(-1e-3*x, -1e-3*y, -1e-3*z)'

@@ -71,6 +71,17 @@ def held_surfaces(p):
         refused(p, PATCH_TEST, halves + first + both, 'interface', 'Dirichlet')
 
 
+def dense_coupling(p):
+    """One nonmortar face over thousands of mortar nodes: every node of it would couple all of them with each other."""
+    coarse = ['Body upper/Divisions=1, 1, 1', 'Body lower/Divisions=44, 44, 1', 'Refinement/Global cycles=0', 'Solver/Compare linear multigrid=false']
+    refused(p, PATCH_TEST, coarse + ['Pair interface/Nonmortar=first'], 'Pair interface', '"upper: bottom" is much coarser', '"lower: top"',
+            'one node faces 2025 nodes', 'Refinement/Regions', 'Pair/Nonmortar')
+    # The cure.
+    s = p.solve(PATCH_TEST, *coarse, 'Pair interface/Nonmortar=second')
+    constant_pressure(s, 5.)
+    certificate(s)
+
+
 def write_blocks(path, blocks, n=4, joined=False):
     """A gmsh file of blocks (low, high, name) of 2 x n x 2 cells, each with the boundaries "bottom NAME" and "top NAME"."""
     points, lines, names = {}, [], []

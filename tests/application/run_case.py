@@ -546,11 +546,12 @@ def command_line(p):
         near(mapping['coverage_nonmortar'], 1, 1e-12, 'coverage')
 
 
-def write_square(path, n, low, high, heights, up):
-    """Triangulated squares [low, high]^2 above each other as an OFF file."""
+def write_square(path, n, low, high, heights, up, front_end=None):
+    """Triangulated squares [low, high]^2 above each other as an OFF file; the first one may end elsewhere in x."""
     vertices, triangles = [], []
     for layer, z in enumerate(heights):
-        vertices += [(low + (high - low) * i / (n + layer), low + (high - low) * j / (n + layer), z) for j in range(n + layer + 1) for i in range(n + layer + 1)]
+        end = high if front_end is None or layer > 0 else front_end
+        vertices += [(low + (end - low) * i / (n + layer), low + (high - low) * j / (n + layer), z) for j in range(n + layer + 1) for i in range(n + layer + 1)]
         first = len(vertices) - (n + layer + 1) ** 2
         for j in range(n + layer):
             for i in range(n + layer):
@@ -584,8 +585,16 @@ def surface_map(p):
         check(s['unmapped'] == {'no hit': 9, 'outside the rim': 7}, f'unmapped: {s["unmapped"]}')
         check(s['time_s'] > 0 and s['peak_memory_bytes'] > 1e6 and s['cells'] >= s['pairs'] > 0, f'figures: {s}')
         check(os.path.getsize(vtu) > 1000, 'no image file')
-        # A second plate behind the first: what it hides is no mapping, and that is said.
+        # A second plate behind the first is left out.
         write_square(mor, 3, 0, 1, (.25, .5), False)
+        run = call('signorini-map', non, mor, '--strict', '--json', out)
+        check(run.returncode == 0, f'exit code {run.returncode}: {run.stderr}')
+        with open(out) as f:
+            s = json.load(f)
+        near(s['area'], 1, 1e-12, 'area')
+        check(s['unmapped'] == {'behind another layer': 25}, f'unmapped: {s["unmapped"]}')
+        # Cut in the middle of a cell, the first one hides half of cells of the second: that is no mapping, and that is said.
+        write_square(mor, 3, 0, 1, (.25, .5), False, front_end=.5)
         for options, code in (([], 0), (['--strict'], 1)):
             run = call('signorini-map', non, mor, '--report', *options)
             check(run.returncode == code, f'{options}: exit code {run.returncode}: {run.stderr}')

@@ -36,6 +36,10 @@ namespace Signorini
     void find_along_line(std::vector<unsigned int> &found, const dealii::Point<3> &p,
                          const dealii::Tensor<1, 3> &direction) const;
 
+    /// The same for the segment from a to b.
+    void find_along_segment(std::vector<unsigned int> &found, const dealii::Point<3> &a,
+                            const dealii::Point<3> &b) const;
+
     /// The boxes that overlap another one, or as many of them as are wanted.
     void find_overlapping(std::vector<unsigned int> &found, const Box &box,
                           const unsigned int at_most = static_cast<unsigned int>(-1)) const;

@@ -72,8 +72,18 @@ namespace Signorini
                     const unsigned int nonmortar_triangle) const;
     bool triangles_face(const unsigned int nonmortar_triangle, const unsigned int mortar_triangle) const;
 
+    /// Whether a nonmortar triangle faces the normal at a point of a mortar triangle.
+    bool point_faces(const unsigned int nonmortar_triangle, const unsigned int mortar_triangle,
+                     const SurfacePoint &mortar_point) const;
+
     /// Whether the line of a mortar vertex passes a nonmortar vertex within the tolerance.
     bool is_at(const unsigned int mortar_vertex, const unsigned int nonmortar_vertex) const;
+
+    /// Length of the shortest edge there.
+    double size_at_mortar_vertex(const unsigned int vertex) const
+    {
+      return mortar_size[vertex];
+    }
 
     /// Moves a mortar vertex so that its line meets a point of the nonmortar surface.
     void move_mortar_vertex(const unsigned int vertex, const dealii::Point<3> &image);

@@ -27,7 +27,9 @@ namespace Signorini
     /// The same, with a neighbour that has an image: the vertex lies just outside of the common part.
     outside_rim,
     /// It hits, but only triangles that do not face it.
-    wrong_side
+    wrong_side,
+    /// Another layer of the mortar surface lies nearer to what it hits.
+    behind
   };
 
   /// A node of the plane graph with its places on both surfaces: Phi takes the first to the second.
@@ -107,7 +109,7 @@ namespace Signorini
                             const unsigned int mortar_edge) const;
     void enter_at(const unsigned int border_edge, const unsigned int mortar_edge);
     bool is_hidden_at(const unsigned int mortar_edge, const double s, const unsigned int edge,
-                      const double t) const;
+                      const double t);
     bool runs_along(const unsigned int mortar_edge, const unsigned int edge) const;
 
     State go_to_vertex(Walk &walk, const unsigned int vertex, const double position);
@@ -130,12 +132,24 @@ namespace Signorini
     bool is_hidden(const dealii::Point<3> &foot, const dealii::Tensor<1, 3> &normal, const double distance,
                    const double margin) const;
 
+    /// Whether the mortar surface can lie over itself: it has several parts, or its normals do not lie in one
+    /// half-space.
+    bool may_lie_over_itself() const;
+
+    /// Whether another layer of the mortar surface lies nearer to foot + eta normal, along that line, than
+    /// the foot itself: then what is there belongs to that one.
+    bool is_behind(const dealii::Point<3> &foot, const dealii::Tensor<1, 3> &normal, const double eta,
+                   const double margin);
+
+    const BoxTree &tree_of_mortar_triangles();
+
     Incidence             &incidence;
     const PartRegion      &region;
     const SurfaceTopology &nonmortar, &mortar;
     /// Mortar edges that may cross the region, mortar vertices whose image is needed, and those whose state
     /// this part tells.
     std::vector<bool> edge_is_needed, vertex_is_needed, vertex_is_in_share;
+    bool              has_layers = false;
     /// The order in which mortar vertices, and edges from them, are visited.
     std::vector<unsigned int> mortar_order;
     /// For nodes where edges cross: the side of the mortar edge on which the lower end of the nonmortar edge
