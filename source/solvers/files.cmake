@@ -2,6 +2,7 @@ signorini_add_layer(solvers
   active_set_amg.cc
   coarse_cholesky.cc
   contact_state.cc
+  foreign_levels.cc
   gauss_seidel_iteration.cc
   interface_correction.cc
   level_zero_solver.cc

@@ -40,6 +40,7 @@ namespace Signorini
       return static_cast<unsigned int>(coarse.size()) + 1;
     }
 
+    /// The space of a level.
     const NodalSpace &space(const unsigned int level) const
     {
       return level + 1 == n_levels() ? finest : *coarse[level];
@@ -75,6 +76,7 @@ namespace Signorini
   /// stay the same, their matrices become sparser.
   void drop_small_weights(InterfaceCoupling &coupling);
 
+  /// How build_hierarchy() goes about it.
   struct HierarchyOptions
   {
     /// For a monotone multigrid: relative displacements at contact nodes come from relative displacements

@@ -18,11 +18,13 @@ namespace Signorini
   class ActiveSetAmg : public ObstacleSolver
   {
   public:
+    /// The hierarchy must outlive the object.
     ActiveSetAmg(MultigridHierarchy &hierarchy, const SolverParameters &parameters)
       : ObstacleSolver(hierarchy, parameters, hierarchy.n_levels() - 1)
     {
     }
 
+    /// The one without a monitor.
     using ObstacleSolver::solve;
 
     ConvergenceReport solve(Vector &v, const ObstacleProblem &problem, const Monitor &monitor) override;

@@ -14,6 +14,7 @@ namespace Signorini
   class CoarseCholesky
   {
   public:
+    /// Factorizes nothing yet.
     CoarseCholesky();
     CoarseCholesky(CoarseCholesky &&) noexcept;
     ~CoarseCholesky();

@@ -13,6 +13,7 @@ namespace Signorini
   /// What a solver returns. Numbers start as NaN, so that a forgotten one is loud.
   struct ConvergenceReport
   {
+    /// Whether the stop rule was met.
     bool converged = false;
     /// Converged as far as rounding allows, short of the tolerance; see the note.
     bool stagnated = false;

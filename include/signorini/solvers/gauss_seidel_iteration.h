@@ -13,11 +13,13 @@ namespace Signorini
   class GaussSeidelIteration : public ObstacleSolver
   {
   public:
+    /// The hierarchy must outlive the object.
     GaussSeidelIteration(MultigridHierarchy &hierarchy, const SolverParameters &parameters)
       : ObstacleSolver(hierarchy, parameters, hierarchy.n_levels() - 1)
     {
     }
 
+    /// The one without a monitor.
     using ObstacleSolver::solve;
 
     ConvergenceReport solve(Vector &v, const ObstacleProblem &problem, const Monitor &monitor) override;

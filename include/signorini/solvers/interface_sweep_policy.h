@@ -19,6 +19,7 @@ namespace Signorini
     /// leave more in any case (doc/measurements.md).
     struct Rule
     {
+      /// Divided by the number of sweeps of a cycle, at least two.
       double slow = 1.5;
     };
 

@@ -25,6 +25,7 @@ namespace Signorini
   /// What level 0 of a hierarchy needs besides its matrix.
   struct LevelZero
   {
+    /// How the level is solved.
     LevelZeroMethod method = LevelZeroMethod::automatic;
     /// Number of V-cycles of algebraic_shortened.
     unsigned int n_steps = 1;
@@ -61,6 +62,7 @@ namespace Signorini
   class LevelZeroSolver : public CoarseSolver
   {
   public:
+    /// To be followed by setup().
     explicit LevelZeroSolver(LevelZero level_zero)
       : level_zero(std::move(level_zero))
     {

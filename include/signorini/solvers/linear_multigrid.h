@@ -19,6 +19,7 @@ namespace Signorini
     /// The hierarchy must outlive the object and not be truncated. The method is multigrid or multigrid_cg.
     LinearMultigrid(MultigridHierarchy &hierarchy, const SolverParameters &parameters);
 
+    /// The one without a monitor.
     using ObstacleSolver::solve;
 
     /// Throws if the problem has half-spaces.

@@ -22,8 +22,10 @@ namespace Signorini
   class MonotoneMultigrid : public ObstacleSolver
   {
   public:
+    /// The hierarchy must outlive the object; its truncation is changed.
     MonotoneMultigrid(MultigridHierarchy &hierarchy, const SolverParameters &parameters);
 
+    /// The one without a monitor.
     using ObstacleSolver::solve;
 
     ConvergenceReport solve(Vector &v, const ObstacleProblem &problem, const Monitor &monitor) override;

@@ -18,6 +18,7 @@ namespace Signorini
   /// One level: its matrix, its smoother, and the prolongation from it to the next finer level.
   struct MultigridLevel
   {
+    /// A of the level, fixed components eliminated.
     NodeBlockMatrix matrix;
     /// Fixed components of the local nodes.
     std::vector<FixedMask>    fixed;
@@ -135,16 +136,19 @@ namespace Signorini
       return static_cast<unsigned int>(levels.size());
     }
 
+    /// A level; level 0 is the coarsest.
     MultigridLevel &level(const unsigned int l)
     {
       return *levels[levels.size() - 1 - l];
     }
 
+    /// The same.
     const MultigridLevel &level(const unsigned int l) const
     {
       return *levels[levels.size() - 1 - l];
     }
 
+    /// The level of the problem.
     MultigridLevel &finest()
     {
       return *levels.front();

@@ -23,11 +23,13 @@ namespace Signorini
     /// `normals`. Empty: one everywhere.
     std::vector<double> shares;
 
+    /// |m| of a node.
     double share(const std::size_t p) const
     {
       return shares.empty() ? 1. : shares[p];
     }
 
+    /// Number of half-spaces of this rank.
     std::size_t size() const
     {
       return nodes.size();
@@ -56,6 +58,7 @@ namespace Signorini
   /// fixed components and b is zero there.
   struct ObstacleProblem
   {
+    /// b, in the layout of A, and the half-spaces of this rank.
     Vector     rhs;
     HalfSpaces half_spaces;
     /// Vectors of little energy (rigid motions), for algebraic multigrid; may be empty.

@@ -30,8 +30,10 @@ namespace Signorini
     multigrid_cg
   };
 
+  /// Which method, and how it goes about it.
   struct SolverParameters
   {
+    /// The method, its smoothing, and the solver of level 0 with the steps of algebraic_shortened.
     SolverMethod        method = SolverMethod::accelerated;
     SmoothingParameters smoothing;
     LevelZeroMethod     level_zero       = LevelZeroMethod::automatic;
@@ -64,6 +66,7 @@ namespace Signorini
     /// level. Instead of zero, accelerated takes a start from the coarser levels, if they have half-spaces.
     virtual ConvergenceReport solve(Vector &v, const ObstacleProblem &problem, const Monitor &monitor) = 0;
 
+    /// Collective. The same without a monitor.
     ConvergenceReport solve(Vector &v, const ObstacleProblem &problem)
     {
       return solve(v, problem, Monitor());
@@ -81,6 +84,7 @@ namespace Signorini
     ObstacleSolver(MultigridHierarchy &hierarchy, const SolverParameters &parameters,
                    const unsigned int level);
 
+    /// Of the finest level of the problem.
     const NodeBlockMatrix &matrix() const
     {
       return hierarchy.level(level).matrix;
@@ -101,6 +105,7 @@ namespace Signorini
     void close(ConvergenceReport &report, const Vector &v, const ObstacleProblem &problem,
                const Vector &residual) const;
 
+    /// What the object was made with.
     MultigridHierarchy    &hierarchy;
     const SolverParameters parameters;
     const unsigned int     level;

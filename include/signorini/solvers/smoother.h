@@ -86,6 +86,7 @@ namespace Signorini
                         const Follow &follow);
 
   protected:
+    /// Of the level.
     const NodeBlockMatrix &matrix;
   };
 

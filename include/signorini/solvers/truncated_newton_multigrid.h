@@ -39,6 +39,7 @@ namespace Signorini
     TruncatedNewtonMultigrid(MultigridHierarchy &hierarchy, const SolverParameters &parameters,
                              const unsigned int level);
 
+    /// The one without a monitor.
     using ObstacleSolver::solve;
 
     ConvergenceReport solve(Vector &v, const ObstacleProblem &problem, const Monitor &monitor) override;
