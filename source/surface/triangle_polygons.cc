@@ -55,6 +55,13 @@ namespace Signorini
             (x[i][0] - x[0][0]) * (x[i + 1][1] - x[0][1]) - (x[i][1] - x[0][1]) * (x[i + 1][0] - x[0][0]);
       return share;
     }
+
+    bool lies_on(const SurfaceTopology &topology, const SurfacePoint &p, const unsigned int edge)
+    {
+      return (p.on == On::edge && p.index == edge) ||
+             (p.on == On::vertex &&
+              (p.index == topology.edges[edge][0] || p.index == topology.edges[edge][1]));
+    }
   } // namespace
 
 
@@ -98,22 +105,16 @@ namespace Signorini
 
 
 
-  // The paths of the plane graph go where the normals of the mortar surface lead them: at its creases
-  // these are not those of its triangles.
-  bool TrianglePolygons::is_facing(const unsigned int t, const unsigned int m, const unsigned int node) const
-  {
-    return incidence.triangles_face(t, m) || incidence.point_faces(t, m, graph.nodes[node].mortar);
-  }
-
-
-
+  // The paths of the plane graph go where the normals of the mortar surface lead them: at its creases these
+  // are not those of its triangles.
   bool TrianglePolygons::meet(const unsigned int t, const unsigned int m, const std::size_t first,
                               const std::size_t last) const
   {
     return incidence.triangles_face(t, m) ||
            std::all_of(incident.begin() + static_cast<std::ptrdiff_t>(first),
-                       incident.begin() + static_cast<std::ptrdiff_t>(last),
-                       [&](const Incident &i) { return is_facing(t, m, i.node); });
+                       incident.begin() + static_cast<std::ptrdiff_t>(last), [&](const Incident &i) {
+                         return incidence.point_faces(t, m, graph.nodes[i.node].mortar);
+                       });
   }
 
 
@@ -184,9 +185,9 @@ namespace Signorini
               continue;
             const auto        &beside    = nonmortar.edge_triangles[e];
             const unsigned int neighbour = beside[beside[0] == t ? 1 : 0];
-            bool               skip      = false;
-            for (const unsigned int node : {unsorted[k].node, unsorted[(k + 1) % unsorted.size()].node})
-              skip = skip || !is_facing(t, m, node) || !is_facing(neighbour, m, node);
+            bool               skip =
+                !incidence.triangles_face(neighbour, m) && !(incidence.point_faces(neighbour, m, a.mortar) &&
+                                                             incidence.point_faces(neighbour, m, b.mortar));
             for (const unsigned int f : mortar.triangle_edges[m])
               skip = skip ||
                      (mortar.is_border(f) && lies_on(mortar, a.mortar, f) && lies_on(mortar, b.mortar, f));
@@ -194,15 +195,6 @@ namespace Signorini
               sides.push_back({e, parameter_on(b.nonmortar, e) - parameter_on(a.nonmortar, e)});
           }
       }
-  }
-
-
-
-  bool TrianglePolygons::lies_on(const SurfaceTopology &topology, const SurfacePoint &p,
-                                 const unsigned int edge)
-  {
-    return (p.on == On::edge && p.index == edge) ||
-           (p.on == On::vertex && (p.index == topology.edges[edge][0] || p.index == topology.edges[edge][1]));
   }
 
 

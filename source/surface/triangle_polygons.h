@@ -71,15 +71,13 @@ namespace Signorini
     unsigned int              n_broken;
 
   private:
-    void        add(const unsigned int node);
-    bool        is_facing(const unsigned int t, const unsigned int m, const unsigned int node) const;
-    bool        meet(const unsigned int t, const unsigned int m, const std::size_t first,
-                     const std::size_t last) const;
-    void        add_polygon(const unsigned int t, const unsigned int m, const std::size_t first,
-                            const std::size_t last);
-    void        add_sides(const unsigned int t, const unsigned int m);
-    static bool lies_on(const SurfaceTopology &topology, const SurfacePoint &p, const unsigned int edge);
-    double      parameter_on(const SurfacePoint &p, const unsigned int edge) const;
+    void   add(const unsigned int node);
+    bool   meet(const unsigned int t, const unsigned int m, const std::size_t first,
+                const std::size_t last) const;
+    void   add_polygon(const unsigned int t, const unsigned int m, const std::size_t first,
+                       const std::size_t last);
+    void   add_sides(const unsigned int t, const unsigned int m);
+    double parameter_on(const SurfacePoint &p, const unsigned int edge) const;
 
     const Incidence                   &incidence;
     const SurfaceTopology             &nonmortar, &mortar;
