@@ -17,8 +17,8 @@ namespace Signorini
     double slow;
   };
 
-  /// Over lines and planes of stretched cells (StrongBlocks): they leave .7 and more from an aspect ratio of
-  /// 5 to 7 on, cubes less than .6.
+  /// Over lines and planes of stretched cells (StrongBlocks): where sweeps by node leave less, a block is not
+  /// worth its factors.
   constexpr SlowSweepsRule slow_in_blocks = {4, .7};
 
   /// Over the contact nodes of both sides (InterfaceCorrection): 0.8 to 0.93 where the nonmortar side is as
