@@ -181,7 +181,7 @@ namespace Signorini
       {
       }
 
-      ContactPair operator()(const PairModel &definition, const bool is_turned) const
+      ContactPair make(const PairModel &definition, const bool is_turned) const
       {
         ContactPair pair;
         pair.name           = definition.definition.name;
@@ -305,10 +305,10 @@ namespace Signorini
   {
     std::vector<bool> turned = turned_before;
     turned.resize(model.pairs().size(), false);
-    const PairMaker          make_pair(model, *constrained, cycle, journal);
+    const PairMaker          maker(model, *constrained, cycle, journal);
     std::vector<ContactPair> pairs;
     for (unsigned int p = 0; p < turned.size(); ++p)
-      pairs.push_back(make_pair(model.pairs()[p], turned[p]));
+      pairs.push_back(maker.make(model.pairs()[p], turned[p]));
 
     const auto                time      = journal.measure(Phase::mortar);
     std::vector<PairCoupling> couplings = couple_pairs(pairs);
@@ -320,7 +320,7 @@ namespace Signorini
         for (const unsigned int p : some)
           {
             turned[p] = true;
-            pairs[p]  = make_pair(model.pairs()[p], true);
+            pairs[p]  = maker.make(model.pairs()[p], true);
           }
         couplings = couple_pairs(pairs);
       }

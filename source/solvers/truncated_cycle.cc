@@ -44,9 +44,9 @@ namespace Signorini
     check(v, correction);
 
     keeps_active = contact.active() == active;
-    searched     = plan.trusts_kept_set ? !(plan.phase != Phase::on_the_way && all_ranks(keeps_active))
-                                        : plan.phase != Phase::resting;
-    cut_off      = correct(searched);
+    searched     = plan.trusts_kept_set ? plan.phase == IterationPhase::on_the_way || !all_ranks(keeps_active)
+                                        : plan.phase != IterationPhase::resting;
+    cut_off      = correct();
     if (searched)
       check(v, correction);
     else
@@ -69,11 +69,7 @@ namespace Signorini
 
 
 
-  /// Adds the truncated V-cycle of the residual to the correction: by add_better() if it searches or
-  /// something is not admissible. Motions of semidefinite problems that cost nothing come out very long: what
-  /// is not admissible is shortened as a whole there, so that they stay motions, with a search or without.
-  /// Returns what add_better() does, or zero.
-  double TruncatedCycle::correct(const bool searches_already)
+  double TruncatedCycle::correct()
   {
     if (hierarchy.truncate(level, contact.half_spaces(), contact.active()))
       ++n_updates;
@@ -83,7 +79,7 @@ namespace Signorini
     correction.zero_out_ghost_values();
     prolongate_correction();
     const double length = std::min(1., contact.longest_step(correction, step));
-    searched            = searches_already || (length < 1. && !problem.semidefinite);
+    searched            = searched || (length < 1. && !problem.semidefinite);
     if (searched)
       {
         contact.restrict_to_tangents(new_residual);
@@ -95,10 +91,6 @@ namespace Signorini
 
 
 
-  /// Adds the coarse correction in `step`, of which `length` is admissible, with exact line search. What is
-  /// not admissible is cut off node by node or the whole is shortened, whichever lowers the energy more.
-  /// Returns the energy norm of what was cut off or shortened, before that; zero where nothing was, and for
-  /// semidefinite problems.
   double TruncatedCycle::add_better(const double length)
   {
     const NodeBlockMatrix &matrix = hierarchy.level(level).matrix;

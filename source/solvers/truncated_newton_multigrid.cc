@@ -123,7 +123,7 @@ namespace Signorini
     residual.reinit(v);
     matrix().symmetric_residual(residual, v, problem.rhs);
     conjugate.restart();
-    Phase phase = Phase::searching;
+    IterationPhase phase = IterationPhase::searching;
     while (goes_on(report))
       {
         cycle.run(v, residual, {sweeps.choose(phase), phase, trusts_set}, check);
@@ -141,7 +141,7 @@ namespace Signorini
         step.grows_freely = problem.semidefinite && !report.history.empty() && norm > report.history.back();
         sweeps.observe(step.is_conjugate, norm, report.history);
         phase = next_phase(step);
-        if (phase != Phase::resting)
+        if (phase != IterationPhase::resting)
           conjugate.restart();
         const double square = v * problem.rhs - v * residual;
         book_iteration(report, norm, std::sqrt(std::max(square, 0.)), monitor);

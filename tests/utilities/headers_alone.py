@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Signorini authors
-"""Every public header compiles alone: g++ -fsyntax-only on each, with the options of the build.
+"""Every public header compiles alone, and all of them in one file: g++ -fsyntax-only with the options of the build.
 
 usage: headers_alone.py BUILD [HEADER]...    BUILD has compile_commands.json; all headers by default
 
@@ -61,20 +61,27 @@ def main():
     with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         stubs = dict(zip(LARGE, pool.map(lambda large: precompile(large, options, folder), LARGE)))
 
-        def compile_alone(header):
-            found = included(header)
-            front = next((stubs[large] for large in LARGE if large in found), None)
+        def compile_only(text, front):
             run = subprocess.run([*options, *(['-include', front] if front else []), '-fsyntax-only', '-x', 'c++', '-'],
-                                 input=f'#include <{header}>\n', stderr=subprocess.PIPE, text=True, check=False)
+                                 input=text, stderr=subprocess.PIPE, text=True, check=False)
             return run.returncode, run.stderr
 
+        def compile_alone(header):
+            found = included(header)
+            return compile_only(f'#include <{header}>\n', next((stubs[large] for large in LARGE if large in found), None))
+
+        # Two headers may say the same name for different things.
+        together = pool.submit(compile_only, ''.join(f'#include <{header}>\n' for header in headers), None)
         failures = 0
         for header, (code, errors) in zip(headers, pool.map(compile_alone, headers)):
             if code != 0:
                 failures += 1
                 print(f'{header} does not compile alone:\n{errors}')
+        clash, errors = together.result()
+        if clash:
+            print(f'the headers do not compile together:\n{errors}')
     print(f'{len(headers)} headers, {failures} of them do not compile alone')
-    return 1 if failures or not headers else 0
+    return 1 if failures or clash or not headers else 0
 
 
 if __name__ == '__main__':

@@ -33,10 +33,10 @@ namespace Signorini
     }
 
     /// How the next iteration smooths.
-    SmoothingParameters choose(const Phase phase) const
+    SmoothingParameters choose(const IterationPhase phase) const
     {
       SmoothingParameters result = smoothing;
-      if (may_spare && phase == Phase::resting && !is_slow)
+      if (may_spare && phase == IterationPhase::resting && !is_slow)
         result.n_interface_sweeps = 0;
       return result;
     }

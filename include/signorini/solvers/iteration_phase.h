@@ -7,7 +7,7 @@
 namespace Signorini
 {
   /// Where a truncated Newton iteration is.
-  enum class Phase
+  enum class IterationPhase
   {
     /// The active set may change: coarse corrections are searched.
     searching,
@@ -32,11 +32,11 @@ namespace Signorini
   };
 
   /// The phase after an iteration.
-  inline Phase next_phase(const StepTaken &step)
+  inline IterationPhase next_phase(const StepTaken &step)
   {
     if (step.is_shortened)
-      return Phase::on_the_way;
-    return step.is_conjugate && !step.grows_freely ? Phase::resting : Phase::searching;
+      return IterationPhase::on_the_way;
+    return step.is_conjugate && !step.grows_freely ? IterationPhase::resting : IterationPhase::searching;
   }
 } // namespace Signorini
 

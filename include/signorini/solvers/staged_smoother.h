@@ -77,6 +77,7 @@ namespace Signorini
 
     bool is_slow_at_interface() const override
     {
+      // Only then there is a minimization behind the sweep.
       return at_interface.size() > 1;
     }
 

@@ -28,7 +28,7 @@ namespace Signorini
     {
       /// On the finest level.
       SmoothingParameters smoothing;
-      Phase               phase;
+      IterationPhase      phase;
       /// Whether a set that the first half keeps is mostly the last one: then no search, which costs a
       /// product. From a good start it is.
       bool trusts_kept_set;
@@ -41,9 +41,9 @@ namespace Signorini
     double norm() const;
 
     /// Whether the correction is a linear function of the residual.
-    bool is_linear(const Phase phase) const
+    bool is_linear(const IterationPhase phase) const
     {
-      return keeps_active && phase != Phase::on_the_way && cut_off == 0.;
+      return keeps_active && phase != IterationPhase::on_the_way && cut_off == 0.;
     }
 
     /// Collective. Shortens the correction, where that is due because it was not searched, so that it lowers
@@ -62,9 +62,21 @@ namespace Signorini
     unsigned int n_updates = 0;
 
   private:
-    bool   all_ranks(const bool condition) const;
-    void   prolongate_correction();
-    double correct(const bool searches_already);
+    bool all_ranks(const bool condition) const;
+
+    /// step = the coarse correction on the finest level, tangential at active nodes.
+    void prolongate_correction();
+
+    /// Adds the truncated V-cycle of the residual to the correction: by add_better() if `searched` is set or
+    /// something is not admissible, and then it is set. Motions of semidefinite problems that cost nothing
+    /// come out very long: what is not admissible is shortened as a whole there, so that they stay motions,
+    /// with a search or without. Returns what add_better() does, or zero.
+    double correct();
+
+    /// Adds the coarse correction in `step`, of which `length` is admissible, with exact line search. What is
+    /// not admissible is cut off node by node or the whole is shortened, whichever lowers the energy more.
+    /// Returns the energy norm of what was cut off or shortened, before that; zero where nothing was, and for
+    /// semidefinite problems.
     double add_better(const double length);
 
     MultigridHierarchy    &hierarchy;
@@ -75,7 +87,8 @@ namespace Signorini
     Vector                 coarse_defect, coarse_correction;
     /// b - A (v + z); a coarse correction on the finest level.
     Vector new_residual, step;
-    bool   searched = false, keeps_active = false;
+    /// Whether the coarse correction was searched; whether the active set is that from before the run.
+    bool searched = false, keeps_active = false;
     /// Energy norm of a coarse correction of which something was cut off or shortened; else zero.
     double cut_off = 0.;
   };
