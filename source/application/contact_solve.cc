@@ -51,7 +51,7 @@ namespace Signorini
 
     /// @param start null, or what the active set is guessed from
     std::unique_ptr<MultigridHierarchy> make_hierarchy(LinearSystem &&system, const LevelSpaces &levels,
-                                                       const ContactModel &model, const Discretization &d,
+                                                       const Discretization   &d,
                                                        const SolverParameters &parameters,
                                                        HierarchyOptions        options)
     {
@@ -61,7 +61,6 @@ namespace Signorini
       options.level_zero          = parameters.level_zero;
       options.level_zero_steps    = parameters.level_zero_steps;
       options.free_motions        = d.free_motions();
-      options.bodies              = &model.bodies();
       options.tied                = d.tied;
       options.has_stiff_nonmortar = has_stiff_nonmortar(d);
       // Corrections of a slow interface, for a stiff nonmortar side, are linear ones on the coarser levels,
@@ -160,7 +159,7 @@ namespace Signorini
       HierarchyOptions options;
       options.problem  = &problem;
       options.start    = start != nullptr ? &result.v : nullptr;
-      result.hierarchy = make_hierarchy(std::move(system), *result.levels, model, d, parameters, options);
+      result.hierarchy = make_hierarchy(std::move(system), *result.levels, d, parameters, options);
       return result;
     }
 
@@ -173,8 +172,8 @@ namespace Signorini
       MultigridHierarchy  &hierarchy = *algebraic.hierarchy;
       const NodePartition &partition = hierarchy.finest().matrix.partition();
       if (parameters.method == SolverMethod::active_set_amg)
-        problem.near_kernel =
-            rigid_motions(d.nodal(), partition, hierarchy.finest().fixed, d.coupling, d.projections);
+        problem.near_kernel = rigid_motions(node_places(model.bodies(), d.nodal()).positions, partition,
+                                            hierarchy.finest().fixed, d.coupling, d.projections);
       const auto solver = make_solver(hierarchy, parameters);
       report            = solver->solve(algebraic.v, problem, make_monitor(parameters.tolerance, journal));
       if (!d.free_motions().empty())

@@ -74,7 +74,6 @@ namespace Signorini
     options.level_zero           = parameters.level_zero;
     options.level_zero_steps     = parameters.level_zero_steps;
     options.free_motions         = d.free_motions();
-    options.bodies               = &model.bodies();
     MultigridHierarchy hierarchy = build_hierarchy(std::move(system), task.levels, none, no_rows, options);
     // Both linear solves need it.
     hierarchy.coarse_solver();

@@ -1,5 +1,5 @@
 signorini_add_layer(discretization
-  basis_transformation.cc
+  background_levels.cc background_octree.cc basis_transformation.cc
   boundary_conditions.cc
   coarse_contact.cc
   elasticity.cc

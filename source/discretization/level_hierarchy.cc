@@ -148,22 +148,61 @@ namespace Signorini
 
 
 
-  LevelSpaces::LevelSpaces(const NodalSpace &finest, std::vector<std::shared_ptr<const NodalSpace>> coarser,
-                           const Bodies &bodies, const Loads &loads)
-    : finest(finest)
-    , coarse(std::move(coarser))
+  namespace
   {
-    for (unsigned int l = 0; l < n_levels(); ++l)
+    /// Fixed masks of the owned nodes; hanging ones are fixed.
+    std::vector<FixedMask> fixed_masks(const NodalSpace &space, const Loads &loads)
+    {
+      const DirichletData    dirichlet = evaluate_dirichlet(space, loads, false);
+      std::vector<FixedMask> masks;
+      for (const NodeIndex node : space.owned())
+        masks.push_back(space.hanging_nodes().is_constrained(node)
+                            ? all_fixed
+                            : dirichlet.mask[space.relevant().index_within_set(node)]);
+      return masks;
+    }
+  } // namespace
+
+
+
+  LevelSpaces::LevelSpaces(const NodalSpace &finest, std::vector<std::shared_ptr<const NodalSpace>> coarser,
+                           const Bodies &bodies, const Loads &loads, const CoarseLevels coarse_levels)
+  {
+    const NodalSpace *below = nullptr;
+    const auto        add   = [&](const NodalSpace &space) {
+      std::vector<FixedMask> fixed = fixed_masks(space, loads);
+      if (below != nullptr)
+        rows.push_back(interpolation_rows(space, *below, bodies.tetrahedra()));
+      else if (coarse_levels == CoarseLevels::background ||
+               (coarse_levels == CoarseLevels::automatic && LevelZero().uses_amg(space.n_conforming_nodes())))
+        add_background(background_levels(space, fixed, bodies));
+      if (owned_nodes.empty())
+        places = node_places(bodies, space);
+      owned_nodes.push_back(space.owned());
+      masks.push_back(std::move(fixed));
+      below = &space;
+    };
+    for (const auto &space : coarser)
+      add(*space);
+    add(finest);
+  }
+
+
+
+  void LevelSpaces::add_background(std::vector<DistributedBackgroundLevel> &&levels)
+  {
+    std::reverse(levels.begin(), levels.end());
+    n_background = static_cast<unsigned int>(levels.size());
+    for (DistributedBackgroundLevel &level : levels)
       {
-        const NodalSpace   &s         = space(l);
-        const DirichletData dirichlet = evaluate_dirichlet(s, loads, false);
-        masks.emplace_back();
-        for (const NodeIndex node : s.owned())
-          masks.back().push_back(s.hanging_nodes().is_constrained(node)
-                                     ? all_fixed
-                                     : dirichlet.mask[s.relevant().index_within_set(node)]);
-        if (l > 0)
-          rows.push_back(interpolation_rows(s, space(l - 1), bodies.tetrahedra()));
+        if (owned_nodes.empty())
+          {
+            places.positions = std::move(level.positions);
+            places.parts.assign(level.parts.begin(), level.parts.end());
+          }
+        masks.emplace_back(level.owned.n_elements(), 0);
+        owned_nodes.push_back(std::move(level.owned));
+        rows.push_back(std::move(level.rows));
       }
   }
 
@@ -301,13 +340,13 @@ namespace Signorini
 
 
 
-  std::vector<Vector> rigid_motions(const NodalSpace &space, const NodePartition &partition,
+  std::vector<Vector> rigid_motions(const std::vector<Point<3>> &positions, const NodePartition &partition,
                                     const std::vector<FixedMask> &fixed, const InterfaceCoupling &coupling,
                                     const std::vector<RowProjection> &projections)
   {
     Point<3> centre;
     for (unsigned int i = 0; i < partition.n_owned(); ++i)
-      centre += Vector3(space.position(partition.to_global(i)));
+      centre += Vector3(positions[i]);
     for (unsigned int c = 0; c < dim; ++c)
       centre[c] = Utilities::MPI::sum(centre[c], partition.communicator()) /
                   static_cast<double>(partition.n_global());
@@ -319,7 +358,7 @@ namespace Signorini
         partition.reinit(motions[m]);
         for (unsigned int i = 0; i < partition.n_owned(); ++i)
           {
-            const Vector3 u = motion(space.position(partition.to_global(i)));
+            const Vector3 u = motion(positions[i]);
             for (unsigned int c = 0; c < dim; ++c)
               motions[m].local_element(dim * i + c) = u[c];
           }
@@ -386,21 +425,34 @@ namespace Signorini
       if (!options.coarse_obstacles)
         drop_small_weights(coarse);
       CoarserLevel result;
-      result.owned = spaces.space(level - 1).owned();
+      result.owned = spaces.owned(level - 1);
       result.fixed = spaces.fixed(level - 1);
       const NodePartition        partition(result.owned, IndexSet(result.owned.size()), finer.communicator());
       std::vector<RowProjection> projections =
           coarsen_projections(fine_projections, fine, nodes, node_rows, coarse,
                               replicate_masks(partition, result.fixed, coarse.rows));
-      const bool                       is_finest = level + 1 == spaces.n_levels();
       const std::vector<unsigned char> none_tied;
-      const auto                       block_rows =
-          transformed_rows(finer, rows,
-                           {fine, fine_projections, nodes, node_rows, coarse, projections,
-                            options.coarse_obstacles, is_finest ? options.tied : none_tied});
+      ContactOfLevels                  contact{fine,
+                              fine_projections,
+                              nodes,
+                              node_rows,
+                              coarse,
+                              projections,
+                              options.coarse_obstacles,
+                              level + 1 == spaces.n_levels() ? options.tied : none_tied,
+                              {},
+                              {}};
+      if (!spaces.is_nested(level - 1))
+        {
+          contact.fixed      = import_ghost_masks(finer, spaces.fixed(level));
+          contact.node_fixed = replicate_masks(finer, spaces.fixed(level), nodes);
+          half_spaces        = RowHalfSpaces();
+        }
+      const auto block_rows = transformed_rows(finer, rows, contact);
       result.transfer.reinit(std::move(rows), block_rows, finer.n_owned());
       if (options.coarse_obstacles)
         result.contact = contact_nodes(coarse, projections, partition);
+      // Background levels have no nodes in common with a mesh, of which they could take bounds.
       if (!half_spaces.normals.empty())
         {
           half_spaces        = inject_half_spaces(half_spaces, fine, nodes, node_rows, coarse, projections);
@@ -410,6 +462,8 @@ namespace Signorini
       fine_projections = std::move(projections);
       --level;
       result.interface = interface();
+      if (level < spaces.n_background_levels())
+        result.correction = {2, true};
       return result;
     }
 
@@ -425,15 +479,14 @@ namespace Signorini
         result.contact = contact_nodes(fine, fine_projections, coarsest);
       if (!options.free_motions.empty())
         {
-          result.free_motions =
-              motion_fields(options.free_motions, *options.bodies, spaces.space(0), coarsest);
+          result.free_motions = motion_fields(options.free_motions, spaces.coarsest_places(), coarsest);
           for (Vector &motion : result.free_motions)
             make_relative(motion, coarsest, spaces.fixed(0), fine, fine_projections);
           orthonormalize(result.free_motions);
         }
       if (result.uses_amg(coarsest.n_global()))
-        result.near_kernel =
-            rigid_motions(spaces.space(0), coarsest, spaces.fixed(0), fine, fine_projections);
+        result.near_kernel = rigid_motions(spaces.coarsest_places().positions, coarsest, spaces.fixed(0),
+                                           fine, fine_projections);
       return result;
     }
   } // namespace

@@ -115,27 +115,46 @@ namespace Signorini
 
 
 
-  std::vector<Vector> motion_fields(const std::vector<FreeMotion> &motions, const Bodies &bodies,
-                                    const NodalSpace &space, const NodePartition &partition)
+  NodePlaces node_places(const Bodies &bodies, const NodalSpace &space)
   {
     std::vector<FreeMotion> frames;
     const auto              part_of_node = find_parts(frames, bodies, space);
-    std::vector<Vector>     fields(motions.size());
+    NodePlaces              result;
+    for (const NodeIndex node : space.owned())
+      {
+        result.positions.push_back(space.position(node));
+        result.parts.push_back(part_of_node[space.relevant().index_within_set(node)]);
+      }
+    return result;
+  }
+
+
+
+  std::vector<Vector> motion_fields(const std::vector<FreeMotion> &motions, const NodePlaces &places,
+                                    const NodePartition &partition)
+  {
+    std::vector<Vector> fields(motions.size());
     for (std::size_t m = 0; m < motions.size(); ++m)
       {
         partition.reinit(fields[m]);
         for (unsigned int i = 0; i < partition.n_owned(); ++i)
-          {
-            const NodeIndex node = partition.to_global(i);
-            if (part_of_node[space.relevant().index_within_set(node)] != static_cast<int>(motions[m].part))
-              continue;
-            const Vector3 u = motions[m](space.position(node));
-            for (unsigned int c = 0; c < dim; ++c)
-              fields[m].local_element(dim * i + c) = u[c];
-          }
+          if (places.parts[i] == static_cast<int>(motions[m].part))
+            {
+              const Vector3 u = motions[m](places.positions[i]);
+              for (unsigned int c = 0; c < dim; ++c)
+                fields[m].local_element(dim * i + c) = u[c];
+            }
         fields[m].update_ghost_values();
       }
     return fields;
+  }
+
+
+
+  std::vector<Vector> motion_fields(const std::vector<FreeMotion> &motions, const Bodies &bodies,
+                                    const NodalSpace &space, const NodePartition &partition)
+  {
+    return motion_fields(motions, node_places(bodies, space), partition);
   }
 
 

@@ -50,7 +50,7 @@ namespace Signorini
       /// Whether a local node has a row of its own.
       bool differs(const unsigned int local, const NodeIndex node) const
       {
-        if (find_fine(node) >= 0)
+        if (find_fine(node) >= 0 || fixed(contact.fixed, local) != 0)
           return true;
         for (std::size_t k = rows.start[local]; k < rows.start[local + 1]; ++k)
           if (find_coarse(rows.columns[k]) >= 0)
@@ -66,17 +66,41 @@ namespace Signorini
         if (p >= 0 && contact.relative_only)
           return make_turned(local, contact.fine_projections[p]);
         sums.clear();
-        add(rows, local, 1., RowProjection());
+        add(rows, local, 1., Factor(RowProjection(), fixed(contact.fixed, local)));
         if (p >= 0)
           for (const auto *entry = contact.fine.begin(p); entry != contact.fine.end(p); ++entry)
             {
-              const auto q = std::lower_bound(contact.nodes.begin(), contact.nodes.end(), entry->node);
-              add(contact.node_rows, q - contact.nodes.begin(), -entry->weight, contact.fine_projections[p]);
+              const auto q = std::lower_bound(contact.nodes.begin(), contact.nodes.end(), entry->node) -
+                             contact.nodes.begin();
+              add(contact.node_rows, q, -entry->weight,
+                  Factor(contact.fine_projections[p], fixed(contact.node_fixed, q)));
             }
         return row_of_sums(local);
       }
 
     private:
+      /// A_p E_q, with a look at whether it is the identity.
+      struct Factor
+      {
+        explicit Factor(const RowProjection &projection, const FixedMask mask)
+          : is_identity(projection.is_identity() && mask == 0)
+          , block(projection.block())
+        {
+          for (unsigned int c = 0; c < dim; ++c)
+            for (unsigned int d = 0; d < dim; ++d)
+              if (mask & (1u << d))
+                block[c][d] = 0.;
+        }
+
+        bool  is_identity;
+        Block block;
+      };
+
+      static FixedMask fixed(const std::vector<FixedMask> &masks, const std::size_t i)
+      {
+        return masks.empty() ? FixedMask(0) : masks[i];
+      }
+
       std::ptrdiff_t find_fine(const NodeIndex node) const
       {
         return fine_nodes.may_contain(node) ? contact.fine.find(node) : -1;
@@ -102,33 +126,36 @@ namespace Signorini
         return result;
       }
 
-      /// Adds factor * A_fine * (row of P) * T_coarse.
-      void add(const NodeRows &from, const std::size_t row, const double factor, const RowProjection &fine)
+      /// Adds weight * left * (row of P) * T_coarse.
+      void add(const NodeRows &from, const std::size_t row, const double weight, const Factor &left)
       {
         for (std::size_t k = from.start[row]; k < from.start[row + 1]; ++k)
           {
-            const double weight = factor * from.weights[k];
-            add_entry(from.columns[k], weight, fine);
+            const double w = weight * from.weights[k];
+            add_entry(from.columns[k], w, left);
             const std::ptrdiff_t c = find_coarse(from.columns[k]);
             if (c < 0)
               continue;
             const RowProjection &coarse = contact.coarse_projections[c];
+            Factor               product(coarse, 0);
+            if (!left.is_identity)
+              {
+                product.block       = left.block * product.block;
+                product.is_identity = false;
+              }
             for (const auto *entry = contact.coarse.begin(c); entry != contact.coarse.end(c); ++entry)
-              if (fine.is_identity())
-                add_entry(entry->node, weight * entry->weight, coarse);
-              else
-                sums[entry->node] += (weight * entry->weight) * (fine.block() * coarse.block());
+              add_entry(entry->node, w * entry->weight, product);
           }
       }
 
-      void add_entry(const NodeIndex column, const double weight, const RowProjection &projection)
+      void add_entry(const NodeIndex column, const double weight, const Factor &factor)
       {
         Block &sum = sums[column];
-        if (projection.is_identity())
+        if (factor.is_identity)
           for (unsigned int c = 0; c < dim; ++c)
             sum[c][c] += weight;
         else
-          sum += weight * projection.block();
+          sum += weight * factor.block;
       }
 
       static bool is_multiple_of_identity(const Block &block)

@@ -155,6 +155,7 @@ namespace Signorini
     levels.push_back(std::make_unique<MultigridLevel>());
     MultigridLevel &level = *levels.back();
     level.to_finer        = std::move(description.transfer);
+    level.correction      = description.correction;
     level.contact         = std::move(description.contact);
     level.half_spaces     = std::move(description.half_spaces);
     reinit_galerkin(level.matrix, fine, level.to_finer, description.owned);

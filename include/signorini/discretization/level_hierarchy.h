@@ -7,6 +7,7 @@
 #include <signorini/algebra/interface_coupling.h>
 #include <signorini/algebra/replicated_data.h>
 #include <signorini/algebra/row_projection.h>
+#include <signorini/discretization/background_levels.h>
 #include <signorini/discretization/elasticity.h>
 #include <signorini/discretization/rigid_support.h>
 #include <signorini/mesh/coarser_meshes.h>
@@ -24,26 +25,48 @@ namespace Signorini
   NodeRows interpolation_rows(const NodalSpace &fine, const NodalSpace &coarse,
                               const TetrahedralForest *const forest);
 
-  /// The nodal spaces on the meshes of the hierarchy, and the interpolation between
-  /// consecutive levels.
+  /// What levels there are below the coarsest mesh.
+  enum class CoarseLevels
+  {
+    /// Background levels where the coarsest mesh is too large for sparse factors.
+    automatic,
+    background,
+    none
+  };
+
+  /// The levels of the hierarchy as nodes and the interpolation between consecutive ones: the meshes, and
+  /// below the coarsest one background levels, if wanted.
   class LevelSpaces
   {
   public:
     /// Collective. The coarser spaces (CoarserSpaces::update()) come coarsest first. The finest must outlive
     /// the object.
     LevelSpaces(const NodalSpace &finest, std::vector<std::shared_ptr<const NodalSpace>> coarser,
-                const Bodies &bodies, const Loads &loads);
+                const Bodies &bodies, const Loads &loads,
+                const CoarseLevels coarse_levels = CoarseLevels::automatic);
 
     /// Level 0 is the coarsest.
     unsigned int n_levels() const
     {
-      return static_cast<unsigned int>(coarse.size()) + 1;
+      return static_cast<unsigned int>(owned_nodes.size());
     }
 
-    /// The space of a level.
-    const NodalSpace &space(const unsigned int level) const
+    /// How many of the levels have no meshes.
+    unsigned int n_background_levels() const
     {
-      return level + 1 == n_levels() ? finest : *coarse[level];
+      return n_background;
+    }
+
+    /// The nodes of a level.
+    const dealii::IndexSet &owned(const unsigned int level) const
+    {
+      return owned_nodes[level];
+    }
+
+    /// Where the owned nodes of level 0 are.
+    const NodePlaces &coarsest_places() const
+    {
+      return places;
     }
 
     /// Rows of the owned nodes of level `level` on level - 1.
@@ -58,11 +81,21 @@ namespace Signorini
       return masks[level];
     }
 
+    /// Whether the functions of a level are zero where components of the next finer one are fixed: all but
+    /// those under a mesh.
+    bool is_nested(const unsigned int level) const
+    {
+      return level + 1 != n_background;
+    }
+
   private:
-    const NodalSpace                              &finest;
-    std::vector<std::shared_ptr<const NodalSpace>> coarse;
-    std::vector<NodeRows>                          rows;
-    std::vector<std::vector<FixedMask>>            masks;
+    void add_background(std::vector<DistributedBackgroundLevel> &&levels);
+
+    std::vector<dealii::IndexSet>       owned_nodes;
+    std::vector<NodeRows>               rows;
+    std::vector<std::vector<FixedMask>> masks;
+    NodePlaces                          places;
+    unsigned int                        n_background = 0;
   };
 
   /// The transfer operator on the next coarser level (doc/algorithm.md, (36)):
@@ -86,7 +119,6 @@ namespace Signorini
     LevelZeroMethod level_zero       = LevelZeroMethod::automatic;
     /// Motions of bodies that only contact holds.
     std::vector<FreeMotion> free_motions;
-    const Bodies           *bodies = nullptr;
     /// One per row of the coupling: rows that are tied move on the finest level only (not at all). Empty:
     /// none.
     std::vector<unsigned char> tied;
@@ -108,10 +140,12 @@ namespace Signorini
                                      const std::vector<RowProjection> &projections,
                                      const HierarchyOptions           &options = {});
 
-  /// Collective. The six rigid motions as v = T⁻¹ u, zero in fixed components, in the layout of a partition
-  /// of the nodes of the space: what algebraic multigrid needs to know.
-  std::vector<Vector> rigid_motions(const NodalSpace &space, const NodePartition &partition,
-                                    const std::vector<FixedMask> &fixed, const InterfaceCoupling &coupling,
+  /// Collective. The six rigid motions as v = T⁻¹ u, zero in fixed components, in the layout of a partition:
+  /// what algebraic multigrid needs to know.
+  /// @param positions of its owned nodes
+  std::vector<Vector> rigid_motions(const std::vector<dealii::Point<3>> &positions,
+                                    const NodePartition &partition, const std::vector<FixedMask> &fixed,
+                                    const InterfaceCoupling          &coupling,
                                     const std::vector<RowProjection> &projections);
 } // namespace Signorini
 

@@ -36,8 +36,24 @@ namespace Signorini
   std::vector<FreeMotion> free_motions(const Bodies &bodies, const NodalSpace &space,
                                        const DirichletData &dirichlet);
 
-  /// Collective. The displacements of the motions, each zero on all other parts, on a partition of the nodes
-  /// of the space; ghosts up to date.
+  /// Owned nodes of a level.
+  struct NodePlaces
+  {
+    std::vector<dealii::Point<3>> positions;
+    /// Bodies::part(), or -1 at nodes of no owned cell.
+    std::vector<int> parts;
+  };
+
+  /// Collective. Those of a space.
+  NodePlaces node_places(const Bodies &bodies, const NodalSpace &space);
+
+  /// Collective. The displacements of the motions, each zero on all other parts, on a partition of the nodes;
+  /// ghosts up to date.
+  /// @param places of its owned nodes
+  std::vector<Vector> motion_fields(const std::vector<FreeMotion> &motions, const NodePlaces &places,
+                                    const NodePartition &partition);
+
+  /// Collective. The same on the nodes of a space.
   std::vector<Vector> motion_fields(const std::vector<FreeMotion> &motions, const Bodies &bodies,
                                     const NodalSpace &space, const NodePartition &partition);
 

@@ -28,11 +28,15 @@ namespace Signorini
     bool relative_only;
     /// One per row of the fine coupling, or empty: rows that are zero, because their nodes are tied.
     const std::vector<unsigned char> &tied;
+    /// Fixed components of the local nodes of the finer level, and of `nodes`; empty where the coarse
+    /// functions are zero in them anyway.
+    std::vector<FixedMask> fixed, node_fixed;
   };
 
-  /// The rows of P̂ = (I - A S) P (I + A_c S_c) that differ from those of P, for the local nodes of the fine
-  /// level (doc/algorithm.md, (34)). With relative_only the rows of contact nodes have relative displacements
-  /// only, turned from the coarse normals to the fine one, n·v = sum w n_c·v_c: what coarse obstacles need.
+  /// The rows of P̂ = (I - A S) E P (I + A_c S_c), E = I but in fixed components, that differ from those of P,
+  /// for the local nodes of the fine level (doc/algorithm.md, (34)). With relative_only the rows of contact
+  /// nodes have relative displacements only, turned from the coarse normals to the fine one, n·v = sum w
+  /// n_c·v_c: what coarse obstacles need.
   /// @param rows the rows of P of the local nodes
   std::vector<NodalTransfer::BlockRow> transformed_rows(const NodePartition &partition, const NodeRows &rows,
                                                         const ContactOfLevels &contact);

@@ -15,6 +15,17 @@
 
 namespace Signorini
 {
+  /// How the correction of a level is found.
+  struct LevelCorrection
+  {
+    /// V-cycles, one after the other: two on all levels make a W-cycle. Level 0 has one.
+    unsigned int n_cycles = 1;
+    /// Whether it gets the length that minimizes the energy of the level, which costs no product. Functions
+    /// that are coarser than the body is thick, and those of no mesh, return too short a correction. The
+    /// cycle is not a linear function of the residual then.
+    bool exact_step = false;
+  };
+
   /// One level: its matrix, its smoother, and the prolongation from it to the next finer level.
   struct MultigridLevel
   {
@@ -30,7 +41,8 @@ namespace Signorini
     /// empty.
     HalfSpaces half_spaces;
     /// From this level to the finer one; unused on the finest level.
-    NodalTransfer to_finer;
+    NodalTransfer   to_finer;
+    LevelCorrection correction;
     /// The largest diagonal entry when the level was built.
     double scale = 0.;
     /// One per half-space: where the prolongation to this level is truncated.
@@ -57,7 +69,8 @@ namespace Signorini
     /// Contact nodes of both sides.
     LevelInterface interface;
     /// See MultigridLevel.
-    HalfSpaces contact, half_spaces;
+    HalfSpaces      contact, half_spaces;
+    LevelCorrection correction;
   };
 
 

@@ -29,11 +29,18 @@ namespace Signorini
       Vector solution, rhs;
       /// After pre-smoothing, then the coarse correction.
       Vector residual;
+      /// Of levels with several cycles or an exact step: what the first cycle left of the right hand side,
+      /// what the second left, and its correction.
+      Vector left, left_after, second;
       /// Corrections are free.
       ContactState free;
     };
 
+    /// The correction of a level as it asks for it (LevelCorrection).
     /// @param new_residual null, or where to leave rhs - A solution
+    void correct(const unsigned int level, Vector &solution, const Vector &rhs, Vector *const new_residual);
+
+    /// One cycle.
     void run(const unsigned int level, Vector &solution, const Vector &rhs, Vector *const new_residual);
 
     MultigridHierarchy       &hierarchy;
