@@ -58,6 +58,45 @@ namespace Signorini
         for (std::size_t k = transfer.row_begin(i); k < transfer.row_end(i); ++k)
           rows[next[transfer.column(k)]++] = i;
     }
+
+
+
+    /// The sparsity of Pᵀ A P, of owned rows and of those of other ranks that owned fine rows contribute to.
+    NodePattern coarse_pattern(const NodeBlockMatrix &matrix, const NodalTransfer &transfer,
+                               const NodePartition &coarse)
+    {
+      std::vector<std::size_t>  product_start, fine_start(coarse.n_local() + 1, 0);
+      std::vector<unsigned int> product_columns, fine_rows;
+      if (matrix.n_rows() > 0)
+        {
+          product_pattern(product_start, product_columns, matrix, transfer, coarse.n_local());
+          transpose_pattern(fine_start, fine_rows, transfer, coarse.n_local());
+        }
+      NodePattern               pattern;
+      std::vector<unsigned int> seen(coarse.n_local(), numbers::invalid_unsigned_int);
+      std::vector<unsigned int> columns(coarse.n_local() + 1);
+      for (unsigned int row = 0; row < coarse.n_local(); ++row)
+        {
+          if (row >= coarse.n_owned())
+            {
+              if (fine_start[row] == fine_start[row + 1])
+                continue;
+              pattern.foreign_rows.push_back(coarse.to_global(row));
+            }
+          unsigned int n = 0;
+          for (std::size_t l = fine_start[row]; l < fine_start[row + 1]; ++l)
+            for (std::size_t k = product_start[fine_rows[l]]; k < product_start[fine_rows[l] + 1]; ++k)
+              {
+                columns[n] = product_columns[k];
+                n += seen[product_columns[k]] != row;
+                seen[product_columns[k]] = row;
+              }
+          for (unsigned int k = 0; k < n; ++k)
+            pattern.columns.push_back(coarse.to_global(columns[k]));
+          pattern.row_start.push_back(pattern.columns.size());
+        }
+      return pattern;
+    }
   } // namespace
 
 
@@ -69,44 +108,8 @@ namespace Signorini
     const IndexSet foreign      = transfer.foreign_coarse_nodes(owned_coarse_nodes);
     const auto     coarse       = std::make_shared<NodePartition>(owned_coarse_nodes, foreign, communicator);
     transfer.localize(coarse);
-
-    std::vector<std::size_t>  product_start, fine_start;
-    std::vector<unsigned int> product_columns, fine_rows;
-    if (matrix.n_rows() > 0)
-      {
-        product_pattern(product_start, product_columns, matrix, transfer, coarse->n_local());
-        transpose_pattern(fine_start, fine_rows, transfer, coarse->n_local());
-      }
-    else
-      fine_start.assign(coarse->n_local() + 1, 0);
-
-    NodePattern               pattern;
-    std::vector<unsigned int> seen(coarse->n_local(), numbers::invalid_unsigned_int);
-    std::vector<unsigned int> columns(coarse->n_local() + 1);
-    for (unsigned int row = 0; row < coarse->n_local(); ++row)
-      {
-        if (row >= coarse->n_owned())
-          {
-            if (fine_start[row] == fine_start[row + 1])
-              continue;
-            pattern.foreign_rows.push_back(coarse->to_global(row));
-          }
-        unsigned int n = 0;
-        for (std::size_t l = fine_start[row]; l < fine_start[row + 1]; ++l)
-          for (std::size_t k = product_start[fine_rows[l]]; k < product_start[fine_rows[l] + 1]; ++k)
-            {
-              const unsigned int column = product_columns[k];
-              columns[n]                = column;
-              n += seen[column] != row;
-              seen[column] = row;
-            }
-        for (unsigned int k = 0; k < n; ++k)
-          pattern.columns.push_back(coarse->to_global(columns[k]));
-        pattern.row_start.push_back(pattern.columns.size());
-      }
-    product_columns = std::vector<unsigned int>();
-    fine_rows       = std::vector<unsigned int>();
-    coarse_matrix.reinit(owned_coarse_nodes, pattern, foreign, communicator);
+    coarse_matrix.reinit(owned_coarse_nodes, coarse_pattern(matrix, transfer, *coarse), foreign,
+                         communicator);
     transfer.localize(coarse_matrix.shared_partition());
   }
 
@@ -140,37 +143,51 @@ namespace Signorini
       return block;
     }
 
-    /// blocks += Σ_k A_k P_k: the blocks of a range of a row of A times scalar rows of P. Returns the number
-    /// of columns, n_columns of which were there before.
-    SIGNORINI_VECTORIZED
-    unsigned int multiply_scalar_rows(double *const blocks, int *const place, unsigned int *const columns,
-                                      unsigned int n_columns, const double *const a,
-                                      const unsigned int *const rows, const BlockRange range,
-                                      const std::size_t *const row_start, const unsigned int *const p_columns,
-                                      const double *const p_weights)
+    /// Blocks of a matrix with their columns, all rows of a scalar transfer.
+    struct Factors
     {
+      const double       *blocks;
+      const unsigned int *columns;
+      const std::size_t  *row_start;
+      const unsigned int *p_columns;
+      const double       *p_weights;
+    };
+
+    /// row += Σ_k A_k P_k: the blocks of a range of a row of A times scalar rows of P. Returns the number of
+    /// columns, n_columns of which were there before.
+    SIGNORINI_VECTORIZED
+    unsigned int multiply_scalar_rows(Row &row, unsigned int n_columns, const Factors &factors,
+                                      const BlockRange range)
+    {
+      // Copies: what is written to the row could change what is behind a reference.
+      const Factors       f       = factors;
+      double *const       blocks  = row.blocks.data();
+      int *const          place   = row.place.data();
+      unsigned int *const columns = row.columns.data();
       for (std::size_t k = range.begin; k < range.end; ++k)
-        for (std::size_t l = row_start[rows[k]]; l < row_start[rows[k] + 1]; ++l)
-          add_scaled_block(find(blocks, place, columns, n_columns, p_columns[l]), p_weights[l],
-                           a + n_entries * k);
+        for (std::size_t l = f.row_start[f.columns[k]]; l < f.row_start[f.columns[k] + 1]; ++l)
+          add_scaled_block(find(blocks, place, columns, n_columns, f.p_columns[l]), f.p_weights[l],
+                           f.blocks + n_entries * k);
       return n_columns;
     }
 
-    /// A row of the coarse matrix += weight * row.
+    /// A row of the coarse matrix += weight * row, also where the row is zero: cheaper than a branch that is
+    /// hard to predict.
     SIGNORINI_VECTORIZED
     void add_row(double *const sums, const unsigned int *const columns, const std::size_t n,
-                 const double weight, const double *const blocks, const int *const place,
-                 const bool is_sparse)
+                 const double weight, const double *const blocks, const int *const place)
     {
-      if (is_sparse)
-        {
-          for (std::size_t k = 0; k < n; ++k)
-            if (place[columns[k]] != 0)
-              add_scaled_block(sums + n_entries * k, weight, blocks + place[columns[k]]);
-        }
-      else
-        // Also where the row is zero: cheaper than a branch that is hard to predict.
-        for (std::size_t k = 0; k < n; ++k)
+      for (std::size_t k = 0; k < n; ++k)
+        add_scaled_block(sums + n_entries * k, weight, blocks + place[columns[k]]);
+    }
+
+    /// The same for a row that is zero nearly everywhere.
+    SIGNORINI_VECTORIZED
+    void add_sparse_row(double *const sums, const unsigned int *const columns, const std::size_t n,
+                        const double weight, const double *const blocks, const int *const place)
+    {
+      for (std::size_t k = 0; k < n; ++k)
+        if (place[columns[k]] != 0)
           add_scaled_block(sums + n_entries * k, weight, blocks + place[columns[k]]);
     }
 
@@ -199,44 +216,26 @@ namespace Signorini
 
       void compute(const NodeBlockMatrix &matrix, const NodalTransfer &transfer, const unsigned int i)
       {
-        for (const unsigned int column : row.columns)
-          row.place[column] = 0;
-        const auto  ranges  = matrix.ranges(i);
-        std::size_t n_terms = 0;
-        for (const BlockRange &range : ranges)
-          for (std::size_t k = range.begin; k < range.end; ++k)
-            n_terms += transfer.row_end(matrix.column(k)) - transfer.row_begin(matrix.column(k));
-        row.columns.resize(n_terms);
-        // Never made shorter: growing again would fill it with zeros.
-        if (row.blocks.size() < n_entries * (n_terms + 1))
-          row.blocks.resize(n_entries * (n_terms + 1));
-        std::fill_n(row.blocks.begin(), n_entries, 0.);
-        unsigned int n_columns = 0;
-        for (const BlockRange &range : ranges)
+        clear(matrix, transfer, i);
+        const GalerkinKernels::Factors factors{matrix.block_data(), matrix.column_data(),
+                                               transfer.row_start_data(), transfer.column_data(),
+                                               transfer.weight_data()};
+        unsigned int                   n_columns = 0;
+        for (const BlockRange &range : matrix.ranges(i))
           for (std::size_t k = range.begin; k < range.end;)
             {
               std::size_t end = k;
               while (end < range.end && is_scalar(transfer, matrix.column(end)))
                 ++end;
               if (end > k)
-                n_columns = GalerkinKernels::multiply_scalar_rows(
-                    row.blocks.data(), row.place.data(), row.columns.data(), n_columns, matrix.block_data(),
-                    matrix.column_data(), {k, end}, transfer.row_start_data(), transfer.column_data(),
-                    transfer.weight_data());
+                n_columns = GalerkinKernels::multiply_scalar_rows(row, n_columns, factors, {k, end});
               if (end < range.end)
                 multiply_row(n_columns, matrix, transfer, end++);
               k = end;
             }
         row.columns.resize(n_columns);
         if (const Vector3 *const n = transfer.plane(i))
-          for (std::size_t b = 1; b <= row.columns.size(); ++b)
-            for (unsigned int d = 0; d < dim; ++d)
-              {
-                double *const x      = row.blocks.data() + n_entries * b + d;
-                const double  normal = (*n)[0] * x[0] + (*n)[1] * x[dim] + (*n)[2] * x[2 * dim];
-                for (unsigned int c = 0; c < dim; ++c)
-                  x[dim * c] -= normal * (*n)[c];
-              }
+          restrict_to_plane(*n);
       }
 
       /// Adds weight * this row, or pᵀ times this row, to a row of the coarse matrix: its upper half if it is
@@ -247,8 +246,9 @@ namespace Signorini
         const bool is_sparse = coarse.row_length(coarse_row) > 4 * row.columns.size();
         for (const BlockRange &range : coarse.upper_half(coarse_row))
           if (p == nullptr)
-            GalerkinKernels::add_row(coarse.block(range.begin), coarse.column_data() + range.begin,
-                                     range.size(), weight, row.blocks.data(), row.place.data(), is_sparse);
+            (is_sparse ? GalerkinKernels::add_sparse_row : GalerkinKernels::add_row)(
+                coarse.block(range.begin), coarse.column_data() + range.begin, range.size(), weight,
+                row.blocks.data(), row.place.data());
           else if (is_diagonal(*p))
             {
               const double w[dim] = {(*p)[0][0], (*p)[1][1], (*p)[2][2]};
@@ -283,6 +283,34 @@ namespace Signorini
         return transfer.row_blocks(row) == nullptr && transfer.plane(row) == nullptr;
       }
 
+      /// Forgets the last row, with room for row i.
+      void clear(const NodeBlockMatrix &matrix, const NodalTransfer &transfer, const unsigned int i)
+      {
+        for (const unsigned int column : row.columns)
+          row.place[column] = 0;
+        std::size_t n_terms = 0;
+        for (const BlockRange &range : matrix.ranges(i))
+          for (std::size_t k = range.begin; k < range.end; ++k)
+            n_terms += transfer.row_end(matrix.column(k)) - transfer.row_begin(matrix.column(k));
+        row.columns.resize(n_terms);
+        // Never made shorter: growing again would fill it with zeros.
+        if (row.blocks.size() < n_entries * (n_terms + 1))
+          row.blocks.resize(n_entries * (n_terms + 1));
+        std::fill_n(row.blocks.begin(), n_entries, 0.);
+      }
+
+      void restrict_to_plane(const Vector3 &n)
+      {
+        for (std::size_t b = 1; b <= row.columns.size(); ++b)
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              double *const x      = row.blocks.data() + n_entries * b + d;
+              const double  normal = n[0] * x[0] + n[1] * x[dim] + n[2] * x[2 * dim];
+              for (unsigned int c = 0; c < dim; ++c)
+                x[dim * c] -= normal * n[c];
+            }
+      }
+
       /// Adds the product of the block at position k with a row of P that has blocks or a plane.
       void multiply_row(unsigned int &n_columns, const NodeBlockMatrix &matrix, const NodalTransfer &transfer,
                         const std::size_t k)
@@ -301,20 +329,22 @@ namespace Signorini
             if (b == nullptr)
               add_scaled_block(y, transfer.weight(l), a);
             else
-              {
-                const Block &p = b[l - transfer.row_begin(j)];
-                if (is_diagonal(p))
-                  {
-                    const double w[dim] = {p[0][0], p[1][1], p[2][2]};
-                    add_block_times_diagonal(y, a, w);
-                    continue;
-                  }
-                for (unsigned int c = 0; c < dim; ++c)
-                  for (unsigned int d = 0; d < dim; ++d)
-                    y[dim * c + d] +=
-                        a[dim * c] * p[0][d] + a[dim * c + 1] * p[1][d] + a[dim * c + 2] * p[2][d];
-              }
+              add_product(y, a, b[l - transfer.row_begin(j)]);
           }
+      }
+
+      /// y += a p, blocks.
+      static void add_product(double *const y, const double *const a, const Block &p)
+      {
+        if (is_diagonal(p))
+          {
+            const double w[dim] = {p[0][0], p[1][1], p[2][2]};
+            add_block_times_diagonal(y, a, w);
+            return;
+          }
+        for (unsigned int c = 0; c < dim; ++c)
+          for (unsigned int d = 0; d < dim; ++d)
+            y[dim * c + d] += a[dim * c] * p[0][d] + a[dim * c + 1] * p[1][d] + a[dim * c + 2] * p[2][d];
       }
 
       GalerkinKernels::Row row;

@@ -33,8 +33,12 @@ namespace Signorini
       std::vector<bool> bits;
     };
 
-    /// What is left of weights of interpolation, which are of the order of one, where they cancel.
-    constexpr double rounding = 1e-12;
+    struct CancellationRule
+    {
+      /// Weights of interpolation are of the order of one; what is left below this where they cancel is no
+      /// entry of the transfer. 0 to 1e-4 take as many iterations (hertz.prm, the knee).
+      double rounding = 1e-12;
+    };
 
     class RowBuilder
     {
@@ -176,7 +180,7 @@ namespace Signorini
         result.columns.reserve(sums.size());
         for (const auto &[column, block] : sums)
           {
-            if (block.norm_square() <= rounding * rounding)
+            if (block.norm() <= CancellationRule().rounding)
               continue;
             result.columns.push_back(column);
             if (is_scalar)

@@ -32,6 +32,68 @@ namespace Signorini
         }
     }
 
+    void write_exact_errors(JsonWriter &json, const std::map<std::string, ExactError> &errors)
+    {
+      json.begin('{', "exact");
+      for (const auto &[body, error] : errors)
+        {
+          json.begin('{', body);
+          json.number("l2_error", error.l2);
+          json.number("l2_norm", error.l2_norm);
+          json.number("energy_error", error.energy);
+          json.number("energy_norm", error.energy_norm);
+          json.end('}');
+        }
+      json.end('}');
+    }
+
+    void write_movement(JsonWriter &json, const MovementReport &movement)
+    {
+      json.begin('{', "boundary_shapes");
+      json.number("moved_nodes", movement.n_moved);
+      json.number("nodes_not_yet_there", movement.n_damped);
+      json.number("worst_quality_before", movement.quality_before);
+      json.number("worst_quality_after", movement.quality_after);
+      json.end('}');
+    }
+
+    void write_nonlinear(JsonWriter &json, const ConvergenceReport &report)
+    {
+      json.begin('{', "nonlinear");
+      write_solver(json, report);
+      json.number("hierarchy_updates", report.hierarchy_updates);
+      if (!report.start_iterations.empty())
+        {
+          json.begin('[', "start_iterations");
+          for (const unsigned int n : report.start_iterations)
+            json.number("", n);
+          json.end(']');
+        }
+      json.end('}');
+    }
+
+    void write_linear(JsonWriter &json, const CycleResult &cycle)
+    {
+      json.begin('{', "linear");
+      write_solver(json, cycle.linear);
+      json.end('}');
+      json.begin('{', "linear_cg");
+      write_solver(json, cycle.linear_cg);
+      json.number("difference", cycle.difference);
+      json.end('}');
+    }
+
+    void write_times(JsonWriter &json, const CycleResult &cycle)
+    {
+      json.number("sweep_time_s", cycle.sweeps.time);
+      json.number("sweep_bytes_per_s", cycle.sweeps.bytes_per_second);
+      json.number("read_bytes_per_s", cycle.sweeps.read_bytes_per_second);
+      json.begin('{', "times_s");
+      for (std::size_t i = 0; i < PhaseTimes::n_phases; ++i)
+        json.number(PhaseTimes::names[i], cycle.times[static_cast<Phase>(i)]);
+      json.end('}');
+    }
+
     void write_cycle(JsonWriter &json, const CycleResult &cycle)
     {
       json.begin('{');
@@ -43,62 +105,19 @@ namespace Signorini
       json.number("active_nodes", cycle.active_nodes);
       json.number("energy", cycle.nonlinear.energy);
       if (!cycle.exact_errors.empty())
-        {
-          json.begin('{', "exact");
-          for (const auto &[body, error] : cycle.exact_errors)
-            {
-              json.begin('{', body);
-              json.number("l2_error", error.l2);
-              json.number("l2_norm", error.l2_norm);
-              json.number("energy_error", error.energy);
-              json.number("energy_norm", error.energy_norm);
-              json.end('}');
-            }
-          json.end('}');
-        }
+        write_exact_errors(json, cycle.exact_errors);
       if (cycle.movement.n_moved > 0 || cycle.movement.quality_after < 1.)
-        {
-          json.begin('{', "boundary_shapes");
-          json.number("moved_nodes", cycle.movement.n_moved);
-          json.number("nodes_not_yet_there", cycle.movement.n_damped);
-          json.number("worst_quality_before", cycle.movement.quality_before);
-          json.number("worst_quality_after", cycle.movement.quality_after);
-          json.end('}');
-        }
+        write_movement(json, cycle.movement);
       if (cycle.potential_energy != 0.)
         json.number("potential_energy", cycle.potential_energy);
       if (cycle.error_to_last > 0.)
         json.number("error_to_last_cycle", cycle.error_to_last);
       if (cycle.indicator > 0.)
         json.number("indicator", cycle.indicator);
-      json.begin('{', "nonlinear");
-      write_solver(json, cycle.nonlinear);
-      json.number("hierarchy_updates", cycle.nonlinear.hierarchy_updates);
-      if (!cycle.nonlinear.start_iterations.empty())
-        {
-          json.begin('[', "start_iterations");
-          for (const unsigned int n : cycle.nonlinear.start_iterations)
-            json.number("", n);
-          json.end(']');
-        }
-      json.end('}');
+      write_nonlinear(json, cycle.nonlinear);
       if (cycle.has_linear)
-        {
-          json.begin('{', "linear");
-          write_solver(json, cycle.linear);
-          json.end('}');
-          json.begin('{', "linear_cg");
-          write_solver(json, cycle.linear_cg);
-          json.number("difference", cycle.difference);
-          json.end('}');
-        }
-      json.number("sweep_time_s", cycle.sweeps.time);
-      json.number("sweep_bytes_per_s", cycle.sweeps.bytes_per_second);
-      json.number("read_bytes_per_s", cycle.sweeps.read_bytes_per_second);
-      json.begin('{', "times_s");
-      for (std::size_t i = 0; i < PhaseTimes::n_phases; ++i)
-        json.number(PhaseTimes::names[i], cycle.times[static_cast<Phase>(i)]);
-      json.end('}');
+        write_linear(json, cycle);
+      write_times(json, cycle);
       json.end('}');
     }
 
@@ -144,6 +163,34 @@ namespace Signorini
       json.end(']');
       json.number("time_s", mapping.time);
       json.end('}');
+    }
+
+    void write_boundary(JsonWriter &json, const BoundaryResult &boundary)
+    {
+      json.begin('{');
+      json.text("body", boundary.body);
+      json.text("name", boundary.name);
+      json.vector("reaction", boundary.reaction);
+      json.end('}');
+    }
+
+    void write_probe(JsonWriter &json, const ProbeResult &probe)
+    {
+      json.begin('{');
+      json.text("name", probe.name);
+      json.vector("point", probe.point);
+      json.vector("displacement", probe.displacement);
+      json.end('}');
+    }
+
+    template <typename Entry>
+    void write_list(JsonWriter &json, const std::string &name, const std::vector<Entry> &list,
+                    void (*const write)(JsonWriter &, const Entry &))
+    {
+      json.begin('[', name);
+      for (const Entry &entry : list)
+        write(json, entry);
+      json.end(']');
     }
 
     void write_certificate(JsonWriter &json, const Certificate &c)
@@ -205,38 +252,11 @@ namespace Signorini
     json.boolean("converged", results.converged);
     json.number("wall_time_s", results.wall_time);
     json.number("peak_memory_bytes", results.peak_memory);
-    json.begin('[', "cycles");
-    for (const CycleResult &cycle : results.cycles)
-      write_cycle(json, cycle);
-    json.end(']');
-    json.begin('[', "pairs");
-    for (const PairResult &pair : results.pairs)
-      write_pair(json, pair);
-    json.end(']');
-    json.begin('[', "mappings");
-    for (const MappingResult &mapping : results.mappings)
-      write_mapping(json, mapping);
-    json.end(']');
-    json.begin('[', "boundaries");
-    for (const BoundaryResult &boundary : results.boundaries)
-      {
-        json.begin('{');
-        json.text("body", boundary.body);
-        json.text("name", boundary.name);
-        json.vector("reaction", boundary.reaction);
-        json.end('}');
-      }
-    json.end(']');
-    json.begin('[', "probes");
-    for (const ProbeResult &probe : results.probes)
-      {
-        json.begin('{');
-        json.text("name", probe.name);
-        json.vector("point", probe.point);
-        json.vector("displacement", probe.displacement);
-        json.end('}');
-      }
-    json.end(']');
+    write_list(json, "cycles", results.cycles, write_cycle);
+    write_list(json, "pairs", results.pairs, write_pair);
+    write_list(json, "mappings", results.mappings, write_mapping);
+    write_list(json, "boundaries", results.boundaries, write_boundary);
+    write_list(json, "probes", results.probes, write_probe);
     write_certificate(json, results.certificate);
     json.begin('[', "notes");
     for (const std::string &note : results.notes)

@@ -9,14 +9,29 @@ namespace Signorini
 {
   namespace
   {
-    /// From here on the fill of the factors costs more than the cycles.
-    constexpr NodeIndex largest_for_cholesky = 500;
-    constexpr double    amg_tolerance        = 1e-3;
-    /// A motion whose energy is below this part of the largest diagonal entry; work below this part of the
-    /// largest load.
-    constexpr double       costs_nothing = 1e-9, no_load = 1e-6;
-    constexpr double       regularization = 1e-6;
-    constexpr unsigned int amg_iterations = 100;
+    /// Ranges in which nothing changes: iterations on S1, a tetrahedral level 0 and ν = 0.49 (for algebraic
+    /// multigrid), and on five problems of bodies that only contact holds.
+    struct LevelZeroRule
+    {
+      /// From here on the fill of the factors costs more than the cycles: with 343, 729, 1331 and 2197 nodes
+      /// (S1) 1.6, 2.5, 3.7 and 10 times as much.
+      NodeIndex largest_for_cholesky = 500;
+      /// 1e-2 to 1e-6 take as many iterations around (levels 0 that are the finest: 2 more), 0.1 up to 2
+      /// more; 1e-6 takes 1.2 to 1.7 times as long as 1e-3.
+      double amg_tolerance = 1e-3;
+      /// From 20 on (ν = 0.49: 30) all solves around take as many iterations, with 5 twice as many.
+      unsigned int amg_iterations = 100;
+      /// A motion whose energy is below this part of the largest diagonal entry costs nothing. 1e-15 to 1e-5;
+      /// from 1e-3 on the bending of a tall block counts as one.
+      double costs_nothing = 1e-9;
+      /// A motion is not loaded if the work is below this part of the largest load: 1e-8 to 1e-2; below that
+      /// rounding counts as a load.
+      double no_load = 1e-6;
+      /// What is added to the diagonal, as a part of it. 1e-12 to 1e-6; 1e-5 takes up to two iterations more,
+      /// from 1e-4 on tall bodies many.
+      double regularization = 1e-6;
+    };
+    constexpr LevelZeroRule rule;
   } // namespace
 
 
@@ -24,7 +39,7 @@ namespace Signorini
   bool LevelZero::uses_amg(const NodeIndex n_nodes) const
   {
     return method == LevelZeroMethod::amg || method == LevelZeroMethod::algebraic_shortened ||
-           (method == LevelZeroMethod::automatic && n_nodes > largest_for_cholesky);
+           (method == LevelZeroMethod::automatic && n_nodes > rule.largest_for_cholesky);
   }
 
 
@@ -72,7 +87,7 @@ namespace Signorini
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(.5 * (energies + energies.transpose()));
     kernel.clear();
     for (Eigen::Index k = 0; k < n; ++k)
-      if (eigen.eigenvalues()[k] <= costs_nothing * scale)
+      if (eigen.eigenvalues()[k] <= rule.costs_nothing * scale)
         {
           kernel.emplace_back();
           singular.partition().reinit(kernel.back());
@@ -85,7 +100,7 @@ namespace Signorini
     definite = singular;
     for (unsigned int i = 0; i < definite.n_rows(); ++i)
       for (unsigned int k = 0; k < 9; ++k)
-        definite.block(definite.diagonal(i))[k] *= 1. + regularization;
+        definite.block(definite.diagonal(i))[k] *= 1. + rule.regularization;
   }
 
 
@@ -103,7 +118,7 @@ namespace Signorini
     for (const Vector &motion : kernel)
       {
         const double work = motion * rhs;
-        is_loaded.push_back(std::abs(work) > no_load * largest_rhs);
+        is_loaded.push_back(std::abs(work) > rule.no_load * largest_rhs);
         if (!is_loaded.back())
           consistent.add(-work, motion);
       }
@@ -136,6 +151,6 @@ namespace Signorini
           }
         return;
       }
-    solve_cg(*matrix, *amg, solution, rhs, amg_tolerance, amg_iterations);
+    solve_cg(*matrix, *amg, solution, rhs, rule.amg_tolerance, rule.amg_iterations);
   }
 } // namespace Signorini

@@ -32,6 +32,147 @@ namespace Signorini
 
 
 
+  namespace
+  {
+    using Selection = std::function<bool(const unsigned int)>;
+
+    /// Polygons with a smaller part of their triangle are turned.
+    constexpr double turned = -1e-12;
+
+    std::vector<bool> border_vertices(const SurfaceTopology &surface)
+    {
+      std::vector<bool> result(surface.fan_start.size() - 1, false);
+      for (unsigned int f = 0; f < surface.edges.size(); ++f)
+        if (surface.is_border(f))
+          for (const unsigned int v : surface.edges[f])
+            result[v] = true;
+      return result;
+    }
+
+
+
+    /// Visits the selected triangles as they lie beside each other.
+    template <typename Visit>
+    void visit_triangles(const SurfaceMesh &mesh, const SurfaceTopology &topology,
+                         const Selection &is_selected, const Visit &visit)
+    {
+      std::vector<bool> is_done(topology.triangles.size(), false);
+      for (const unsigned int v : spatial_order(mesh))
+        for (unsigned int k = topology.fan_start[v]; k < topology.fan_start[v + 1]; ++k)
+          if (const unsigned int t = topology.fan[k]; !is_done[t])
+            {
+              is_done[t] = true;
+              if (!is_selected || is_selected(t))
+                visit(t);
+            }
+    }
+
+
+
+    /// Adds a nonmortar triangle and its polygons.
+    void add_to(MappingReport &report, const TrianglePolygons &polygons, const unsigned int t,
+                const Incidence &incidence)
+    {
+      const double area = incidence.nonmortar_normal[t].norm();
+      report.area_nonmortar += area;
+      report.area_covered += polygons.covered * area;
+      report.n_broken += polygons.n_broken;
+      report.n_lost_triangles += polygons.is_lost();
+      report.worst_tiling_defect = std::max(report.worst_tiling_defect, polygons.defect());
+      bool is_wrong = polygons.is_lost() || polygons.n_broken > 0 || polygons.defect() > MappingReport::torn;
+      for (const auto &polygon : polygons.list)
+        {
+          ++report.n_pairs;
+          report.area_mortar_covered +=
+              polygon.mortar_share * incidence.mortar_normal[polygon.mortar_triangle].norm();
+          report.n_flips += polygon.share < turned;
+          report.n_cells += polygon.last - polygon.first - 2;
+          is_wrong = is_wrong || polygon.share < turned;
+        }
+      if (is_wrong)
+        report.wrong_triangles.push_back(t);
+    }
+
+
+
+    /// Both triangles of an edge run through it in opposite directions: what they have of it adds up to
+    /// nothing.
+    /// @param balance these sums, by edge
+    void find_torn_edges(MappingReport &report, const SurfaceTopology &nonmortar,
+                         const std::vector<double> &balance, const Selection &is_selected)
+    {
+      for (unsigned int e = 0; e < nonmortar.edges.size(); ++e)
+        if (!nonmortar.is_border(e))
+          {
+            const auto        &beside = nonmortar.edge_triangles[e];
+            const unsigned int n_selected =
+                !is_selected ? 2 : is_selected(beside[0]) + is_selected(beside[1]);
+            if (n_selected == 2 && std::abs(balance[e]) > MappingReport::torn)
+              {
+                ++report.n_torn_edges;
+                report.torn_edges.push_back(e);
+              }
+            else if (n_selected == 1)
+              report.open_edges.emplace_back(e, balance[e]);
+          }
+    }
+
+
+
+    /// The polygons as the triangles are visited, to be put in the order of these.
+    class VisitedPolygons
+    {
+    public:
+      /// @param n_nodes of the plane graph: there are about as many polygons, of four to five corners
+      VisitedPolygons(const std::size_t n_triangles, const std::size_t n_nodes)
+        : in_triangle(n_triangles, {0, 0})
+      {
+        list.reserve(n_nodes + n_nodes / 8);
+        corners.reserve(5 * list.capacity());
+      }
+
+      void add(const TrianglePolygons &polygons, const unsigned int t)
+      {
+        in_triangle[t].first = list.size();
+        for (const auto &polygon : polygons.list)
+          {
+            const std::size_t first = corners.size();
+            corners.insert(corners.end(), polygons.corners.begin() + polygon.first,
+                           polygons.corners.begin() + polygon.last);
+            list.push_back({polygon.mortar_triangle, static_cast<unsigned int>(first),
+                            static_cast<unsigned int>(corners.size())});
+          }
+        in_triangle[t].second = list.size();
+      }
+
+      void put_in_order(ContactMapping &mapping) const
+      {
+        mapping.polygon_triangles.reserve(list.size());
+        mapping.polygon_start.reserve(list.size() + 1);
+        mapping.polygon_corners.reserve(corners.size());
+        for (unsigned int t = 0; t < in_triangle.size(); ++t)
+          for (std::size_t i = in_triangle[t].first; i < in_triangle[t].second; ++i)
+            {
+              mapping.polygon_triangles.emplace_back(t, list[i].mortar_triangle);
+              mapping.polygon_corners.insert(mapping.polygon_corners.end(), corners.begin() + list[i].first,
+                                             corners.begin() + list[i].last);
+              mapping.polygon_start.push_back(static_cast<unsigned int>(mapping.polygon_corners.size()));
+            }
+      }
+
+    private:
+      struct Polygon
+      {
+        unsigned int mortar_triangle, first, last;
+      };
+      std::vector<Polygon>                             list;
+      std::vector<unsigned int>                        corners;
+      std::vector<std::pair<std::size_t, std::size_t>> in_triangle;
+    };
+  } // namespace
+
+
+
   ContactMapping::ContactMapping(const SurfaceMesh &nonmortar_mesh, const SurfaceMesh &mortar_mesh,
                                  const std::function<bool(const unsigned int)> &is_selected,
                                  const MPI_Comm                                 communicator)
@@ -45,97 +186,22 @@ namespace Signorini
     summary.lost_edges  = std::move(graph.lost_edges);
     summary.n_conflicts = nonmortar.n_conflicts + mortar.n_conflicts;
     summary.unmapped    = std::move(graph.unmapped);
-
-    std::vector<bool> mortar_border(mortar_mesh.vertices.size(), false);
-    for (unsigned int f = 0; f < mortar.edges.size(); ++f)
-      if (mortar.is_border(f))
-        for (const unsigned int v : mortar.edges[f])
-          mortar_border[v] = true;
-
     for (unsigned int m = 0; m < mortar.triangles.size(); ++m)
       summary.area_mortar += incidence.mortar_normal[m].norm();
 
-    // Visited as they lie beside each other, put in the order of the triangles afterwards.
-    struct Found
-    {
-      unsigned int mortar_triangle, first, last;
-    };
-    std::vector<Found>                                 found;
-    std::vector<unsigned int>                          found_corners;
-    std::vector<std::pair<unsigned int, unsigned int>> found_in(nonmortar.triangles.size(), {0, 0});
-    std::vector<bool>                                  is_done(nonmortar.triangles.size(), false);
-    // About as many polygons as nodes, of four to five corners.
-    found.reserve(graph.nodes.size() + graph.nodes.size() / 8);
-    found_corners.reserve(5 * found.capacity());
-    // Both triangles of an edge run through it in opposite directions: what they have of it adds up to
-    // nothing.
-    std::vector<double> balance(nonmortar.edges.size(), 0.);
-    TrianglePolygons    polygons(incidence, graph, mortar_border);
-    const auto          visit = [&](const unsigned int t) {
+    const std::vector<bool> mortar_border = border_vertices(mortar);
+    TrianglePolygons        polygons(incidence, graph, mortar_border);
+    VisitedPolygons         visited(nonmortar.triangles.size(), graph.nodes.size());
+    std::vector<double>     balance(nonmortar.edges.size(), 0.);
+    visit_triangles(nonmortar_mesh, nonmortar, is_selected, [&](const unsigned int t) {
       polygons.compute(t);
-      const double area = incidence.nonmortar_normal[t].norm();
-      summary.area_nonmortar += area;
-      summary.area_covered += polygons.covered * area;
-      summary.n_broken += polygons.n_broken;
-      summary.n_lost_triangles += polygons.is_lost();
-      const bool is_wrong = polygons.is_lost() || polygons.n_broken > 0 ||
-                            polygons.defect() > MappingReport::torn ||
-                            std::any_of(polygons.list.begin(), polygons.list.end(),
-                                                 [](const auto &polygon) { return polygon.share < -1e-12; });
-      if (is_wrong)
-        summary.wrong_triangles.push_back(t);
+      add_to(summary, polygons, t, incidence);
       for (const auto &side : polygons.sides)
         balance[side.edge] += side.length;
-      summary.worst_tiling_defect = std::max(summary.worst_tiling_defect, polygons.defect());
-      found_in[t].first           = static_cast<unsigned int>(found.size());
-      for (const auto &polygon : polygons.list)
-        {
-          ++summary.n_pairs;
-          summary.area_mortar_covered +=
-              polygon.mortar_share * incidence.mortar_normal[polygon.mortar_triangle].norm();
-          summary.n_flips += polygon.share < -1e-12;
-          summary.n_cells += polygon.last - polygon.first - 2;
-          const auto first = static_cast<unsigned int>(found_corners.size());
-          found_corners.insert(found_corners.end(), polygons.corners.begin() + polygon.first,
-                                        polygons.corners.begin() + polygon.last);
-          found.push_back({polygon.mortar_triangle, first, static_cast<unsigned int>(found_corners.size())});
-        }
-      found_in[t].second = static_cast<unsigned int>(found.size());
-    };
-    for (const unsigned int v : spatial_order(nonmortar_mesh))
-      for (unsigned int k = nonmortar.fan_start[v]; k < nonmortar.fan_start[v + 1]; ++k)
-        if (const unsigned int t = nonmortar.fan[k]; !is_done[t])
-          {
-            is_done[t] = true;
-            if (!is_selected || is_selected(t))
-              visit(t);
-          }
-
-    for (unsigned int e = 0; e < nonmortar.edges.size(); ++e)
-      if (!nonmortar.is_border(e))
-        {
-          const auto        &beside     = nonmortar.edge_triangles[e];
-          const unsigned int n_selected = !is_selected ? 2 : is_selected(beside[0]) + is_selected(beside[1]);
-          if (n_selected == 2 && std::abs(balance[e]) > MappingReport::torn)
-            {
-              ++summary.n_torn_edges;
-              summary.torn_edges.push_back(e);
-            }
-          else if (n_selected == 1)
-            summary.open_edges.emplace_back(e, balance[e]);
-        }
-
-    polygon_triangles.reserve(found.size());
-    polygon_start.reserve(found.size() + 1);
-    polygon_corners.reserve(found_corners.size());
-    for (unsigned int t = 0; t < nonmortar.triangles.size(); ++t)
-      for (unsigned int i = found_in[t].first; i < found_in[t].second; ++i)
-        {
-          polygon_triangles.emplace_back(t, found[i].mortar_triangle);
-          polygon_corners.insert(polygon_corners.end(), found_corners.begin() + found[i].first,
-                                 found_corners.begin() + found[i].last);
-          polygon_start.push_back(static_cast<unsigned int>(polygon_corners.size()));
-        }
+      visited.add(polygons, t);
+    });
+    find_torn_edges(summary, nonmortar, balance, is_selected);
+    visited.put_in_order(*this);
     graph_nodes = std::move(graph.nodes);
   }
 

@@ -20,6 +20,47 @@ namespace Signorini
                                               mesh.vertices[t[2]] - mesh.vertices[t[0]]);
       return n.norm() > 0. ? n / n.norm() : n;
     }
+
+    /// Gaps along the normals of nonmortar triangles, and angles between the normals, over an overlay.
+    struct OverlayGaps
+    {
+      const ContactMapping &mapping;
+      const SurfaceMesh    &nonmortar, &mortar;
+
+      std::array<double, 3> at_corners(const OverlayTriangle &cell, const Tensor<1, 3> &normal) const
+      {
+        std::array<double, 3> gaps;
+        for (unsigned int c = 0; c < 3; ++c)
+          gaps[c] = (evaluate(mortar, cell.mortar_triangle, cell.mortar[c]) -
+                     evaluate(nonmortar, cell.nonmortar_triangle, cell.nonmortar[c])) *
+                    normal;
+        return gaps;
+      }
+
+      /// Calls visit(polygon, area of the cell, gaps at its corners).
+      template <typename Visit>
+      void for_each_cell(const Visit &visit) const
+      {
+        std::vector<OverlayTriangle> cells;
+        for (std::size_t i = 0; i < mapping.n_polygons(); ++i)
+          {
+            const unsigned int t      = mapping.polygon_triangles[i].first;
+            const Tensor<1, 3> normal = unit_normal(nonmortar, t);
+            cells.clear();
+            mapping.triangulate(cells, i);
+            for (const OverlayTriangle &cell : cells)
+              visit(i, std::abs(cell.share()) * triangle_area(nonmortar, t), at_corners(cell, normal));
+          }
+      }
+
+      /// In degrees.
+      double angle(const std::size_t polygon) const
+      {
+        const auto [t, m]   = mapping.polygon_triangles[polygon];
+        const double cosine = -(unit_normal(nonmortar, t) * unit_normal(mortar, m));
+        return std::acos(std::min(1., std::max(-1., cosine))) * 180. / numbers::PI;
+      }
+    };
   } // namespace
 
 
@@ -27,56 +68,28 @@ namespace Signorini
   MappingQuality assess_mapping(const ContactMapping &mapping, const SurfaceMesh &nonmortar,
                                 const SurfaceMesh &mortar, const MPI_Comm communicator)
   {
-    MappingQuality quality;
-    quality.min_gap = std::numeric_limits<double>::infinity();
-    quality.max_gap = -quality.min_gap;
-    // Twice over the overlay: the range of the gap, then what lies where in it.
-    double                       covered = 0.;
-    std::vector<OverlayTriangle> cells;
-    for (const bool second : {false, true})
-      {
-        if (second)
-          {
-            quality.min_gap = Utilities::MPI::min(quality.min_gap, communicator);
-            quality.max_gap = Utilities::MPI::max(quality.max_gap, communicator);
-          }
-        for (std::size_t i = 0; i < mapping.n_polygons(); ++i)
-          {
-            const auto [t, m]    = mapping.polygon_triangles[i];
-            const Tensor<1, 3> n = unit_normal(nonmortar, t);
-            cells.clear();
-            mapping.triangulate(cells, i);
-            double area = 0.;
-            for (const OverlayTriangle &cell : cells)
-              {
-                const double part = std::abs(cell.share()) * triangle_area(nonmortar, t);
-                double       mean = 0.;
-                for (unsigned int c = 0; c < 3; ++c)
-                  {
-                    const double gap =
-                        (evaluate(mortar, m, cell.mortar[c]) - evaluate(nonmortar, t, cell.nonmortar[c])) * n;
-                    mean += gap / 3.;
-                    quality.min_gap = std::min(quality.min_gap, gap);
-                    quality.max_gap = std::max(quality.max_gap, gap);
-                  }
-                if (second)
-                  {
-                    const double range = quality.max_gap - quality.min_gap;
-                    const double place = range > 0. ? 10. * (mean - quality.min_gap) / range : 0.;
-                    quality.histogram[std::min(9, std::max(0, static_cast<int>(place)))] += part;
-                  }
-                area += part;
-              }
-            if (!second)
-              {
-                const double cosine   = -(n * unit_normal(mortar, m));
-                const double angle    = std::acos(std::min(1., std::max(-1., cosine))) * 180. / numbers::PI;
-                quality.largest_angle = std::max(quality.largest_angle, angle);
-                quality.mean_angle += angle * area;
-                covered += area;
-              }
-          }
-      }
+    MappingQuality    quality;
+    const OverlayGaps gaps{mapping, nonmortar, mortar};
+    double            smallest = std::numeric_limits<double>::infinity(), largest = -smallest, covered = 0.;
+    gaps.for_each_cell([&](const std::size_t polygon, const double area, const std::array<double, 3> &gap) {
+      const double angle    = gaps.angle(polygon);
+      quality.largest_angle = std::max(quality.largest_angle, angle);
+      quality.mean_angle += angle * area;
+      covered += area;
+      for (const double value : gap)
+        {
+          smallest = std::min(smallest, value);
+          largest  = std::max(largest, value);
+        }
+    });
+    quality.min_gap    = Utilities::MPI::min(smallest, communicator);
+    quality.max_gap    = Utilities::MPI::max(largest, communicator);
+    const double range = quality.max_gap - quality.min_gap;
+    gaps.for_each_cell([&](const std::size_t, const double area, const std::array<double, 3> &gap) {
+      const double mean  = (gap[0] + gap[1] + gap[2]) / 3.;
+      const double place = range > 0. ? 10. * (mean - quality.min_gap) / range : 0.;
+      quality.histogram[std::min(9, std::max(0, static_cast<int>(place)))] += area;
+    });
     quality.largest_angle = Utilities::MPI::max(quality.largest_angle, communicator);
     quality.mean_angle    = Utilities::MPI::sum(quality.mean_angle, communicator);
     covered               = Utilities::MPI::sum(covered, communicator);
@@ -86,6 +99,28 @@ namespace Signorini
       quality.mean_angle /= covered;
     return quality;
   }
+
+
+
+  namespace
+  {
+    /// Adds the edges between parts that are torn: what the triangles on both sides have of them, which is
+    /// known to different ranks.
+    void add_edges_torn_between_parts(MappingReport &report, const MPI_Comm communicator)
+    {
+      std::map<unsigned int, double> balance;
+      for (const auto &part : Utilities::MPI::all_gather(communicator, report.open_edges))
+        for (const auto &[edge, length] : part)
+          balance[edge] += length;
+      for (const auto &[edge, length] : balance)
+        if (std::abs(length) > MappingReport::torn)
+          {
+            ++report.n_torn_edges;
+            report.torn_edges.push_back(edge);
+          }
+      report.open_edges.clear();
+    }
+  } // namespace
 
 
 
@@ -106,17 +141,7 @@ namespace Signorini
       std::sort(list.begin(), list.end());
       list.erase(std::unique(list.begin(), list.end()), list.end());
     };
-    std::map<unsigned int, double> balance;
-    for (const auto &part : Utilities::MPI::all_gather(communicator, report.open_edges))
-      for (const auto &[edge, length] : part)
-        balance[edge] += length;
-    std::vector<unsigned int> torn_between_parts;
-    for (const auto &[edge, length] : balance)
-      if (std::abs(length) > MappingReport::torn)
-        torn_between_parts.push_back(edge);
-    report.n_torn_edges += torn_between_parts.size();
-    report.torn_edges.insert(report.torn_edges.end(), torn_between_parts.begin(), torn_between_parts.end());
-    report.open_edges.clear();
+    add_edges_torn_between_parts(report, communicator);
     gather(report.torn_edges);
     gather(report.wrong_triangles);
     gather(report.lost_edges);

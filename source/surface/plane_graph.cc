@@ -153,60 +153,69 @@ namespace Signorini
 
 
 
+  PlaneGraph::Hit PlaneGraph::nearest_hit(const unsigned int               vertex,
+                                          const std::vector<unsigned int> &candidates) const
+  {
+    Hit    result;
+    double nearest = std::numeric_limits<double>::max();
+    for (const unsigned int t : candidates)
+      {
+        // Turned triangles have all sides reversed: they are no hit by themselves.
+        SurfacePoint place;
+        double       eta;
+        if (!incidence.vertex_faces(vertex, t))
+          result.turned_away = true;
+        else if (is_hit(place, eta, vertex, t) && std::abs(eta) < nearest)
+          {
+            nearest      = std::abs(eta);
+            result.eta   = eta;
+            result.place = place;
+          }
+      }
+    return result;
+  }
+
+
+
+  Unmapped PlaneGraph::map_mortar_vertex(const unsigned int v, const Hit &hit)
+  {
+    const SurfacePoint &place = hit.place;
+    if (place.on == On::nothing)
+      return hit.turned_away ? Unmapped::wrong_side : Unmapped::no_hit;
+    if (has_layers && is_behind(incidence.mortar.vertices[v], incidence.mortar.vertex_normals[v], hit.eta,
+                                Incidence::near_end * incidence.size_at_mortar_vertex(v)))
+      return Unmapped::behind;
+    mortar_vertex_node[v] = static_cast<unsigned int>(nodes.size());
+    if (place.on == On::vertex)
+      {
+        if (nonmortar_vertex_node[place.index] == none)
+          nonmortar_vertex_node[place.index] = mortar_vertex_node[v];
+        incidence.move_mortar_vertex(v, incidence.nonmortar.vertices[place.index]);
+      }
+    else if (place.on == On::edge)
+      {
+        const auto     &e = nonmortar.edges[place.index];
+        const Point<3> &a = incidence.nonmortar.vertices[e[0]], &b = incidence.nonmortar.vertices[e[1]];
+        incidence.move_mortar_vertex(v, a + place.x[0] * (b - a));
+      }
+    nodes.push_back({place, SurfacePoint::at_vertex(v)});
+    return Unmapped::not_at_all;
+  }
+
+
+
   void PlaneGraph::map_mortar_vertices()
   {
     std::vector<Unmapped> state(mortar_order.size(), Unmapped::not_at_all);
     nonmortar_tree = std::make_unique<BoxTree>(tree_of_triangles(incidence.nonmortar));
     std::vector<unsigned int> candidates;
     for (const unsigned int v : mortar_order)
-      {
-        if (!vertex_is_needed[v] || mortar.fan_start[v] == mortar.fan_start[v + 1])
-          continue;
-        nonmortar_tree->find_along_line(candidates, incidence.mortar.vertices[v],
-                                        incidence.mortar.vertex_normals[v]);
-        double       nearest = std::numeric_limits<double>::max(), way = 0.;
-        SurfacePoint best;
-        bool         turned_away = false;
-        for (const unsigned int t : candidates)
-          {
-            // Turned triangles have all sides reversed: they are no hit by themselves.
-            SurfacePoint place;
-            double       eta;
-            if (!incidence.vertex_faces(v, t))
-              turned_away = true;
-            else if (is_hit(place, eta, v, t) && std::abs(eta) < nearest)
-              {
-                nearest = std::abs(eta);
-                way     = eta;
-                best    = place;
-              }
-          }
-        if (best.on == On::nothing)
-          {
-            state[v] = turned_away ? Unmapped::wrong_side : Unmapped::no_hit;
-            continue;
-          }
-        if (has_layers && is_behind(incidence.mortar.vertices[v], incidence.mortar.vertex_normals[v], way,
-                                    Incidence::near_end * incidence.size_at_mortar_vertex(v)))
-          {
-            state[v] = Unmapped::behind;
-            continue;
-          }
-        mortar_vertex_node[v] = static_cast<unsigned int>(nodes.size());
-        if (best.on == On::vertex)
-          {
-            if (nonmortar_vertex_node[best.index] == none)
-              nonmortar_vertex_node[best.index] = mortar_vertex_node[v];
-            incidence.move_mortar_vertex(v, incidence.nonmortar.vertices[best.index]);
-          }
-        else if (best.on == On::edge)
-          {
-            const auto     &e = nonmortar.edges[best.index];
-            const Point<3> &a = incidence.nonmortar.vertices[e[0]], &b = incidence.nonmortar.vertices[e[1]];
-            incidence.move_mortar_vertex(v, a + best.x[0] * (b - a));
-          }
-        nodes.push_back({best, SurfacePoint::at_vertex(v)});
-      }
+      if (vertex_is_needed[v] && mortar.fan_start[v] < mortar.fan_start[v + 1])
+        {
+          nonmortar_tree->find_along_line(candidates, incidence.mortar.vertices[v],
+                                          incidence.mortar.vertex_normals[v]);
+          state[v] = map_mortar_vertex(v, nearest_hit(v, candidates));
+        }
     for (const auto &e : mortar.edges)
       for (unsigned int i = 0; i < 2; ++i)
         if (mortar_vertex_node[e[i]] == none && mortar_vertex_node[e[1 - i]] != none &&
@@ -321,44 +330,92 @@ namespace Signorini
 
 
 
-  void PlaneGraph::map_nonmortar_vertices()
+  /// Image triangles of the vertices without a node, each spread as far as no node separates them.
+  class PlaneGraph::VertexImages
   {
-    constexpr unsigned int    unknown = none - 1;
-    const std::size_t         n       = nonmortar_vertex_node.size();
-    std::vector<unsigned int> image(n, unknown);
-    // All nodes are known only on edges in the region.
-    const auto is_complete = [&](const unsigned int e) {
-      return region.contains(nonmortar.edges[e][0], nonmortar.edges[e][1]);
-    };
-    const auto is_open = [&](const unsigned int v) {
-      return nonmortar_vertex_node[v] == none && image[v] == unknown && region.contains(v);
-    };
-    // Beside the first node on an edge of its own, else beside a node at the other end of an edge.
-    for (unsigned int e = 0; e < nonmortar.edges.size(); ++e)
-      if (edge_start[e] < edge_start[e + 1] && is_complete(e))
-        {
-          const auto [low, high] = nonmortar.edges[e];
-          if (is_open(low))
-            image[low] = triangle_beside(low, nodes[edge_nodes[edge_start[e]]]);
-          if (is_open(high))
-            image[high] = triangle_beside(high, nodes[edge_nodes[edge_start[e + 1] - 1]]);
-        }
-    for (unsigned int e = 0; e < nonmortar.edges.size(); ++e)
-      if (edge_start[e] == edge_start[e + 1] && is_complete(e))
-        for (unsigned int i = 0; i < 2; ++i)
-          {
-            const unsigned int v = nonmortar.edges[e][i], other = nonmortar.edges[e][1 - i];
-            if (is_open(v) && nonmortar_vertex_node[other] != none)
-              image[v] = triangle_beside(v, nodes[nonmortar_vertex_node[other]]);
-          }
+  public:
+    explicit VertexImages(const PlaneGraph &graph)
+      : graph(graph)
+      , nonmortar(graph.nonmortar)
+      , image(graph.nonmortar_vertex_node.size(), unknown)
+    {
+    }
 
-    // What no node separates has the same image triangle.
-    std::queue<unsigned int> front;
-    const auto               flood = [&](const bool by_search) {
-      while (!front.empty())
+    /// Beside the first node on an edge of the vertex, else beside a node at the other end of an edge.
+    void begin_at_nodes()
+    {
+      for (unsigned int e = 0; e < nonmortar.edges.size(); ++e)
+        if (graph.edge_start[e] < graph.edge_start[e + 1] && is_complete(e))
+          {
+            const auto [low, high] = nonmortar.edges[e];
+            set_beside(low, graph.edge_nodes[graph.edge_start[e]]);
+            set_beside(high, graph.edge_nodes[graph.edge_start[e + 1] - 1]);
+          }
+      for (unsigned int e = 0; e < nonmortar.edges.size(); ++e)
+        if (is_empty(e))
+          for (unsigned int i = 0; i < 2; ++i)
+            set_beside(nonmortar.edges[e][i], graph.nonmortar_vertex_node[nonmortar.edges[e][1 - i]]);
+      for (unsigned int v = 0; v < image.size(); ++v)
+        if (graph.nonmortar_vertex_node[v] == none && image[v] != unknown)
+          front.push(v);
+      spread([](const unsigned int, const unsigned int) { return true; });
+    }
+
+    /// Whether the image of a vertex is still to be searched.
+    bool is_open(const unsigned int v) const
+    {
+      return graph.nonmortar_vertex_node[v] == none && image[v] == unknown && graph.region.contains(v);
+    }
+
+    /// A triangle that was found, or none. It is the image of the others that lie below it.
+    void set(const unsigned int v, const unsigned int triangle)
+    {
+      image[v] = triangle;
+      front.push(v);
+      spread([&](const unsigned int other, const unsigned int below) {
+        return below == none || graph.lies_below(other, below);
+      });
+    }
+
+    /// Whether a vertex has one.
+    bool has_image(const unsigned int v) const
+    {
+      return image[v] < unknown;
+    }
+
+    unsigned int operator[](const unsigned int v) const
+    {
+      return image[v];
+    }
+
+  private:
+    static constexpr unsigned int unknown = none - 1;
+
+    /// All nodes are known only on edges in the region.
+    bool is_complete(const unsigned int e) const
+    {
+      return graph.region.contains(nonmortar.edges[e][0], nonmortar.edges[e][1]);
+    }
+
+    bool is_empty(const unsigned int e) const
+    {
+      return graph.edge_start[e] == graph.edge_start[e + 1] && is_complete(e);
+    }
+
+    void set_beside(const unsigned int v, const unsigned int node)
+    {
+      if (node != none && is_open(v))
+        image[v] = graph.triangle_beside(v, graph.nodes[node]);
+    }
+
+    /// What no node separates has the same image triangle.
+    /// @param takes whether a vertex takes a triangle
+    template <typename Takes>
+    void spread(const Takes &takes)
+    {
+      for (; !front.empty(); front.pop())
         {
           const unsigned int v = front.front();
-          front.pop();
           for (unsigned int k = nonmortar.fan_start[v]; k < nonmortar.fan_start[v + 1]; ++k)
             {
               const unsigned int t = nonmortar.fan[k], i = nonmortar.local_corner(t, v);
@@ -366,8 +423,7 @@ namespace Signorini
                 {
                   const unsigned int e     = nonmortar.triangle_edges[t][j];
                   const unsigned int other = nonmortar.edges[e][nonmortar.edges[e][0] == v ? 1 : 0];
-                  if (edge_start[e] == edge_start[e + 1] && is_complete(e) && is_open(other) &&
-                      (!by_search || image[v] == none || lies_below(other, image[v])))
+                  if (is_empty(e) && is_open(other) && takes(other, image[v]))
                     {
                       image[other] = image[v];
                       front.push(other);
@@ -375,24 +431,29 @@ namespace Signorini
                 }
             }
         }
-    };
-    for (unsigned int v = 0; v < n; ++v)
-      if (nonmortar_vertex_node[v] == none && image[v] != unknown)
-        front.push(v);
-    flood(false);
-    for (unsigned int v = 0; v < n; ++v)
-      if (is_open(v) && nonmortar.fan_start[v] < nonmortar.fan_start[v + 1])
-        {
-          image[v] = search_triangle(v);
-          front.push(v);
-          flood(true);
-        }
+    }
 
+    const PlaneGraph         &graph;
+    const SurfaceTopology    &nonmortar;
+    std::vector<unsigned int> image;
+    std::queue<unsigned int>  front;
+  };
+
+
+
+  void PlaneGraph::map_nonmortar_vertices()
+  {
+    const std::size_t n = nonmortar_vertex_node.size();
+    VertexImages      images(*this);
+    images.begin_at_nodes();
     for (unsigned int v = 0; v < n; ++v)
-      if (nonmortar_vertex_node[v] == none && image[v] < unknown)
+      if (images.is_open(v) && nonmortar.fan_start[v] < nonmortar.fan_start[v + 1])
+        images.set(v, search_triangle(v));
+    for (unsigned int v = 0; v < n; ++v)
+      if (nonmortar_vertex_node[v] == none && images.has_image(v))
         {
           nonmortar_vertex_node[v] = static_cast<unsigned int>(nodes.size());
-          nodes.push_back({SurfacePoint::at_vertex(v), image_in(v, image[v])});
+          nodes.push_back({SurfacePoint::at_vertex(v), image_in(v, images[v])});
         }
   }
 } // namespace Signorini

@@ -273,70 +273,102 @@ namespace Signorini
 
 
 
-  PlaneGraph::State PlaneGraph::trace_by_roots(Walk &walk, const SurfacePoint &start)
+  struct PlaneGraph::Front
   {
+    const SurfaceTopology    &nonmortar;
     std::vector<unsigned int> triangles, passed;
+    /// The vertex at which it begins, or none.
+    unsigned int vertex = none;
+    /// Where on an edge that it has passed: there it does not cross it again.
+    double passed_at = 0.;
+
+    double place_on(const unsigned int edge) const
+    {
+      return vertex == none ? passed_at : (nonmortar.edges[edge][0] == vertex ? 0. : 1.);
+    }
+  };
+
+
+
+  PlaneGraph::Front PlaneGraph::front_at(const SurfacePoint &start) const
+  {
+    Front front{nonmortar, {}, {}, none, start.x[0]};
     if (start.on == On::triangle)
-      triangles.push_back(start.index);
+      front.triangles.push_back(start.index);
     else if (start.on == On::edge)
       {
-        passed.push_back(start.index);
+        front.passed.push_back(start.index);
         for (const unsigned int t : nonmortar.edge_triangles[start.index])
           if (t != none)
-            triangles.push_back(t);
+            front.triangles.push_back(t);
       }
     else
-      for (unsigned int k = nonmortar.fan_start[start.index]; k < nonmortar.fan_start[start.index + 1]; ++k)
-        {
-          triangles.push_back(nonmortar.fan[k]);
-          const unsigned int corner = nonmortar.local_corner(nonmortar.fan[k], start.index);
-          for (const unsigned int i : {corner, (corner + 2) % 3})
-            passed.push_back(nonmortar.triangle_edges[nonmortar.fan[k]][i]);
-        }
-    // Where on an edge that it has passed: there it does not cross it again.
-    double     passed_at = start.x[0];
-    const auto place_on  = [&](const unsigned int e) {
-      return start.on != On::vertex || passed.size() == 1 ? passed_at
-                                                           : (nonmortar.edges[e][0] == start.index ? 0. : 1.);
-    };
+      {
+        front.vertex = start.index;
+        for (unsigned int k = nonmortar.fan_start[start.index]; k < nonmortar.fan_start[start.index + 1]; ++k)
+          {
+            front.triangles.push_back(nonmortar.fan[k]);
+            const unsigned int corner = nonmortar.local_corner(nonmortar.fan[k], start.index);
+            for (const unsigned int i : {corner, (corner + 2) % 3})
+              front.passed.push_back(nonmortar.triangle_edges[nonmortar.fan[k]][i]);
+          }
+      }
+    return front;
+  }
+
+
+
+  bool PlaneGraph::find_next_crossing(unsigned int &edge, Incidence::Crossing &next, const Walk &walk,
+                                      const Front &front) const
+  {
     constexpr double rounding = 1e-9;
+    double           nearest  = 2.;
+    edge                      = none;
+    for (const unsigned int t : front.triangles)
+      for (const unsigned int e : nonmortar.triangle_edges[t])
+        for (const auto &crossing : incidence.all_crossings(e, walk.edge))
+          {
+            if (!is_between_ends(crossing, e, walk.edge))
+              continue;
+            const double position = walk.forward(crossing.s);
+            const bool   was_here =
+                std::find(front.passed.begin(), front.passed.end(), e) != front.passed.end();
+            if (was_here && std::abs(crossing.t - front.place_on(e)) < Incidence::near_end)
+              continue;
+            if (position >= walk.position + (was_here ? 1e3 : -1.) * rounding && position < nearest)
+              {
+                nearest = position;
+                next    = crossing;
+                edge    = e;
+              }
+          }
+    return edge != none;
+  }
+
+
+
+  PlaneGraph::State PlaneGraph::trace_by_roots(Walk &walk, const SurfacePoint &start)
+  {
+    Front front = front_at(start);
     for (std::size_t step = 0; step < 2 * nonmortar.triangles.size(); ++step)
       {
-        for (const unsigned int t : triangles)
+        for (const unsigned int t : front.triangles)
           if (is_reached(walk, t))
             return State::reached;
-        // The next crossing of a border edge of these triangles.
-        unsigned int        out = none;
+        unsigned int        out;
         Incidence::Crossing next{0., 0., 0};
-        double              nearest = 2.;
-        for (const unsigned int t : triangles)
-          for (const unsigned int e : nonmortar.triangle_edges[t])
-            for (const auto &crossing : incidence.all_crossings(e, walk.edge))
-              {
-                if (!is_between_ends(crossing, e, walk.edge))
-                  continue;
-                const double position = walk.forward(crossing.s);
-                const bool   was_here = std::find(passed.begin(), passed.end(), e) != passed.end();
-                if (was_here && std::abs(crossing.t - place_on(e)) < Incidence::near_end)
-                  continue;
-                if (position >= walk.position + (was_here ? 1e3 : -1.) * rounding && position < nearest)
-                  {
-                    nearest = position;
-                    next    = crossing;
-                    out     = e;
-                  }
-              }
-        if (out == none)
+        if (!find_next_crossing(out, next, walk, front))
           return State::lost;
-        if (place_crossing(walk, out, next.t, nearest, next.low_side) == State::left)
+        if (place_crossing(walk, out, next.t, walk.forward(next.s), next.low_side) == State::left)
           return State::left;
         const auto        &beside  = nonmortar.edge_triangles[out];
         const unsigned int through = beside[walk.direction * next.low_side > 0 ? 0 : 1];
         if (through == none || !incidence.edge_faces(walk.edge, walk.forward(walk.position), through))
           return State::left;
-        triangles = {through};
-        passed    = {out};
-        passed_at = next.t;
+        front.triangles = {through};
+        front.passed    = {out};
+        front.passed_at = next.t;
+        front.vertex    = none;
       }
     return State::lost;
   }

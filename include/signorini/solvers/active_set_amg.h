@@ -40,6 +40,17 @@ namespace Signorini
     NodeBlockMatrix reduced_matrix(const HalfSpaces &half_spaces) const;
     void            remove_normal_parts(Vector &x, const HalfSpaces &half_spaces) const;
 
+    /// The linear problem on an active set.
+    struct LinearProblem;
+
+    /// Collective. Puts active nodes on their planes and solves in them; returns the number of cycles.
+    unsigned int solve_linear(Vector &v, const ObstacleProblem &problem, LinearProblem &linear) const;
+
+    /// Collective. Contact pressure where it pushes, or penetration, in the measure of the node's own
+    /// stiffness; whether that changed the active set.
+    /// @param residual of v
+    bool update_active(const Vector &v, const Vector &residual, const HalfSpaces &half_spaces);
+
     std::vector<unsigned char> is_active;
   };
 } // namespace Signorini

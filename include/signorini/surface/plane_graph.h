@@ -82,10 +82,22 @@ namespace Signorini
     /// The image of a mortar edge on its way.
     struct Walk;
 
-    void select_mortar_edges(const MPI_Comm communicator);
-    void map_mortar_vertices();
-    bool is_hit(SurfacePoint &place, double &eta, const unsigned int vertex,
-                const unsigned int triangle) const;
+    /// Where the line along the normal of a mortar vertex meets the nonmortar surface.
+    struct Hit
+    {
+      SurfacePoint place;
+      /// Way to it along the normal.
+      double eta = 0.;
+      /// Whether there are triangles on the line that do not face the vertex.
+      bool turned_away = false;
+    };
+
+    void     select_mortar_edges(const MPI_Comm communicator);
+    void     map_mortar_vertices();
+    Unmapped map_mortar_vertex(const unsigned int vertex, const Hit &hit);
+    Hit      nearest_hit(const unsigned int vertex, const std::vector<unsigned int> &candidates) const;
+    bool     is_hit(SurfacePoint &place, double &eta, const unsigned int vertex,
+                    const unsigned int triangle) const;
 
     void  trace_mortar_edges();
     State trace_from_node(const unsigned int edge, const int direction, const unsigned int start,
@@ -98,9 +110,15 @@ namespace Signorini
     State walk_to_end(Walk &walk, State state);
     /// Whether a crossing near an end of one of the edges is none right beside it: a matter of the side on
     /// which that end lies, as for all other decisions.
-    bool  is_between_ends(const Incidence::Crossing &crossing, const unsigned int edge,
-                          const unsigned int mortar_edge) const;
+    bool is_between_ends(const Incidence::Crossing &crossing, const unsigned int edge,
+                         const unsigned int mortar_edge) const;
+    /// Where a walk by roots is: the triangles that it may go on through, and the edges that it has passed.
+    struct Front;
+
     State trace_by_roots(Walk &walk, const SurfacePoint &start);
+    Front front_at(const SurfacePoint &start) const;
+    bool  find_next_crossing(unsigned int &edge, Incidence::Crossing &next, const Walk &walk,
+                             const Front &front) const;
     void  take_back(const Walk &walk, const std::size_t n_nodes);
     bool  is_reached(const Walk &walk, const unsigned int triangle) const;
 
@@ -120,6 +138,9 @@ namespace Signorini
 
     /// As Incidence, but a nonmortar vertex with a node lies on the mortar edge of that node and no other.
     Incidence::Side side(const unsigned int vertex, const unsigned int mortar_edge) const;
+
+    /// The images of the nonmortar vertices without a node.
+    class VertexImages;
 
     void         map_nonmortar_vertices();
     unsigned int triangle_beside(const unsigned int vertex, const MappingNode &node) const;
