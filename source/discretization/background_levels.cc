@@ -8,7 +8,6 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <iostream>
 #include <numeric>
 
 namespace Signorini
@@ -487,8 +486,7 @@ namespace Signorini
             distributed.positions.push_back(level.positions[places[node]]);
             distributed.parts.push_back(level.parts[places[node]]);
           }
-        if (getenv("SIG_DEBUG"))
-          std::cout << "level " << distributed.owned.size() << std::endl;
+        std::cout << "level " << distributed.owned.size() << std::endl;
         result.push_back(std::move(distributed));
       }
     return result;

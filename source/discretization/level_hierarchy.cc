@@ -484,8 +484,9 @@ namespace Signorini
     LevelZero LevelsOfMeshes::level_zero(const NodePartition &coarsest)
     {
       LevelZero result;
-      result.method  = options.level_zero;
-      result.n_steps = options.level_zero_steps;
+      result.method             = options.level_zero;
+      result.is_nearly_singular = spaces.n_background_levels() > 0;
+      result.n_steps            = options.level_zero_steps;
       // A hierarchy of one level: its copy has the same contact nodes.
       if (options.coarse_obstacles)
         result.contact = contact_nodes(fine, fine_projections, coarsest);

@@ -56,7 +56,7 @@ namespace Signorini
     if (!level_zero.uses_amg(matrix->partition().n_global()))
       {
         amg.reset();
-        cholesky.factorize(*matrix);
+        cholesky.factorize(*matrix, level_zero.is_nearly_singular);
         return;
       }
     amg = std::make_unique<AlgebraicMultigrid>();

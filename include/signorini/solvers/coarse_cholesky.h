@@ -20,7 +20,10 @@ namespace Signorini
     ~CoarseCholesky();
 
     /// Collective. Factorizes; the ordering is reused while the structure stays the same.
-    void factorize(const NodeBlockMatrix &matrix);
+    /// @param is_nearly_singular whether functions of the level may depend on each other: the factors are
+    /// those
+    ///   of a definite matrix beside it
+    void factorize(const NodeBlockMatrix &matrix, const bool is_nearly_singular = false);
 
     /// Collective. solution = A^-1 rhs.
     void solve(Vector &solution, const Vector &rhs) const;

@@ -29,6 +29,8 @@ namespace Signorini
     LevelZeroMethod method = LevelZeroMethod::automatic;
     /// Number of V-cycles of algebraic_shortened.
     unsigned int n_steps = 1;
+    /// Whether its functions may depend on each other, as those of background levels do.
+    bool is_nearly_singular = false;
     /// Vectors of little energy on level 0 (rigid motions), for amg; may be empty.
     std::vector<Vector> near_kernel;
     /// Contact nodes, for a hierarchy that has to add a copy of its only level.
