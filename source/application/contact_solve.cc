@@ -130,7 +130,7 @@ namespace Signorini
     };
 
     AlgebraicProblem build_problem(const ContactModel &model, const Discretization &d, CoarserSpaces &coarser,
-                                   const NestedStart *const start, const SolverParameters &parameters,
+                                   const NestedStart *const start, const SolveParameters &parameters,
                                    Journal &journal)
     {
       AlgebraicProblem  result;
@@ -146,7 +146,8 @@ namespace Signorini
       PhaseTimes::Scope building_levels = journal.measure(Phase::levels);
       journal.show("building levels");
       result.levels = std::make_shared<const LevelSpaces>(
-          d.nodal(), coarser.update(model.bodies(), d.constrained->space), model.bodies(), model.loads());
+          d.nodal(), coarser.update(model.bodies(), d.constrained->space), model.bodies(), model.loads(),
+          parameters.coarse_levels_of_method());
       building_levels.stop();
 
       const auto          time      = journal.measure(Phase::hierarchy);
@@ -159,7 +160,7 @@ namespace Signorini
       HierarchyOptions options;
       options.problem  = &problem;
       options.start    = start != nullptr ? &result.v : nullptr;
-      result.hierarchy = make_hierarchy(std::move(system), *result.levels, d, parameters, options);
+      result.hierarchy = make_hierarchy(std::move(system), *result.levels, d, parameters.solver, options);
       return result;
     }
 
@@ -210,7 +211,7 @@ namespace Signorini
     const bool       has_tied_part = d.constrained->free_parts.has_tied_part;
     const bool       compares      = parameters.compare_linear && !has_tied_part && !d.pairs.empty();
     ContactSolution  result;
-    AlgebraicProblem algebraic = build_problem(model, d, coarser, start, parameters.solver, journal);
+    AlgebraicProblem algebraic = build_problem(model, d, coarser, start, parameters, journal);
     result.n_levels            = algebraic.levels->n_levels();
     if (!compares)
       algebraic.levels.reset();

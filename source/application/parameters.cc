@@ -293,6 +293,15 @@ namespace Signorini
     section("Refinement", refinement);
     prm.enter_subsection("Solver");
     solver.add_parameters(prm);
+    add_choice(
+        prm, "Coarse levels", coarse_levels,
+        {{CoarseLevels::automatic, "automatic"},
+         {CoarseLevels::background, "background"},
+         {CoarseLevels::none, "none"}},
+        "Levels below the coarsest mesh, for one finished mesh without coarser ones. background: octrees "
+        "of coarse functions around each body, as fine as the mesh is. none: the coarsest mesh is level "
+        "0. automatic: background where the coarsest mesh has more than 500 nodes, unless Level 0 is "
+        "given.");
     prm.add_parameter(
         "Compare linear multigrid", compare_linear,
         "Solve the decoupled linear problem, loaded with the computed contact stresses, by the same V-cycles "
@@ -353,7 +362,7 @@ namespace Signorini
   {
     NestedParameters result;
     result.refinement = refinement;
-    result.solve      = {solver, compare_linear, the_output.measure_sweeps};
+    result.solve      = {solver, compare_linear, the_output.measure_sweeps, coarse_levels};
     for (unsigned int b = 0; b < bodies.size(); ++b)
       {
         const std::string section = "Body " + bodies[b].body.name + "/";

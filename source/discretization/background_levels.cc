@@ -486,7 +486,6 @@ namespace Signorini
             distributed.positions.push_back(level.positions[places[node]]);
             distributed.parts.push_back(level.parts[places[node]]);
           }
-        std::cout << "level " << distributed.owned.size() << std::endl;
         result.push_back(std::move(distributed));
       }
     return result;

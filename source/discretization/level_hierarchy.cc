@@ -474,7 +474,7 @@ namespace Signorini
       fine_projections = std::move(projections);
       --level;
       result.interface = interface();
-      if (level < spaces.n_background_levels())
+      if (level <= spaces.n_background_levels() && spaces.n_background_levels() > 0)
         result.correction = {2, true};
       return result;
     }

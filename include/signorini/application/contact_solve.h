@@ -6,6 +6,7 @@
 
 #include <signorini/application/discretization.h>
 #include <signorini/application/linear_comparison.h>
+#include <signorini/discretization/level_hierarchy.h>
 #include <signorini/mesh/coarser_meshes.h>
 #include <signorini/solvers/obstacle_solver.h>
 #include <signorini/solvers/sweep_measurement.h>
@@ -22,6 +23,18 @@ namespace Signorini
     bool compare_linear = false;
     /// Time sweeps on the finest level.
     bool measure_sweeps = false;
+    /// What is below the coarsest mesh.
+    CoarseLevels coarse_levels = CoarseLevels::automatic;
+
+    /// None where they would not be used: a method without levels, or a solver of level 0 that somebody
+    /// chose.
+    CoarseLevels coarse_levels_of_method() const
+    {
+      const bool are_of_use =
+          needs_levels(solver.method) &&
+          (coarse_levels != CoarseLevels::automatic || solver.level_zero == LevelZeroMethod::automatic);
+      return are_of_use ? coarse_levels : CoarseLevels::none;
+    }
   };
 
   /// What the solution on one mesh gives that on the next.

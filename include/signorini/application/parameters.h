@@ -122,6 +122,7 @@ namespace Signorini
     RefinementParameters        refinement;
     SolverParameters            solver;
     bool                        compare_linear = false;
+    CoarseLevels                coarse_levels  = CoarseLevels::automatic;
     OutputParameters            the_output;
     /// Fills the members above, and remembers what was written.
     dealii::ParameterHandler prm;

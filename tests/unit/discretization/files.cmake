@@ -1,4 +1,5 @@
 signorini_add_unit_tests(discretization RANKS "1;2;4"
+  background_levels.cc
   elasticity.cc
   error_indicator.cc
   hexahedron.cc
