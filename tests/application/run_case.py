@@ -11,6 +11,7 @@ import subprocess
 import sys
 import tempfile
 
+import finished_mesh_cases
 import geometry_cases
 import true_gap_cases
 import verification_cases
@@ -612,7 +613,7 @@ def surface_map(p):
 
 
 if __name__ == '__main__':
-    case = next(getattr(m, sys.argv[2]) for m in (sys.modules[__name__], geometry_cases, verification_cases, true_gap_cases) if hasattr(m, sys.argv[2]))
+    case = next(getattr(m, sys.argv[2]) for m in (sys.modules[__name__], geometry_cases, finished_mesh_cases, verification_cases, true_gap_cases) if hasattr(m, sys.argv[2]))
     case(Program(sys.argv[1], int(sys.argv[3])))
     for failure in FAILURES:
         print('FAILED:', failure)
