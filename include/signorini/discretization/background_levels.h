@@ -49,7 +49,7 @@ namespace Signorini
   };
 
   /// A level of trilinear functions on an octree, under a mesh or another such level: one node for each
-  /// function and each connected piece of its support.
+  /// function and each connected piece of its support (doc/algorithm.md, (39a)).
   struct BackgroundLevel
   {
     /// One row per node of the finer level: nonnegative weights of sum 1 that reproduce linear functions.

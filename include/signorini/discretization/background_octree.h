@@ -15,7 +15,7 @@
 namespace Signorini
 {
   /// An octree of cells around some nodes, as fine as their mesh is, and the continuous trilinear functions
-  /// on cuts through it (doc/algorithm.md, chapter 8). Only cells with nodes in them exist, and neighbours
+  /// on cuts through it (doc/algorithm.md, (39a)). Only cells with nodes in them exist, and neighbours
   /// may differ by more than one level; vertices that hang on a larger cell are eliminated.
   class BackgroundOctree
   {

@@ -15,7 +15,7 @@
 
 namespace Signorini
 {
-  /// How the correction of a level is found.
+  /// How the correction of a level is found (doc/algorithm.md, (46a)).
   struct LevelCorrection
   {
     /// V-cycles, one after the other: two on all levels make a W-cycle. Level 0 has one.
