@@ -55,6 +55,29 @@ namespace Signorini
 
 
 
+    /// The cells at each row: of[start[row]] ... of[start[row + 1] - 1].
+    struct CellsOfRows
+    {
+      std::vector<std::size_t>  start;
+      std::vector<unsigned int> of;
+
+      /// @param rows of all nodes of all cells
+      CellsOfRows(const CellNodes &cells, const std::vector<unsigned int> &rows, const std::size_t n_rows)
+        : start(n_rows + 1, 0)
+        , of(rows.size())
+      {
+        for (const unsigned int row : rows)
+          ++start[row + 1];
+        std::partial_sum(start.begin(), start.end(), start.begin());
+        std::vector<std::size_t> next(start.begin(), start.end() - 1);
+        for (std::size_t cell = 0; cell + 1 < cells.start.size(); ++cell)
+          for (std::size_t k = cells.start[cell]; k < cells.start[cell + 1]; ++k)
+            of[next[rows[k]]++] = static_cast<unsigned int>(cell);
+      }
+    };
+
+
+
     /// Couples all nodes of a cell with each other.
     NodePattern make_pattern(const NodalSpace &space, const CellNodes &cells)
     {
@@ -77,25 +100,16 @@ namespace Signorini
 
       const std::size_t         n_rows = n + pattern.foreign_rows.size();
       std::vector<unsigned int> rows(cells.nodes.size());
-      std::vector<std::size_t>  start(n_rows + 1, 0);
       for (std::size_t k = 0; k < rows.size(); ++k)
-        {
-          rows[k] = static_cast<unsigned int>(row_of(cells.nodes[k]));
-          ++start[rows[k] + 1];
-        }
-      std::partial_sum(start.begin(), start.end(), start.begin());
-      std::vector<unsigned int> cells_of(rows.size());
-      std::vector<std::size_t>  next(start.begin(), start.end() - 1);
-      for (std::size_t cell = 0; cell + 1 < cells.start.size(); ++cell)
-        for (std::size_t k = cells.start[cell]; k < cells.start[cell + 1]; ++k)
-          cells_of[next[rows[k]]++] = static_cast<unsigned int>(cell);
+        rows[k] = static_cast<unsigned int>(row_of(cells.nodes[k]));
+      const CellsOfRows at_row(cells, rows, n_rows);
 
       std::vector<unsigned int> seen(n_rows, numbers::invalid_unsigned_int);
       pattern.columns.reserve(27 * n_rows);
       for (unsigned int row = 0; row < n_rows; ++row)
         {
-          for (std::size_t l = start[row]; l < start[row + 1]; ++l)
-            for (std::size_t k = cells.start[cells_of[l]]; k < cells.start[cells_of[l] + 1]; ++k)
+          for (std::size_t l = at_row.start[row]; l < at_row.start[row + 1]; ++l)
+            for (std::size_t k = cells.start[at_row.of[l]]; k < cells.start[at_row.of[l] + 1]; ++k)
               if (seen[rows[k]] != row)
                 {
                   seen[rows[k]] = row;
@@ -372,6 +386,35 @@ namespace Signorini
                             : dirichlet.mask[space.relevant().index_within_set(node)]);
       return masks;
     }
+
+
+
+    /// Adds the owned cells.
+    void assemble_cells(LinearSystem &system, const CellAssembler &assembler, const NodalSpace &space,
+                        const DirichletData &dirichlet, const VertexExpansion &expansion)
+    {
+      CellData     data;
+      ExpandedCell expanded;
+      for (unsigned int cell = 0; cell < space.cells().size(); ++cell)
+        if (space.cells()[cell].is_owned)
+          {
+            assembler.compute(data, cell);
+            bool                   plain = true, lifted = false;
+            std::array<Vector3, 8> lift;
+            for (unsigned int v = 0; v < data.n(); ++v)
+              {
+                plain   = plain && expansion.is_plain(data.vertices[v]);
+                lift[v] = lift_at(space, dirichlet, data.vertices[v]);
+                lifted  = lifted || lift[v].norm_square() > 0.;
+              }
+            if (lifted)
+              subtract_stiffness(data, lift);
+            if (plain)
+              scatter_plain(system, data);
+            else
+              expanded.scatter(system, data, expansion);
+          }
+    }
   } // namespace
 
 
@@ -388,30 +431,10 @@ namespace Signorini
     system.fixed = import_ghost_masks(system.matrix.partition(), owned_masks(space, dirichlet));
 
     const CellAssembler assembler(bodies, space, loads);
-    CellData            data;
-    ExpandedCell        expanded;
     std::string         error;
     try
       {
-        for (unsigned int cell = 0; cell < space.cells().size(); ++cell)
-          if (space.cells()[cell].is_owned)
-            {
-              assembler.compute(data, cell);
-              bool                   plain = true, lifted = false;
-              std::array<Vector3, 8> lift;
-              for (unsigned int v = 0; v < data.n(); ++v)
-                {
-                  plain   = plain && expansion.is_plain(data.vertices[v]);
-                  lift[v] = lift_at(space, dirichlet, data.vertices[v]);
-                  lifted  = lifted || lift[v].norm_square() > 0.;
-                }
-              if (lifted)
-                subtract_stiffness(data, lift);
-              if (plain)
-                scatter_plain(system, data);
-              else
-                expanded.scatter(system, data, expansion);
-            }
+        assemble_cells(system, assembler, space, dirichlet, expansion);
       }
     catch (const InputError &e)
       {
