@@ -46,22 +46,6 @@ namespace Signorini
             }
       return packed;
     }
-
-    Eigen::SparseMatrix<double> lower_half(const std::vector<PackedMatrix> &pieces, const std::size_t size)
-    {
-      std::vector<Eigen::Triplet<double>> triplets;
-      for (const PackedMatrix &piece : pieces)
-        for (std::size_t k = 0; k < piece.rows.size(); ++k)
-          for (unsigned int c = 0; c < dim; ++c)
-            for (unsigned int d = 0; d < dim; ++d)
-              if (piece.rows[k] >= piece.columns[k])
-                triplets.emplace_back(dim * piece.rows[k] + c, dim * piece.columns[k] + d,
-                                      piece.values[9 * k + dim * c + d]);
-      const auto                  n = static_cast<Eigen::Index>(size);
-      Eigen::SparseMatrix<double> lower(n, n);
-      lower.setFromTriplets(triplets.begin(), triplets.end());
-      return lower;
-    }
   } // namespace
 
 
@@ -89,10 +73,21 @@ namespace Signorini
     bool       ok               = true;
     if (Utilities::MPI::this_mpi_process(comm) == 0)
       {
-        std::size_t n_blocks = 0;
+        std::vector<Eigen::Triplet<double>> triplets;
+        std::size_t                         n_blocks = 0;
         for (const PackedMatrix &piece : pieces)
-          n_blocks += piece.rows.size();
-        const Eigen::SparseMatrix<double> lower = lower_half(pieces, dim * matrix.partition().n_global());
+          {
+            n_blocks += piece.rows.size();
+            for (std::size_t k = 0; k < piece.rows.size(); ++k)
+              for (unsigned int c = 0; c < dim; ++c)
+                for (unsigned int d = 0; d < dim; ++d)
+                  if (piece.rows[k] >= piece.columns[k])
+                    triplets.emplace_back(dim * piece.rows[k] + c, dim * piece.columns[k] + d,
+                                          piece.values[9 * k + dim * c + d]);
+          }
+        const auto                  n = static_cast<Eigen::Index>(dim * matrix.partition().n_global());
+        Eigen::SparseMatrix<double> lower(n, n);
+        lower.setFromTriplets(triplets.begin(), triplets.end());
         if (!factorization->analyzed || factorization->n_blocks != n_blocks)
           factorization->solver.analyzePattern(lower);
         factorization->analyzed = true;

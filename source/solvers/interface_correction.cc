@@ -36,13 +36,6 @@ namespace Signorini
       std::vector<std::size_t> rows, columns;
       std::vector<double>      values;
 
-      void append(const PackedMatrix &other)
-      {
-        rows.insert(rows.end(), other.rows.begin(), other.rows.end());
-        columns.insert(columns.end(), other.columns.begin(), other.columns.end());
-        values.insert(values.end(), other.values.begin(), other.values.end());
-      }
-
       template <class Archive>
       void serialize(Archive &archive, const unsigned int)
       {
@@ -143,22 +136,6 @@ namespace Signorini
       return true;
     }
 
-    /// Nodes that press stay active, those that would pass their planes become so; whether any changed.
-    static bool change_active(std::vector<unsigned char> &active, const Eigen::VectorXd &step,
-                              const Eigen::VectorXd &residual, const std::vector<NodeState> &state)
-    {
-      bool changes = false;
-      for (std::size_t i = 0; i < state.size(); ++i)
-        if (state[i].room >= 0.)
-          {
-            const bool now = active[i] ? normal_part(residual, i, state[i].normal) >= 0.
-                                       : normal_part(step, i, state[i].normal) > state[i].room;
-            changes        = changes || now != static_cast<bool>(active[i]);
-            active[i]      = now;
-          }
-      return changes;
-    }
-
     /// The step, and the active flags that belong to it.
     Eigen::VectorXd solve(const std::vector<NodeState> &state, std::vector<unsigned char> &active)
     {
@@ -173,7 +150,15 @@ namespace Signorini
         {
           if (!minimize(step, residual, state, active, true))
             break;
-          const bool changes = change_active(active, step, residual, state);
+          bool changes = false;
+          for (std::size_t i = 0; i < n; ++i)
+            if (state[i].room >= 0.)
+              {
+                const bool now = active[i] ? normal_part(residual, i, state[i].normal) >= 0.
+                                           : normal_part(step, i, state[i].normal) > state[i].room;
+                changes        = changes || now != static_cast<bool>(active[i]);
+                active[i]      = now;
+              }
           if (!changes)
             return step;
         }
@@ -245,7 +230,11 @@ namespace Signorini
     PackedMatrix &all = gathered->blocks;
     all               = PackedMatrix();
     for (const PackedMatrix &piece : pieces)
-      all.append(piece);
+      {
+        all.rows.insert(all.rows.end(), piece.rows.begin(), piece.rows.end());
+        all.columns.insert(all.columns.end(), piece.columns.begin(), piece.columns.end());
+        all.values.insert(all.values.end(), piece.values.begin(), piece.values.end());
+      }
     std::vector<Eigen::Triplet<double>> entries;
     for (std::size_t k = 0; k < all.rows.size(); ++k)
       add_block(entries, all.rows[k], all.columns[k], read_block(all.values.data() + dim * dim * k));
@@ -257,10 +246,15 @@ namespace Signorini
 
 
 
-  std::vector<double> InterfaceCorrection::pack_states(const Vector &v, const Vector &rhs,
-                                                       const ContactState &contact) const
+  void InterfaceCorrection::run(Vector &v, const Vector &rhs, ContactState &contact, const Direction)
   {
-    std::vector<double> packed(n_numbers * owned.size());
+    const MPI_Comm comm = matrix.partition().communicator();
+    if (Utilities::MPI::min(static_cast<int>(is_current), comm) == 0)
+      gather_matrix();
+    is_current = true;
+
+    v.update_ghost_values();
+    std::vector<double> mine(n_numbers * owned.size());
     for (std::size_t r = 0; r < owned.size(); ++r)
       {
         const unsigned int row = owned[r];
@@ -278,52 +272,32 @@ namespace Signorini
             state.room               = std::max(0., spaces.bounds[p] - spaces.normal_part(p, v));
             state.is_active          = contact.active()[p];
           }
-        std::memcpy(packed.data() + n_numbers * r, &state, sizeof(NodeState));
+        std::memcpy(mine.data() + n_numbers * r, &state, sizeof(NodeState));
       }
-    return packed;
-  }
 
-
-
-  std::vector<double>
-  InterfaceCorrection::solve_gathered(const std::vector<std::vector<double>> &pieces) const
-  {
     // The contact nodes by rank are the contact nodes in order.
-    std::vector<NodeState> state;
-    for (const auto &piece : pieces)
-      for (std::size_t i = 0; i < piece.size(); i += n_numbers)
-        {
-          state.emplace_back();
-          std::memcpy(&state.back(), piece.data() + i, sizeof(NodeState));
-        }
-    AssertDimension(state.size(), nodes.size());
-    std::vector<unsigned char> active;
-    for (const NodeState &node : state)
-      active.push_back(node.is_active != 0.);
-    const Eigen::VectorXd step = gathered->solve(state, active);
-    std::vector<double>   result;
-    for (std::size_t i = 0; i < state.size(); ++i)
-      {
-        result.insert(result.end(), step.data() + dim * i, step.data() + dim * (i + 1));
-        result.push_back(active[i]);
-      }
-    return result;
-  }
-
-
-
-  void InterfaceCorrection::run(Vector &v, const Vector &rhs, ContactState &contact, const Direction)
-  {
-    const MPI_Comm comm = matrix.partition().communicator();
-    if (Utilities::MPI::min(static_cast<int>(is_current), comm) == 0)
-      gather_matrix();
-    is_current = true;
-
-    v.update_ghost_values();
-    const auto          pieces = Utilities::MPI::gather(comm, pack_states(v, rhs, contact), 0);
+    const auto          pieces = Utilities::MPI::gather(comm, mine, 0);
     std::vector<double> result;
     if (Utilities::MPI::this_mpi_process(comm) == 0)
-      result = solve_gathered(pieces);
+      {
+        std::vector<NodeState> state;
+        for (const auto &piece : pieces)
+          for (std::size_t i = 0; i < piece.size(); i += n_numbers)
+            {
+              state.emplace_back();
+              std::memcpy(&state.back(), piece.data() + i, sizeof(NodeState));
+            }
+        AssertDimension(state.size(), nodes.size());
+        std::vector<unsigned char> active;
+        for (const NodeState &node : state)
+          active.push_back(node.is_active != 0.);
+        const Eigen::VectorXd step = gathered->solve(state, active);
+        for (std::size_t i = 0; i < state.size(); ++i)
+          {
+            result.insert(result.end(), step.data() + dim * i, step.data() + dim * (i + 1));
+            result.push_back(active[i]);
+          }
+      }
     result = Utilities::MPI::broadcast(comm, result, 0);
     for (const unsigned int row : owned)
       {

@@ -100,30 +100,6 @@ namespace Signorini
 
 
 
-  std::vector<unsigned int> StrongBlocks::connected_rows(const unsigned int start, std::vector<bool> &visited,
-                                                         const std::vector<bool>   &is_stretched,
-                                                         const std::vector<double> &most_negative) const
-  {
-    // Breadth first, so that a cut block stays in one piece.
-    std::vector<unsigned int> rows = {start};
-    visited[start]                 = true;
-    for (std::size_t next = 0; next < rows.size() && rows.size() < rule.largest_block; ++next)
-      for (const BlockRange &range : {matrix.lower(rows[next]), matrix.upper(rows[next])})
-        for (std::size_t k = range.begin; k < range.end; ++k)
-          if (const unsigned int j = matrix.column(k);
-              j < matrix.n_rows() && is_stretched[j] && !visited[j] &&
-              trace_of(matrix.block(k)) <=
-                  rule.strong * std::min(most_negative[rows[next]], most_negative[j]))
-            {
-              visited[j] = true;
-              rows.push_back(j);
-            }
-    std::sort(rows.begin(), rows.end());
-    return rows;
-  }
-
-
-
   void StrongBlocks::find_blocks()
   {
     const unsigned int        n = matrix.n_rows();
@@ -139,9 +115,23 @@ namespace Signorini
     for (unsigned int start = 0; start < n; ++start)
       if (is_stretched[start] && !visited[start])
         {
-          std::vector<unsigned int> rows = connected_rows(start, visited, is_stretched, most_negative);
+          // Along strong couplings, breadth first, so that a cut block stays in one piece.
+          std::vector<unsigned int> rows = {start};
+          visited[start]                 = true;
+          for (std::size_t next = 0; next < rows.size() && rows.size() < rule.largest_block; ++next)
+            for (const BlockRange &range : {matrix.lower(rows[next]), matrix.upper(rows[next])})
+              for (std::size_t k = range.begin; k < range.end; ++k)
+                if (const unsigned int j = matrix.column(k);
+                    j < n && is_stretched[j] && !visited[j] &&
+                    trace_of(matrix.block(k)) <=
+                        rule.strong * std::min(most_negative[rows[next]], most_negative[j]))
+                  {
+                    visited[j] = true;
+                    rows.push_back(j);
+                  }
           if (rows.size() < 2)
             continue;
+          std::sort(rows.begin(), rows.end());
           // With a node that other ranks see the block waits for the turn of this rank.
           unsigned int phase = static_cast<unsigned int>(phases.size()) - 1;
           for (const unsigned int row : rows)
@@ -210,9 +200,14 @@ namespace Signorini
 
 
 
-  template <typename Add>
-  void StrongBlocks::for_each_entry(const Block &block, const ContactState &contact, const Add &add) const
+  void StrongBlocks::factorize(Block &block, const ContactState &contact)
   {
+    const auto                          size     = static_cast<Eigen::Index>(dim * block.rows.size());
+    const bool                          is_dense = block.rows.size() <= rule.largest_dense;
+    Eigen::MatrixXd                     full;
+    std::vector<Eigen::Triplet<double>> entries;
+    if (is_dense)
+      full = Eigen::MatrixXd::Zero(size, size);
     const int index = block_of_row[block.rows[0]];
     for (std::size_t i = 0; i < block.rows.size(); ++i)
       {
@@ -229,31 +224,19 @@ namespace Signorini
                   restrict_to_planes(matrix.block(k), row_normal, contact.plane(column), row == column);
               for (unsigned int c = 0; c < dim; ++c)
                 for (unsigned int d = 0; d < dim; ++d)
-                  add(dim * i + c, dim * j + d, entry[c][d]);
+                  if (is_dense)
+                    full(dim * i + c, dim * j + d) = entry[c][d];
+                  else
+                    entries.emplace_back(dim * i + c, dim * j + d, entry[c][d]);
             }
       }
-  }
-
-
-
-  void StrongBlocks::factorize(Block &block, const ContactState &contact)
-  {
-    const auto size = static_cast<Eigen::Index>(dim * block.rows.size());
-    if (block.rows.size() <= rule.largest_dense)
+    if (is_dense)
       {
-        Eigen::MatrixXd full = Eigen::MatrixXd::Zero(size, size);
-        for_each_entry(block, contact, [&](const std::size_t i, const std::size_t j, const double value) {
-          full(i, j) = value;
-        });
         block.dense.compute(full);
         block.is_definite = block.dense.info() == Eigen::Success;
       }
     else
       {
-        std::vector<Eigen::Triplet<double>> entries;
-        for_each_entry(block, contact, [&](const std::size_t i, const std::size_t j, const double value) {
-          entries.emplace_back(i, j, value);
-        });
         Eigen::SparseMatrix<double> sparse(size, size);
         sparse.setFromTriplets(entries.begin(), entries.end());
         if (!block.sparse)
@@ -269,7 +252,7 @@ namespace Signorini
 
 
 
-  void StrongBlocks::update_factors(Block &block, const ContactState &contact)
+  void StrongBlocks::relax(Vector &v, const Vector &rhs, Block &block, const ContactState &contact)
   {
     std::vector<unsigned char> flags;
     for (const unsigned int row : block.rows)
@@ -280,69 +263,43 @@ namespace Signorini
         block.flags = flags;
         factorize(block, contact);
       }
-  }
-
-
-
-  namespace
-  {
-    /// How far nodes that are not active may go along a step, at most 1.
-    double longest_step(const std::vector<unsigned int> &rows, const Vector &v, const Eigen::VectorXd &step,
-                        const ContactState &contact)
-    {
-      const HalfSpaces &half_spaces = contact.half_spaces();
-      double            length      = 1.;
-      for (std::size_t i = 0; i < rows.size(); ++i)
-        if (const int p = contact.at(rows[i]); p >= 0 && !contact.active()[p])
-          {
-            double motion = 0., room = half_spaces.bounds[p];
-            for (unsigned int c = 0; c < dim; ++c)
-              {
-                motion += half_spaces.normals[p][c] * step[dim * i + c];
-                room -= half_spaces.normals[p][c] * v.local_element(dim * rows[i] + c);
-              }
-            if (motion > 0.)
-              length = std::min(length, std::max(room, 0.) / motion);
-          }
-      return length;
-    }
-  } // namespace
-
-
-
-  std::vector<double> StrongBlocks::tangential_residual(const Vector &v, const Vector &rhs,
-                                                        const Block &block, const ContactState &contact) const
-  {
-    std::vector<double> residual(dim * block.rows.size());
+    if (!block.is_definite)
+      return;
+    Eigen::VectorXd residual(dim * block.rows.size());
     for (std::size_t i = 0; i < block.rows.size(); ++i)
       {
         const unsigned int row = block.rows[i];
-        double             product[dim];
+        double             s[3];
+        for (unsigned int c = 0; c < dim; ++c)
+          s[c] = rhs.local_element(dim * row + c);
+        double product[3];
         matrix.multiply_row(product, row, v);
-        Vector3 s;
         for (unsigned int c = 0; c < dim; ++c)
-          s[c] = rhs.local_element(dim * row + c) - product[c];
+          s[c] -= product[c];
         const Vector3 n      = contact.plane(row);
-        const double  normal = n * s;
+        const double  normal = n[0] * s[0] + n[1] * s[1] + n[2] * s[2];
         for (unsigned int c = 0; c < dim; ++c)
-          residual[dim * i + c] = s[c] - normal * n[c];
+          s[c] -= normal * n[c];
+        for (unsigned int c = 0; c < dim; ++c)
+          residual[dim * i + c] = s[c];
       }
-    return residual;
-  }
-
-
-
-  void StrongBlocks::relax(Vector &v, const Vector &rhs, Block &block, const ContactState &contact)
-  {
-    update_factors(block, contact);
-    if (!block.is_definite)
-      return;
-    const std::vector<double>               s = tangential_residual(v, rhs, block, contact);
-    const Eigen::Map<const Eigen::VectorXd> residual(s.data(), s.size());
     const Eigen::VectorXd step = block.sparse ? Eigen::VectorXd(block.sparse->solve(residual))
                                               : Eigen::VectorXd(block.dense.solve(residual));
 
-    const double length = longest_step(block.rows, v, step, contact);
+    const HalfSpaces &half_spaces = contact.half_spaces();
+    double            length      = 1.;
+    for (std::size_t i = 0; i < block.rows.size(); ++i)
+      if (const int p = contact.at(block.rows[i]); p >= 0 && !contact.active()[p])
+        {
+          double motion = 0., room = half_spaces.bounds[p];
+          for (unsigned int c = 0; c < dim; ++c)
+            {
+              motion += half_spaces.normals[p][c] * step[dim * i + c];
+              room -= half_spaces.normals[p][c] * v.local_element(dim * block.rows[i] + c);
+            }
+          if (motion > 0.)
+            length = std::min(length, std::max(room, 0.) / motion);
+        }
     for (std::size_t i = 0; i < block.rows.size(); ++i)
       for (unsigned int c = 0; c < dim; ++c)
         v.local_element(dim * block.rows[i] + c) += length * step[dim * i + c];

@@ -49,10 +49,6 @@ namespace Signorini
     struct Gathered;
 
     void gather_matrix();
-    /// What this rank tells rank 0 about its contact nodes.
-    std::vector<double> pack_states(const Vector &v, const Vector &rhs, const ContactState &contact) const;
-    /// On rank 0: step and active flag of every contact node.
-    std::vector<double> solve_gathered(const std::vector<std::vector<double>> &pieces) const;
 
     bool                      is_current = false;
     std::vector<NodeIndex>    nodes;

@@ -48,23 +48,11 @@ namespace Signorini
 
     void find_stretched(std::vector<bool> &is_stretched, std::vector<double> &most_negative) const;
     void find_blocks();
-    /// The rows along strong couplings from one of them, sorted.
-    std::vector<unsigned int> connected_rows(const unsigned int start, std::vector<bool> &visited,
-                                             const std::vector<bool>   &is_stretched,
-                                             const std::vector<double> &most_negative) const;
-    void                      add_block(std::vector<unsigned int> &&rows, const unsigned int phase);
+    void add_block(std::vector<unsigned int> &&rows, const unsigned int phase);
     /// After blocks were added or dropped.
     void collect_rows();
-    /// Calls add(row, column, value) with the entries of a block, restricted to the planes of active nodes.
-    template <typename Add>
-    void for_each_entry(const Block &block, const ContactState &contact, const Add &add) const;
     void factorize(Block &block, const ContactState &contact);
-    /// Factorizes if the active set has changed.
-    void update_factors(Block &block, const ContactState &contact);
-    /// b - A v on the rows of a block, without its normal parts at active nodes.
-    std::vector<double> tangential_residual(const Vector &v, const Vector &rhs, const Block &block,
-                                            const ContactState &contact) const;
-    void                relax(Vector &v, const Vector &rhs, Block &block, const ContactState &contact);
+    void relax(Vector &v, const Vector &rhs, Block &block, const ContactState &contact);
 
     const ProjectedGaussSeidel &sweeps;
     /// Whether there are none on any rank.
