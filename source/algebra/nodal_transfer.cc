@@ -21,6 +21,24 @@ namespace Signorini
 
 
 
+  void NodalTransfer::append(const BlockRow &row)
+  {
+    global_columns.insert(global_columns.end(), row.columns.begin(), row.columns.end());
+    if (!row.weights.empty())
+      weights.insert(weights.end(), row.weights.begin(), row.weights.end());
+    else if (std::all_of(row.blocks.begin(), row.blocks.end(), is_multiple_of_identity))
+      for (const Block &block : row.blocks)
+        weights.push_back(block[0][0]);
+    else
+      {
+        block_start[row.row] = static_cast<unsigned int>(blocks.size());
+        blocks.insert(blocks.end(), row.blocks.begin(), row.blocks.end());
+        weights.resize(global_columns.size(), 0.);
+      }
+  }
+
+
+
   void NodalTransfer::reinit(NodeRows rows, const std::vector<BlockRow> &block_rows,
                              const unsigned int n_owned_fine)
   {
@@ -51,21 +69,7 @@ namespace Signorini
     for (unsigned int i = 0; i < rows.n_rows(); ++i)
       {
         if (next != block_rows.end() && next->row == i)
-          {
-            global_columns.insert(global_columns.end(), next->columns.begin(), next->columns.end());
-            if (!next->weights.empty())
-              weights.insert(weights.end(), next->weights.begin(), next->weights.end());
-            else if (std::all_of(next->blocks.begin(), next->blocks.end(), is_multiple_of_identity))
-              for (const Block &block : next->blocks)
-                weights.push_back(block[0][0]);
-            else
-              {
-                block_start[i] = static_cast<unsigned int>(blocks.size());
-                blocks.insert(blocks.end(), next->blocks.begin(), next->blocks.end());
-                weights.resize(global_columns.size(), 0.);
-              }
-            ++next;
-          }
+          append(*next++);
         else
           {
             global_columns.insert(global_columns.end(), rows.columns.begin() + rows.start[i],

@@ -158,7 +158,14 @@ namespace Signorini
     for (std::size_t f = 0; f < pattern.foreign_rows.size(); ++f)
       foreign_row_of_ghost[nodes->to_local(pattern.foreign_rows[f]) - n_owned] = n_owned + f;
 
-    // The plan of compress(): our foreign rows are sorted by node, hence by owner.
+    plan_compression(pattern);
+  }
+
+
+
+  void NodeBlockMatrix::plan_compression(const NodePattern &pattern)
+  {
+    const unsigned int n_owned = nodes->n_owned();
     send_rows.clear();
     std::map<unsigned int, std::vector<NodeIndex>> headers;
     for (std::size_t f = 0; f < pattern.foreign_rows.size(); ++f)
@@ -174,9 +181,9 @@ namespace Signorini
           header.push_back(nodes->to_global(columns[k]));
       }
     receive_positions.clear();
-    if (numbering.n_ranks() == 1)
+    if (nodes->n_ranks() == 1)
       return;
-    for (const auto &[rank, header] : Utilities::MPI::some_to_some(communicator, headers))
+    for (const auto &[rank, header] : Utilities::MPI::some_to_some(nodes->communicator(), headers))
       {
         receive_positions.push_back({rank, {}});
         for (std::size_t i = 0; i < header.size(); i += 2 + header[i + 1])
@@ -299,14 +306,6 @@ namespace Signorini
   {
     residual.copy_locally_owned_data_from(rhs);
     subtract_symmetric_product(residual, src);
-  }
-
-
-
-  std::size_t NodeBlockMatrix::memory_consumption() const
-  {
-    return values.capacity() * sizeof(double) + columns.capacity() * sizeof(unsigned int) +
-           (lower_start.capacity() + upper_start.capacity()) * sizeof(std::size_t);
   }
 
 

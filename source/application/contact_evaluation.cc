@@ -146,6 +146,30 @@ namespace Signorini
 
 
 
+  namespace
+  {
+    /// Area, load and centre of pressure of the active nodes; returns which vertices these are.
+    std::vector<bool> sum_active(PairResult &result, const ContactPair &pair, const PairCoupling &coupling,
+                                 const ContactStress &stress)
+    {
+      std::vector<bool> is_active(pair.nonmortar.surface.mesh.vertices.size(), false);
+      for (std::size_t i = 0; i < stress.active.size(); ++i)
+        if (stress.active[i])
+          {
+            const double force              = coupling.areas[i] * stress.pressure[i];
+            is_active[coupling.vertices[i]] = true;
+            result.contact_area += coupling.areas[i];
+            result.load += force;
+            result.centre += force * Vector3(coupling.positions[i]);
+          }
+      if (result.load > 0.)
+        result.centre /= result.load;
+      return is_active;
+    }
+  } // namespace
+
+
+
   PairResult evaluate_pair(const Discretization &d, const ContactSolution &solution, const unsigned int p)
   {
     const ContactPair  &pair     = d.pairs[p];
@@ -164,19 +188,8 @@ namespace Signorini
         result.min_pressure         = *least;
         result.max_pressure         = *largest;
       }
-    std::vector<bool> is_active(pair.nonmortar.surface.mesh.vertices.size(), false);
-    for (std::size_t i = 0; i < stress.active.size(); ++i)
-      if (stress.active[i])
-        {
-          const double force              = coupling.areas[i] * stress.pressure[i];
-          is_active[coupling.vertices[i]] = true;
-          result.contact_area += coupling.areas[i];
-          result.load += force;
-          result.centre += force * Vector3(coupling.positions[i]);
-        }
-    if (result.load > 0.)
-      result.centre /= result.load;
-    const ContactForces forces =
+    const std::vector<bool> is_active = sum_active(result, pair, coupling, stress);
+    const ContactForces     forces =
         compute_contact_forces(pair.nonmortar.surface, pair.mortar.surface, coupling, stress.traction);
     result.force           = forces.nonmortar.force;
     result.force_on_mortar = pair.obstacle ? -forces.nonmortar.force : forces.mortar.force;

@@ -2,9 +2,9 @@
 // Copyright (C) 2026 by the Signorini authors
 
 #include <signorini/algebra/input_error.h>
+#include <signorini/algebra/parameter_choice.h>
 #include <signorini/application/parameters.h>
 #include <signorini/mesh/expression.h>
-#include <signorini/mesh/parameter_choice.h>
 
 #include <deal.II/base/utilities.h>
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include "elasticity_pattern.h"
+
 #include <signorini/algebra/input_error.h>
 #include <signorini/algebra/replicated_data.h>
 #include <signorini/discretization/elasticity.h>
@@ -15,98 +17,6 @@ namespace Signorini
   namespace
   {
     using Cell = NodalSpace::Cell;
-
-    /// The nodes of each owned cell after expansion.
-    struct CellNodes
-    {
-      std::vector<std::size_t> start = {0};
-      std::vector<NodeIndex>   nodes;
-    };
-
-    CellNodes collect_cell_nodes(const NodalSpace &space, const VertexExpansion &expansion)
-    {
-      CellNodes                          result;
-      std::vector<VertexExpansion::Term> terms;
-      std::vector<NodeIndex>             list;
-      for (const Cell &cell : space.cells())
-        if (cell.is_owned)
-          {
-            const auto vertices = space.nodes(cell);
-            if (std::all_of(vertices.begin(), vertices.end(),
-                            [&](const NodeIndex n) { return expansion.is_plain(n); }))
-              result.nodes.insert(result.nodes.end(), vertices.begin(), vertices.end());
-            else
-              {
-                list.clear();
-                for (const NodeIndex vertex : vertices)
-                  {
-                    expansion.expand(vertex, terms);
-                    for (const auto &term : terms)
-                      list.push_back(term.node);
-                  }
-                std::sort(list.begin(), list.end());
-                list.erase(std::unique(list.begin(), list.end()), list.end());
-                result.nodes.insert(result.nodes.end(), list.begin(), list.end());
-              }
-            result.start.push_back(result.nodes.size());
-          }
-      return result;
-    }
-
-
-
-    /// Couples all nodes of a cell with each other.
-    NodePattern make_pattern(const NodalSpace &space, const CellNodes &cells)
-    {
-      const IndexSet &owned = space.owned();
-      const NodeIndex begin = owned.n_elements() > 0 ? owned.nth_index_in_set(0) : 0;
-      const NodeIndex n     = owned.n_elements();
-      NodePattern     pattern;
-      for (const NodeIndex node : cells.nodes)
-        if (node < begin || node >= begin + n)
-          pattern.foreign_rows.push_back(node);
-      std::sort(pattern.foreign_rows.begin(), pattern.foreign_rows.end());
-      pattern.foreign_rows.erase(std::unique(pattern.foreign_rows.begin(), pattern.foreign_rows.end()),
-                                 pattern.foreign_rows.end());
-      const auto row_of = [&](const NodeIndex node) -> std::size_t {
-        if (node >= begin && node < begin + n)
-          return node - begin;
-        return n + (std::lower_bound(pattern.foreign_rows.begin(), pattern.foreign_rows.end(), node) -
-                    pattern.foreign_rows.begin());
-      };
-
-      const std::size_t         n_rows = n + pattern.foreign_rows.size();
-      std::vector<unsigned int> rows(cells.nodes.size());
-      std::vector<std::size_t>  start(n_rows + 1, 0);
-      for (std::size_t k = 0; k < rows.size(); ++k)
-        {
-          rows[k] = static_cast<unsigned int>(row_of(cells.nodes[k]));
-          ++start[rows[k] + 1];
-        }
-      std::partial_sum(start.begin(), start.end(), start.begin());
-      std::vector<unsigned int> cells_of(rows.size());
-      std::vector<std::size_t>  next(start.begin(), start.end() - 1);
-      for (std::size_t cell = 0; cell + 1 < cells.start.size(); ++cell)
-        for (std::size_t k = cells.start[cell]; k < cells.start[cell + 1]; ++k)
-          cells_of[next[rows[k]]++] = static_cast<unsigned int>(cell);
-
-      std::vector<unsigned int> seen(n_rows, numbers::invalid_unsigned_int);
-      pattern.columns.reserve(27 * n_rows);
-      for (unsigned int row = 0; row < n_rows; ++row)
-        {
-          for (std::size_t l = start[row]; l < start[row + 1]; ++l)
-            for (std::size_t k = cells.start[cells_of[l]]; k < cells.start[cells_of[l] + 1]; ++k)
-              if (seen[rows[k]] != row)
-                {
-                  seen[rows[k]] = row;
-                  pattern.columns.push_back(cells.nodes[k]);
-                }
-          pattern.row_start.push_back(pattern.columns.size());
-        }
-      return pattern;
-    }
-
-
 
     /// Stiffness and load of a cell.
     struct CellData
@@ -372,6 +282,35 @@ namespace Signorini
                             : dirichlet.mask[space.relevant().index_within_set(node)]);
       return masks;
     }
+
+
+
+    /// Adds the owned cells.
+    void assemble_cells(LinearSystem &system, const CellAssembler &assembler, const NodalSpace &space,
+                        const DirichletData &dirichlet, const VertexExpansion &expansion)
+    {
+      CellData     data;
+      ExpandedCell expanded;
+      for (unsigned int cell = 0; cell < space.cells().size(); ++cell)
+        if (space.cells()[cell].is_owned)
+          {
+            assembler.compute(data, cell);
+            bool                   plain = true, lifted = false;
+            std::array<Vector3, 8> lift;
+            for (unsigned int v = 0; v < data.n(); ++v)
+              {
+                plain   = plain && expansion.is_plain(data.vertices[v]);
+                lift[v] = lift_at(space, dirichlet, data.vertices[v]);
+                lifted  = lifted || lift[v].norm_square() > 0.;
+              }
+            if (lifted)
+              subtract_stiffness(data, lift);
+            if (plain)
+              scatter_plain(system, data);
+            else
+              expanded.scatter(system, data, expansion);
+          }
+    }
   } // namespace
 
 
@@ -382,36 +321,16 @@ namespace Signorini
   {
     const VertexExpansion expansion(space, coupling, projections);
     LinearSystem          system;
-    system.matrix.reinit(space.owned(), make_pattern(space, collect_cell_nodes(space, expansion)),
-                         IndexSet(space.n_nodes()), space.communicator());
+    system.matrix.reinit(space.owned(), make_pattern(space, expansion), IndexSet(space.n_nodes()),
+                         space.communicator());
     system.matrix.partition().reinit(system.rhs);
     system.fixed = import_ghost_masks(system.matrix.partition(), owned_masks(space, dirichlet));
 
     const CellAssembler assembler(bodies, space, loads);
-    CellData            data;
-    ExpandedCell        expanded;
     std::string         error;
     try
       {
-        for (unsigned int cell = 0; cell < space.cells().size(); ++cell)
-          if (space.cells()[cell].is_owned)
-            {
-              assembler.compute(data, cell);
-              bool                   plain = true, lifted = false;
-              std::array<Vector3, 8> lift;
-              for (unsigned int v = 0; v < data.n(); ++v)
-                {
-                  plain   = plain && expansion.is_plain(data.vertices[v]);
-                  lift[v] = lift_at(space, dirichlet, data.vertices[v]);
-                  lifted  = lifted || lift[v].norm_square() > 0.;
-                }
-              if (lifted)
-                subtract_stiffness(data, lift);
-              if (plain)
-                scatter_plain(system, data);
-              else
-                expanded.scatter(system, data, expansion);
-            }
+        assemble_cells(system, assembler, space, dirichlet, expansion);
       }
     catch (const InputError &e)
       {

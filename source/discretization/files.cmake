@@ -3,6 +3,7 @@ signorini_add_layer(discretization
   boundary_conditions.cc
   coarse_contact.cc
   elasticity.cc
+  elasticity_pattern.cc
   element.cc
   error_indicator.cc
   exact_error.cc

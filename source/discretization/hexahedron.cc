@@ -286,6 +286,22 @@ namespace Signorini
 
 
 
+    namespace
+    {
+      /// The eighths of a piece.
+      void add_children(std::vector<Piece> &pieces, const Piece &piece)
+      {
+        for (unsigned int child = 0; child < 8; ++child)
+          {
+            pieces.push_back({piece.low, .5 * piece.width});
+            for (unsigned int c = 0; c < 3; ++c)
+              pieces.back().low[c] += (child >> c & 1) ? .5 * piece.width : 0.;
+          }
+      }
+    } // namespace
+
+
+
     bool invert_map(Point<3> &reference, const Corners &corners, const Point<3> &point)
     {
       const InversionRule &rule = inversion_rule;
@@ -328,12 +344,7 @@ namespace Signorini
                   const double half = .5 * piece.width;
                   try_from(piece.low + Point<3>(half, half, half));
                 }
-              for (unsigned int child = 0; child < 8; ++child)
-                {
-                  smaller.push_back({piece.low, .5 * piece.width});
-                  for (unsigned int c = 0; c < 3; ++c)
-                    smaller.back().low[c] += (child >> c & 1) ? .5 * piece.width : 0.;
-                }
+              add_children(smaller, piece);
             }
           std::swap(pieces, smaller);
         }

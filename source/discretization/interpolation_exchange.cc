@@ -68,7 +68,8 @@ namespace Signorini
 
 
 
-  void ParentLookup::fetch_remote_cells(const NodalSpace &fine)
+  std::map<unsigned int, std::vector<std::pair<ParentLookup::Key, unsigned int>>>
+  ParentLookup::answer_for_owners(const NodalSpace &fine) const
   {
     const MPI_Comm     comm    = fine.communicator();
     const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(comm);
@@ -100,8 +101,15 @@ namespace Signorini
       for (const Key &key : keys)
         if (const auto it = owner_of.find(key); it != owner_of.end())
           owners[rank].emplace_back(key, it->second);
+    return owners;
+  }
 
-    // The owners send the cells.
+
+
+  void ParentLookup::fetch_remote_cells(const NodalSpace &fine)
+  {
+    const MPI_Comm                           comm   = fine.communicator();
+    const auto                               owners = answer_for_owners(fine);
     std::map<unsigned int, std::vector<Key>> requests;
     for (const auto &answer : Utilities::MPI::some_to_some(comm, owners))
       for (const auto &[key, rank] : answer.second)

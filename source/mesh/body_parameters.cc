@@ -4,11 +4,11 @@
 #include "placed_body.h"
 
 #include <signorini/algebra/input_error.h>
+#include <signorini/algebra/parameter_choice.h>
 #include <signorini/mesh/body_parameters.h>
 #include <signorini/mesh/expression.h>
 #include <signorini/mesh/generated_mesh.h>
 #include <signorini/mesh/mesh_input.h>
-#include <signorini/mesh/parameter_choice.h>
 
 #include <deal.II/base/utilities.h>
 #include <deal.II/grid/manifold_lib.h>
@@ -75,6 +75,30 @@ namespace Signorini
 
   namespace
   {
+    /// Appends the cells of the kept volumes, with vertices numbered as they come; returns their old numbers.
+    std::vector<unsigned int> copy_cells(VolumeMesh &part, const VolumeMesh &mesh,
+                                         const std::vector<bool> &keep)
+    {
+      std::vector<unsigned int> number(mesh.vertices.size(), VolumeMesh::no_vertex), old;
+      for (const VolumeMesh::Cell &cell : mesh.cells)
+        if (keep[cell.volume])
+          {
+            part.cells.push_back(cell);
+            for (unsigned int v = 0; v < cell.n_vertices; ++v)
+              {
+                unsigned int &n = number[cell.vertices[v]];
+                if (n == VolumeMesh::no_vertex)
+                  {
+                    n = static_cast<unsigned int>(part.vertices.size());
+                    part.vertices.push_back(mesh.vertices[cell.vertices[v]]);
+                    old.push_back(cell.vertices[v]);
+                  }
+                part.cells.back().vertices[v] = n;
+              }
+          }
+      return old;
+    }
+
     /// Keeps the cells of some volumes only.
     void select_volumes(VolumeMesh &mesh, const std::vector<std::string> &list, const std::string &where)
     {
@@ -93,25 +117,9 @@ namespace Signorini
       for (const auto &face : mesh.faces)
         name_of[face_key(face.vertices)] = face.name;
       VolumeMesh part;
-      part.volume_names = mesh.volume_names;
-      part.notes        = mesh.notes;
-      std::vector<unsigned int> number(mesh.vertices.size(), VolumeMesh::no_vertex), old;
-      for (const VolumeMesh::Cell &cell : mesh.cells)
-        if (keep[cell.volume])
-          {
-            part.cells.push_back(cell);
-            for (unsigned int v = 0; v < cell.n_vertices; ++v)
-              {
-                unsigned int &n = number[cell.vertices[v]];
-                if (n == VolumeMesh::no_vertex)
-                  {
-                    n = static_cast<unsigned int>(part.vertices.size());
-                    part.vertices.push_back(mesh.vertices[cell.vertices[v]]);
-                    old.push_back(cell.vertices[v]);
-                  }
-                part.cells.back().vertices[v] = n;
-              }
-          }
+      part.volume_names                   = mesh.volume_names;
+      part.notes                          = mesh.notes;
+      const std::vector<unsigned int> old = copy_cells(part, mesh, keep);
       for (const auto &face : find_boundary_faces(part))
         {
           VolumeMesh::Face key = face.first;

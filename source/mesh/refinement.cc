@@ -2,8 +2,8 @@
 // Copyright (C) 2026 by the Signorini authors
 
 #include <signorini/algebra/input_error.h>
+#include <signorini/algebra/parameter_choice.h>
 #include <signorini/mesh/expression.h>
-#include <signorini/mesh/parameter_choice.h>
 #include <signorini/mesh/refinement.h>
 
 #include <deal.II/base/utilities.h>

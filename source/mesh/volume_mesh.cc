@@ -242,6 +242,22 @@ namespace Signorini
 
 
 
+  namespace
+  {
+    void add_halves_of_faces(VolumeMesh &result, const VolumeMesh &mesh)
+    {
+      for (const VolumeMesh::BoundaryFace &face : mesh.faces)
+        if (face.vertices[3] == VolumeMesh::no_vertex)
+          result.faces.push_back(face);
+        else
+          for (const auto &[a, b, c] :
+               halves({{face.vertices[0], face.vertices[1], face.vertices[3], face.vertices[2]}}))
+            result.faces.push_back({{{a, b, c, VolumeMesh::no_vertex}}, face.name});
+    }
+  } // namespace
+
+
+
   VolumeMesh split_into_tetrahedra(const VolumeMesh &mesh)
   {
     VolumeMesh result = mesh;
@@ -268,13 +284,7 @@ namespace Signorini
               result.cells.push_back({{{a, c, b, centre, 0, 0, 0, 0}}, 4, cell.volume});
           }
       }
-    for (const VolumeMesh::BoundaryFace &face : mesh.faces)
-      if (face.vertices[3] == VolumeMesh::no_vertex)
-        result.faces.push_back(face);
-      else
-        for (const auto &[a, b, c] :
-             halves({{face.vertices[0], face.vertices[1], face.vertices[3], face.vertices[2]}}))
-          result.faces.push_back({{{a, b, c, VolumeMesh::no_vertex}}, face.name});
+    add_halves_of_faces(result, mesh);
     return result;
   }
 

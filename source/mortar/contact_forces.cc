@@ -75,12 +75,49 @@ namespace Signorini
 
 
 
+  namespace
+  {
+    /// Means over the covered faces around each vertex: sums and weights.
+    struct VertexMeans
+    {
+      explicit VertexMeans(const std::size_t n)
+        : sum(n, 0.)
+        , weight(n, 0.)
+        , n_terms(n, 0.)
+      {
+      }
+
+      void add(const unsigned int vertex, const double value, const double w)
+      {
+        sum[vertex] += value;
+        weight[vertex] += w;
+        n_terms[vertex] += 1.;
+      }
+
+      std::vector<double> sum, weight, n_terms;
+    };
+
+    /// Calls visit(moments of a face, a, b) for all pairs of corners of the covered faces.
+    template <typename Visit>
+    void for_each_corner_pair(const ContactSurface &surface, const std::vector<FaceMoments> &moments,
+                              const Visit &visit)
+    {
+      for (const FaceMoments &m : moments)
+        if (m.covered > 0.)
+          for (unsigned int a = 0; a < surface.faces[m.face].n_corners; ++a)
+            for (unsigned int b = 0; b < surface.faces[m.face].n_corners; ++b)
+              visit(m, a, b);
+    }
+  } // namespace
+
+
+
   std::vector<double> recover_pressure(const ContactSurface           &nonmortar,
                                        const std::vector<FaceMoments> &moments, const PairCoupling &pair,
                                        const std::vector<double> &pressure)
   {
     const std::size_t   n = nonmortar.mesh.vertices.size();
-    std::vector<double> nodal(n, 0.), sum(n, 0.), weight(n, 0.);
+    std::vector<double> nodal(n, 0.);
     std::vector<bool>   has_pressure(n, false);
     for (std::size_t row = 0; row < pressure.size(); ++row)
       {
@@ -93,39 +130,26 @@ namespace Signorini
           nodal[v] += share * nodal[parent];
           has_pressure[v] = true;
         }
-    for (const FaceMoments &m : moments)
-      if (m.covered > 0.)
-        {
-          const ContactSurface::Face &face = nonmortar.faces[m.face];
-          for (unsigned int a = 0; a < face.n_corners; ++a)
-            for (unsigned int b = 0; b < face.n_corners; ++b)
-              if (has_pressure[face.corners[b]])
-                {
-                  sum[face.corners[a]] += m.mass[4 * a + b] * nodal[face.corners[b]];
-                  weight[face.corners[a]] += m.mass[4 * a + b];
-                }
-        }
+    VertexMeans own(n), patch(n);
+    for_each_corner_pair(nonmortar, moments,
+                         [&](const FaceMoments &m, const unsigned int a, const unsigned int b) {
+                           const auto &corners = nonmortar.faces[m.face].corners;
+                           if (const double mass = m.mass[4 * a + b]; has_pressure[corners[b]])
+                             own.add(corners[a], mass * nodal[corners[b]], mass);
+                         });
+    for_each_corner_pair(nonmortar, moments,
+                         [&](const FaceMoments &m, const unsigned int a, const unsigned int b) {
+                           const auto &corners = nonmortar.faces[m.face].corners;
+                           patch.add(corners[a], own.sum[corners[b]], own.weight[corners[b]]);
+                         });
     // A vertex that only a sliver of the covered part touches has a multiplier that means nothing by itself.
     const double        smallest_share = RecoveryRule().smallest_share;
-    std::vector<double> patch_sum(n, 0.), patch_weight(n, 0.), n_near(n, 0.);
-    for (const FaceMoments &m : moments)
-      if (m.covered > 0.)
-        {
-          const ContactSurface::Face &face = nonmortar.faces[m.face];
-          for (unsigned int a = 0; a < face.n_corners; ++a)
-            for (unsigned int b = 0; b < face.n_corners; ++b)
-              {
-                patch_sum[face.corners[a]] += sum[face.corners[b]];
-                patch_weight[face.corners[a]] += weight[face.corners[b]];
-                n_near[face.corners[a]] += 1.;
-              }
-        }
     std::vector<double> recovered(n, 0.);
     for (std::size_t v = 0; v < n; ++v)
-      if (patch_weight[v] > 0. && weight[v] * n_near[v] < smallest_share * patch_weight[v])
-        recovered[v] = patch_sum[v] / patch_weight[v];
-      else if (weight[v] > 0.)
-        recovered[v] = sum[v] / weight[v];
+      if (patch.weight[v] > 0. && own.weight[v] * patch.n_terms[v] < smallest_share * patch.weight[v])
+        recovered[v] = patch.sum[v] / patch.weight[v];
+      else if (own.weight[v] > 0.)
+        recovered[v] = own.sum[v] / own.weight[v];
     return recovered;
   }
 

@@ -50,7 +50,8 @@ namespace Signorini
     n_steps = level_zero.method == LevelZeroMethod::algebraic_shortened ? level_zero.n_steps : 0;
     if (!level_zero.free_motions.empty())
       {
-        make_definite(new_matrix, level_zero.free_motions);
+        find_kernel(new_matrix, level_zero.free_motions);
+        make_definite(new_matrix);
         matrix = &definite;
       }
     if (!level_zero.uses_amg(matrix->partition().n_global()))
@@ -65,8 +66,7 @@ namespace Signorini
 
 
 
-  void LevelZeroSolver::make_definite(const NodeBlockMatrix     &singular,
-                                      const std::vector<Vector> &free_motions)
+  void LevelZeroSolver::find_kernel(const NodeBlockMatrix &singular, const std::vector<Vector> &free_motions)
   {
     const auto      n = static_cast<Eigen::Index>(free_motions.size());
     Eigen::MatrixXd energies(n, n);
@@ -97,6 +97,12 @@ namespace Signorini
               kernel.back().add(eigen.eigenvectors()(i, k), motion);
             }
         }
+  }
+
+
+
+  void LevelZeroSolver::make_definite(const NodeBlockMatrix &singular)
+  {
     definite = singular;
     for (unsigned int i = 0; i < definite.n_rows(); ++i)
       for (unsigned int k = 0; k < 9; ++k)

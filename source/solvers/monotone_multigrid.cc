@@ -135,12 +135,28 @@ namespace Signorini
 
 
 
+  void MonotoneMultigrid::add_coarse_correction(Vector &v, Vector &residual, const ObstacleProblem &problem)
+  {
+    const unsigned int coarse = level - 1;
+    work[coarse].rhs          = 0.;
+    restrict_defect(hierarchy.level(coarse), work[coarse].rhs, residual);
+    restrict_room(coarse, problem.half_spaces, v, &contact.active());
+    correct_level(coarse);
+    hierarchy.level(coarse).to_finer.prolongate(work[coarse].finer, work[coarse].correction);
+    v.zero_out_ghost_values();
+    const Vector &step = work[coarse].finer;
+    contact.restrict_to_tangents(residual);
+    v.add(search_along(matrix(), step, residual, contact.longest_step(v, step), problem.semidefinite).length,
+          step);
+  }
+
+
+
   ConvergenceReport MonotoneMultigrid::solve(Vector &v, const ObstacleProblem &problem,
                                              const Monitor &monitor)
   {
-    Smoother          &smoother = *hierarchy.level(level).smoother;
-    const unsigned int coarse   = level - 1;
-    contact                     = ContactState(matrix(), problem.half_spaces);
+    Smoother &smoother = *hierarchy.level(level).smoother;
+    contact            = ContactState(matrix(), problem.half_spaces);
     contact.project(v);
 
     ConvergenceReport report;
@@ -159,17 +175,7 @@ namespace Signorini
           ++n_updates;
         matrix().symmetric_residual(residual, v, problem.rhs);
         const double square = v * problem.rhs - v * residual;
-        work[coarse].rhs    = 0.;
-        restrict_defect(hierarchy.level(coarse), work[coarse].rhs, residual);
-        restrict_room(coarse, problem.half_spaces, v, &contact.active());
-        correct_level(coarse);
-        hierarchy.level(coarse).to_finer.prolongate(work[coarse].finer, work[coarse].correction);
-        v.zero_out_ghost_values();
-        const Vector &step = work[coarse].finer;
-        contact.restrict_to_tangents(residual);
-        v.add(search_along(matrix(), step, residual, contact.longest_step(v, step), problem.semidefinite)
-                  .length,
-              step);
+        add_coarse_correction(v, residual, problem);
         check(v);
 
         smoother.smooth(v, problem.rhs, contact, parameters.smoothing, Direction::backward);

@@ -139,7 +139,7 @@ namespace Signorini
     levels.push_back(std::make_unique<MultigridLevel>());
     MultigridLevel &level = *levels.back();
     level.matrix          = std::move(parts.matrix);
-    level.fixed           = std::move(parts.fixed);
+    level.fixed           = import_ghost_masks(level.matrix.partition(), parts.fixed);
     level.scale           = diagonal_scale(level.matrix);
     eliminate_fixed_components(level.matrix, level.fixed, all_rows(level.matrix), level.scale);
     make_smoother(level, parts.interface, parts);

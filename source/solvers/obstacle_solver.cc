@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Signorini authors
 
 #include <signorini/algebra/input_error.h>
+#include <signorini/algebra/parameter_choice.h>
 #include <signorini/solvers/active_set_amg.h>
 #include <signorini/solvers/gauss_seidel_iteration.h>
 #include <signorini/solvers/linear_multigrid.h>
@@ -26,26 +27,32 @@ namespace Signorini
       std::size_t patience = 6;
     };
 
-    const std::map<std::string, SolverMethod> &method_names()
+    const std::map<SolverMethod, std::string> &method_names()
     {
-      static const std::map<std::string, SolverMethod> names = {
-          {"accelerated", SolverMethod::accelerated},
-          {"truncated newton multigrid", SolverMethod::truncated_newton_multigrid},
-          {"monotone multigrid", SolverMethod::monotone_multigrid},
-          {"active set amg", SolverMethod::active_set_amg},
-          {"projected gauss seidel", SolverMethod::projected_gauss_seidel},
-          {"multigrid", SolverMethod::multigrid},
-          {"multigrid cg", SolverMethod::multigrid_cg}};
+      static const std::map<SolverMethod, std::string> names = {
+          {SolverMethod::accelerated, "accelerated"},
+          {SolverMethod::truncated_newton_multigrid, "truncated newton multigrid"},
+          {SolverMethod::monotone_multigrid, "monotone multigrid"},
+          {SolverMethod::active_set_amg, "active set amg"},
+          {SolverMethod::projected_gauss_seidel, "projected gauss seidel"},
+          {SolverMethod::multigrid, "multigrid"},
+          {SolverMethod::multigrid_cg, "multigrid cg"}};
       return names;
     }
 
-    LevelZeroMethod level_zero_method(const std::string &name)
+    const std::map<std::string, LevelZeroMethod> &level_zero_names()
     {
       static const std::map<std::string, LevelZeroMethod> names = {
           {"automatic", LevelZeroMethod::automatic},
           {"cholesky", LevelZeroMethod::cholesky},
           {"amg", LevelZeroMethod::amg},
           {"algebraic shortened", LevelZeroMethod::algebraic_shortened}};
+      return names;
+    }
+
+    LevelZeroMethod level_zero_method(const std::string &name)
+    {
+      const auto &names = level_zero_names();
       if (const auto it = names.find(name); it != names.end())
         return it->second;
       std::string known;
@@ -61,40 +68,55 @@ namespace Signorini
 
 
 
+  namespace
+  {
+    void add_method(ParameterHandler &prm, SolverParameters &p)
+    {
+      add_choice(prm, "Method", p.method, method_names(),
+                 "accelerated: truncated Newton multigrid whose V-cycle preconditions conjugate "
+                 "gradients while the active set rests (the fastest). truncated newton multigrid: "
+                 "without conjugate gradients. monotone multigrid: the method of Krause and Sander, "
+                 "with obstacles on all levels. active set amg: primal-dual active set, each linear "
+                 "problem by conjugate gradients with algebraic multigrid (a baseline). projected gauss "
+                 "seidel: sweeps alone, for tiny problems. multigrid and multigrid cg: V-cycles, alone or as "
+                 "preconditioner of conjugate gradients, for bodies without contact and tied pairs.");
+      std::string level_zero;
+      for (const auto &[name, method] : level_zero_names())
+        if (method == p.level_zero)
+          level_zero = name;
+      // Not a choice: a name of former versions has its own message.
+      prm.declare_entry(
+          "Level 0", level_zero, Patterns::Anything(),
+          "Solver of the coarsest level. automatic: Cholesky while the level is small, else amg. cholesky: "
+          "sparse factors. amg: algebraic multigrid (Trilinos ML with rigid motions) to three digits. "
+          "algebraic shortened: a few steps of algebraic multigrid, each shortened as a whole to what the "
+          "obstacles of the level admit.");
+      prm.add_action("Level 0", [&p](const std::string &value) { p.level_zero = level_zero_method(value); });
+      prm.add_parameter("Level 0 steps", p.level_zero_steps, "Number of steps of algebraic shortened.",
+                        Patterns::Integer(1));
+    }
+
+
+
+    void add_smoothing(ParameterHandler &prm, SmoothingParameters &p)
+    {
+      prm.add_parameter("Pre-smoothing steps", p.n_pre, "Gauss-Seidel sweeps before the coarse correction.");
+      prm.add_parameter("Post-smoothing steps", p.n_post, "Gauss-Seidel sweeps after the coarse correction.");
+      prm.add_parameter(
+          "Interface sweeps", p.n_interface_sweeps,
+          "Extra sweeps over the contact nodes of both sides and one layer of neighbours, on "
+          "every level, after the pre- and before the post-smoothing; "
+          "after a good start accelerated leaves them out on the finest level while the active set "
+          "rests, until an iteration is slow (leaves more than a quarter of the correction, for V(3,3)).");
+    }
+  } // namespace
+
+
+
   void SolverParameters::add_parameters(ParameterHandler &prm)
   {
-    std::string names;
-    for (const auto &entry : method_names())
-      names += (names.empty() ? "" : "|") + entry.first;
-    prm.declare_entry(
-        "Method", "accelerated", Patterns::Selection(names),
-        "accelerated: truncated Newton multigrid whose V-cycle preconditions conjugate "
-        "gradients while the active set rests (the fastest). truncated newton multigrid: "
-        "without conjugate gradients. monotone multigrid: the method of Krause and Sander, "
-        "with obstacles on all levels. active set amg: primal-dual active set, each linear "
-        "problem by conjugate gradients with algebraic multigrid (a baseline). projected gauss "
-        "seidel: sweeps alone, for tiny problems. multigrid and multigrid cg: V-cycles, alone or as "
-        "preconditioner of conjugate gradients, for bodies without contact and tied pairs.");
-    prm.add_action("Method", [this](const std::string &value) { method = method_names().at(value); });
-    prm.declare_entry(
-        "Level 0", "automatic", Patterns::Anything(),
-        "Solver of the coarsest level. automatic: Cholesky while the level is small, else amg. cholesky: "
-        "sparse factors. amg: algebraic multigrid (Trilinos ML with rigid motions) to three digits. "
-        "algebraic shortened: a few steps of algebraic multigrid, each shortened as a whole to what the "
-        "obstacles of the level admit.");
-    prm.add_action("Level 0", [this](const std::string &value) { level_zero = level_zero_method(value); });
-    prm.add_parameter("Level 0 steps", level_zero_steps, "Number of steps of algebraic shortened.",
-                      Patterns::Integer(1));
-    prm.add_parameter("Pre-smoothing steps", smoothing.n_pre,
-                      "Gauss-Seidel sweeps before the coarse correction.");
-    prm.add_parameter("Post-smoothing steps", smoothing.n_post,
-                      "Gauss-Seidel sweeps after the coarse correction.");
-    prm.add_parameter(
-        "Interface sweeps", smoothing.n_interface_sweeps,
-        "Extra sweeps over the contact nodes of both sides and one layer of neighbours, on "
-        "every level, after the pre- and before the post-smoothing; "
-        "after a good start accelerated leaves them out on the finest level while the active set "
-        "rests, until an iteration is slow (leaves more than a quarter of the correction, for V(3,3)).");
+    add_method(prm, *this);
+    add_smoothing(prm, smoothing);
     prm.add_parameter("Tolerance", tolerance,
                       "Stop when the energy norm of the correction of an iteration is below this multiple "
                       "of the energy norm of the iterate (no unit).",

@@ -6,6 +6,26 @@
 
 namespace Signorini
 {
+  void Smoother::smooth_from_zero(Vector &v, const Vector &rhs, ContactState &contact,
+                                  const SmoothingParameters &parameters, Vector &residual)
+  {
+    v = 0.;
+    smooth(v, rhs, contact, parameters, Direction::forward);
+    matrix.symmetric_residual(residual, v, rhs);
+  }
+
+
+
+  void Smoother::smooth_to_residual(Vector &v, const Vector &rhs, ContactState &contact,
+                                    const SmoothingParameters &parameters, Vector *const residual)
+  {
+    smooth(v, rhs, contact, parameters, Direction::backward);
+    if (residual != nullptr)
+      matrix.symmetric_residual(*residual, v, rhs);
+  }
+
+
+
   void subtract_change(double *const residual, const NodeBlockMatrix &matrix, const unsigned int row,
                        const double *const change)
   {

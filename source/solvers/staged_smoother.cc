@@ -49,7 +49,7 @@ namespace Signorini
 
 
   StagedSmoother::StagedSmoother(const NodeBlockMatrix &matrix, const LevelInterface &interface)
-    : matrix(matrix)
+    : Smoother(matrix)
     , sweeps(matrix)
     , rounded(matrix, sweeps)
   {

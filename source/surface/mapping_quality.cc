@@ -61,6 +61,19 @@ namespace Signorini
         return std::acos(std::min(1., std::max(-1., cosine))) * 180. / numbers::PI;
       }
     };
+
+
+
+    /// @param covered area of this rank; quality has its integral of the angle
+    void sum_over_ranks(MappingQuality &quality, const double covered, const MPI_Comm communicator)
+    {
+      quality.largest_angle = Utilities::MPI::max(quality.largest_angle, communicator);
+      quality.mean_angle    = Utilities::MPI::sum(quality.mean_angle, communicator);
+      for (double &area : quality.histogram)
+        area = Utilities::MPI::sum(area, communicator);
+      if (const double area = Utilities::MPI::sum(covered, communicator); area > 0.)
+        quality.mean_angle /= area;
+    }
   } // namespace
 
 
@@ -90,13 +103,7 @@ namespace Signorini
       const double place = range > 0. ? 10. * (mean - quality.min_gap) / range : 0.;
       quality.histogram[std::min(9, std::max(0, static_cast<int>(place)))] += area;
     });
-    quality.largest_angle = Utilities::MPI::max(quality.largest_angle, communicator);
-    quality.mean_angle    = Utilities::MPI::sum(quality.mean_angle, communicator);
-    covered               = Utilities::MPI::sum(covered, communicator);
-    for (double &area : quality.histogram)
-      area = Utilities::MPI::sum(area, communicator);
-    if (covered > 0.)
-      quality.mean_angle /= covered;
+    sum_over_ranks(quality, covered, communicator);
     return quality;
   }
 

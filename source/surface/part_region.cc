@@ -42,28 +42,28 @@ namespace Signorini
 
 
 
-  PartRegion::PartRegion(const SurfaceMesh                             &nonmortar,
-                         const std::function<bool(const unsigned int)> &is_selected)
-    : everything(!is_selected)
+  namespace
   {
-    if (everything)
-      return;
-    // Triangles by the cluster of their centre.
-    std::vector<unsigned int> selected;
-    std::vector<Point<3>>     centres;
-    for (unsigned int t = 0; t < nonmortar.triangles.size(); ++t)
-      if (is_selected(t))
-        {
-          selected.push_back(t);
-          const auto &corners = nonmortar.triangles[t];
-          centres.push_back(nonmortar.vertices[corners[0]] +
-                            (nonmortar.vertices[corners[1]] - nonmortar.vertices[corners[0]] +
-                             (nonmortar.vertices[corners[2]] - nonmortar.vertices[corners[0]])) /
-                                3.);
-        }
+    Point<3> centre_of(const SurfaceMesh &surface, const unsigned int triangle)
+    {
+      const auto     &corners = surface.triangles[triangle];
+      const Point<3> &x       = surface.vertices[corners[0]];
+      return x + (surface.vertices[corners[1]] - x + (surface.vertices[corners[2]] - x)) / 3.;
+    }
+  } // namespace
+
+
+
+  std::vector<PartRegion::Ball> PartRegion::cover(const SurfaceMesh               &surface,
+                                                  const std::vector<unsigned int> &triangles)
+  {
+    std::vector<Point<3>> centres;
+    for (const unsigned int t : triangles)
+      centres.push_back(centre_of(surface, t));
     std::vector<std::vector<Point<3>>> clusters;
     if (!centres.empty())
       cut(clusters, centres, 3);
+    std::vector<Ball> balls;
     for (const auto &cluster : clusters)
       {
         Tensor<1, 3> sum;
@@ -71,25 +71,39 @@ namespace Signorini
           sum += x - cluster[0];
         balls.push_back({cluster[0] + sum / static_cast<double>(cluster.size()), 0.});
       }
-    std::vector<double> radius(balls.size(), 0.);
-    for (std::size_t i = 0; i < selected.size(); ++i)
+    for (std::size_t i = 0; i < triangles.size(); ++i)
       {
-        unsigned int nearest = 0;
-        for (unsigned int b = 1; b < balls.size(); ++b)
-          if (centres[i].distance_square(balls[b].centre) < centres[i].distance_square(balls[nearest].centre))
-            nearest = b;
-        for (const unsigned int v : nonmortar.triangles[selected[i]])
-          radius[nearest] = std::max(radius[nearest], nonmortar.vertices[v].distance(balls[nearest].centre));
+        Ball &nearest = *std::min_element(balls.begin(), balls.end(), [&](const Ball &a, const Ball &b) {
+          return centres[i].distance_square(a.centre) < centres[i].distance_square(b.centre);
+        });
+        for (const unsigned int v : surface.triangles[triangles[i]])
+          nearest.radius = std::max(nearest.radius, surface.vertices[v].distance(nearest.centre));
       }
+    return balls;
+  }
+
+
+
+  PartRegion::PartRegion(const SurfaceMesh                             &nonmortar,
+                         const std::function<bool(const unsigned int)> &is_selected)
+    : everything(!is_selected)
+  {
+    if (everything)
+      return;
+    std::vector<unsigned int> selected;
+    for (unsigned int t = 0; t < nonmortar.triangles.size(); ++t)
+      if (is_selected(t))
+        selected.push_back(t);
+    balls = cover(nonmortar, selected);
     // Vertices found incident are moved by less than this.
     constexpr double slack = 1e-4;
-    for (unsigned int b = 0; b < balls.size(); ++b)
-      balls[b].radius = (1. + slack) * radius[b];
     balls_of_vertex.assign(nonmortar.vertices.size(), 0);
     for (unsigned int v = 0; v < nonmortar.vertices.size(); ++v)
       for (unsigned int b = 0; b < balls.size(); ++b)
-        if (nonmortar.vertices[v].distance(balls[b].centre) <= (1. + .5 * slack) * radius[b])
+        if (nonmortar.vertices[v].distance(balls[b].centre) <= (1. + .5 * slack) * balls[b].radius)
           balls_of_vertex[v] |= static_cast<unsigned short>(1u << b);
+    for (Ball &ball : balls)
+      ball.radius *= 1. + slack;
     if (!balls.empty())
       {
         Ball all{balls[0].centre, 0.};

@@ -245,10 +245,16 @@ namespace Signorini
         const bool left = incidence.of_nonmortar_vertex(vertex, place.index).distance > 0.;
         return mortar.edge_triangles[place.index][left ? 1 : 0];
       }
-    // The triangle around a mortar vertex whose two edges there have the vertex between them.
-    for (unsigned int k = mortar.fan_start[place.index]; k < mortar.fan_start[place.index + 1]; ++k)
+    return triangle_around(place.index, vertex);
+  }
+
+
+
+  unsigned int PlaneGraph::triangle_around(const unsigned int mortar_vertex, const unsigned int vertex) const
+  {
+    for (unsigned int k = mortar.fan_start[mortar_vertex]; k < mortar.fan_start[mortar_vertex + 1]; ++k)
       {
-        const unsigned int t = mortar.fan[k], corner = mortar.local_corner(t, place.index);
+        const unsigned int t = mortar.fan[k], corner = mortar.local_corner(t, mortar_vertex);
         bool               between = true;
         for (const unsigned int i : {corner, (corner + 2) % 3})
           {

@@ -43,6 +43,33 @@ namespace Signorini
       for (const unsigned int v : triangles[t])
         fan[next[v]++] = t;
 
+    make_edges();
+  }
+
+
+
+  unsigned int SurfaceTopology::find_edge(const unsigned int low, const unsigned int high,
+                                          const unsigned int side, const std::size_t first)
+  {
+    bool used = false;
+    for (std::size_t e = first; e < edges.size(); ++e)
+      if (edges[e][1] == high)
+        {
+          if (edge_triangles[e][side] == none)
+            return static_cast<unsigned int>(e);
+          used = true;
+        }
+    n_conflicts += used;
+    edges.push_back({{low, high}});
+    edge_triangles.push_back({{none, none}});
+    return static_cast<unsigned int>(edges.size() - 1);
+  }
+
+
+
+  void SurfaceTopology::make_edges()
+  {
+    const std::size_t n_vertices = fan_start.size() - 1;
     // Each edge is made at its lower vertex; the few edges there are searched one after the other.
     edges.reserve(3 * triangles.size() / 2 + n_vertices / 2);
     edge_triangles.reserve(edges.capacity());
@@ -57,28 +84,29 @@ namespace Signorini
                 const unsigned int a = triangles[t][i], b = triangles[t][(i + 1) % 3];
                 if (std::min(a, b) != v)
                   continue;
-                const unsigned int other = std::max(a, b), side = a < b ? 0 : 1;
-                std::size_t        e    = first;
-                bool               used = false;
-                for (; e < edges.size(); ++e)
-                  if (edges[e][1] == other)
-                    {
-                      used = used || edge_triangles[e][side] != none;
-                      if (edge_triangles[e][side] == none)
-                        break;
-                    }
-                if (e == edges.size())
-                  {
-                    n_conflicts += used;
-                    edges.push_back({{v, other}});
-                    edge_triangles.push_back({{none, none}});
-                  }
+                const unsigned int side = a < b ? 0 : 1;
+                const unsigned int e    = find_edge(v, std::max(a, b), side, first);
                 edge_triangles[e][side] = t;
-                triangle_edges[t][i]    = static_cast<unsigned int>(e);
+                triangle_edges[t][i]    = e;
               }
           }
       }
   }
+
+
+
+  namespace
+  {
+    /// Two bits of zero behind each bit.
+    std::uint64_t spread_bits(std::uint64_t x)
+    {
+      x = (x | x << 32) & 0x1f00000000ffffULL;
+      x = (x | x << 16) & 0x1f0000ff0000ffULL;
+      x = (x | x << 8) & 0x100f00f00f00f00fULL;
+      x = (x | x << 4) & 0x10c30c30c30c30c3ULL;
+      return (x | x << 2) & 0x1249249249249249ULL;
+    }
+  } // namespace
 
 
 
@@ -93,24 +121,17 @@ namespace Signorini
           low[c]  = std::min(low[c], p[c]);
           high[c] = std::max(high[c], p[c]);
         }
-    // The bits of the three coordinates in turn.
-    const auto spread = [](std::uint64_t x) {
-      x = (x | x << 32) & 0x1f00000000ffffULL;
-      x = (x | x << 16) & 0x1f0000ff0000ffULL;
-      x = (x | x << 8) & 0x100f00f00f00f00fULL;
-      x = (x | x << 4) & 0x10c30c30c30c30c3ULL;
-      return (x | x << 2) & 0x1249249249249249ULL;
-    };
     const double                                        size = std::max(low.distance(high), 1e-300);
     std::vector<std::pair<std::uint64_t, unsigned int>> codes;
     codes.reserve(mesh.vertices.size());
     for (unsigned int v = 0; v < mesh.vertices.size(); ++v)
       {
+        // The bits of the three coordinates in turn.
         std::uint64_t code = 0;
         for (unsigned int c = 0; c < 3; ++c)
           {
             const double place = (mesh.vertices[v][c] - low[c]) / size;
-            code |= spread(place > 0. ? static_cast<std::uint64_t>(place * 0x1fffff) : 0) << c;
+            code |= spread_bits(place > 0. ? static_cast<std::uint64_t>(place * 0x1fffff) : 0) << c;
           }
         codes.emplace_back(code, v);
       }

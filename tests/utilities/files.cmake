@@ -11,6 +11,8 @@ if(DOXYGEN_FOUND)
 endif()
 find_program(CTAGS_PROGRAM ctags)
 if(CTAGS_PROGRAM)
+  add_test(NAME utilities/function_lines
+           COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/contrib/utilities/function_lines.py --check)
   add_test(NAME utilities/function_lines.cases
            COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/utilities/function_lines_cases.py)
 endif()

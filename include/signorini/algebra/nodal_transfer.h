@@ -140,6 +140,8 @@ namespace Signorini
   private:
     static constexpr unsigned int no_blocks = dealii::numbers::invalid_unsigned_int;
 
+    void append(const BlockRow &row);
+
     unsigned int              n_owned = 0;
     std::vector<std::size_t>  row_start;
     std::vector<NodeIndex>    global_columns;

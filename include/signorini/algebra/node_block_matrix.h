@@ -186,12 +186,6 @@ namespace Signorini
     /// Sets all blocks of a row given by row_of() to zero.
     void clear_row(const unsigned int row);
 
-    /// Rows given by row_of() that exist on this rank.
-    unsigned int n_stored_rows() const
-    {
-      return static_cast<unsigned int>(upper_start.size()) - 1;
-    }
-
     /// Collective. Adds the foreign rows to the rows of their owners and clears them.
     void compress();
 
@@ -214,10 +208,11 @@ namespace Signorini
     /// Collective. residual = rhs - A src on owned rows, in the same way.
     void symmetric_residual(Vector &residual, const Vector &src, const Vector &rhs) const;
 
-    /// Bytes of this rank's part.
-    std::size_t memory_consumption() const;
-
   private:
+    /// Collective. What compress() sends of the foreign rows, which are sorted by node, hence by owner, and
+    /// where it puts what it receives.
+    void plan_compression(const NodePattern &pattern);
+
     std::shared_ptr<const NodePartition> nodes;
     /// Owned rows; upper_start goes on with the foreign rows.
     std::vector<std::size_t>  lower_start, upper_start;

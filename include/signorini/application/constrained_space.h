@@ -17,6 +17,7 @@ namespace Signorini
   /// Rigid motions of connected parts of bodies that neither conditions nor ties exclude.
   struct FreeParts
   {
+    /// Six at most for each part, linearly independent; the same on all ranks.
     std::vector<FreeMotion> motions;
     /// Whether there is a part that only a tie holds: its decoupled linear problem has no unique solution.
     bool has_tied_part = false;
@@ -38,15 +39,20 @@ namespace Signorini
     Vector interpolate(const Vector &displacement, const ConstrainedSpace &coarser,
                        const NodeRows &rows) const;
 
+    /// The space itself.
     const NodalSpace &nodal() const
     {
       return *space;
     }
 
+    /// Shared with the coarser levels of later meshes (CoarserSpaces).
     const std::shared_ptr<const NodalSpace> space;
-    const NodePartition                     partition;
-    const DirichletData                     dirichlet;
-    const FreeParts                         free_parts;
+    /// The nodes of the space that a rank sees: the layout of displacements (three components a node).
+    const NodePartition partition;
+    /// Prescribed components and displacements (length) at the relevant nodes.
+    const DirichletData dirichlet;
+    /// What the conditions do not hold.
+    const FreeParts free_parts;
   };
 
   /// The prescribed displacements (zero at free components) at the owned nodes of a partition of the space.

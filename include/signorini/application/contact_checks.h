@@ -8,11 +8,14 @@
 
 namespace Signorini
 {
-  /// The pairs of a mesh with their couplings, before they are joined.
+  /// The pairs of a mesh with their couplings, before they are joined. References to what it is made of; the
+  /// same on all ranks but for the spaces.
   struct CoupledPairs
   {
-    const ContactModel              &model;
-    const ConstrainedSpace          &constrained;
+    /// The problem, its space and conditions on this mesh.
+    const ContactModel     &model;
+    const ConstrainedSpace &constrained;
+    /// By pair: surfaces and mapping, the coupling between them.
     const std::vector<ContactPair>  &pairs;
     const std::vector<PairCoupling> &couplings;
   };

@@ -15,8 +15,11 @@ namespace Signorini
   /// A point whose displacement is reported.
   struct Probe
   {
-    std::string      name;
-    unsigned int     body;
+    /// What the results call it.
+    std::string name;
+    /// Number of the body in the problem.
+    unsigned int body;
+    /// In the body or on it, before it is deformed (length).
     dealii::Point<3> point;
   };
 
@@ -50,9 +53,12 @@ namespace Signorini
   /// What a solution says, for a person and for its certificate.
   struct ContactEvaluation
   {
-    std::vector<PairResult>  pairs;
+    /// By pair; the same on all ranks.
+    std::vector<PairResult> pairs;
+    /// By contact node, pair after pair; the same on all ranks.
     std::vector<PressureRow> pressure;
-    Equilibrium              equilibrium;
+    /// Reactions, and what is left of the forces.
+    Equilibrium equilibrium;
   };
 
   /// Collective. All of the above.

@@ -18,19 +18,25 @@ namespace Signorini
   /// A pair whose boundaries have been found on the bodies.
   struct PairModel
   {
+    /// One of its surfaces.
     struct Side
     {
+      /// Number of the body; name of the boundary and its numbers on the mesh.
       unsigned int                         body;
       std::string                          boundary;
       std::set<dealii::types::boundary_id> ids;
-      ScalarField                          region;
-      SurfaceShapes                        shapes;
+      /// Positive where it may touch; empty for everywhere.
+      ScalarField region;
+      /// What gap and normals are measured on.
+      SurfaceShapes shapes;
     };
 
+    /// As it was asked for.
     PairDefinition definition;
     /// One with an obstacle, else two.
     std::vector<Side> sides;
 
+    /// Whether its surfaces are glued together.
     bool is_tied() const
     {
       return definition.contact == ContactKind::tied;
@@ -45,21 +51,25 @@ namespace Signorini
     /// in a parameter file.
     ContactModel(const MPI_Comm communicator, ProblemDefinition problem);
 
+    /// All ranks that have a part of the meshes.
     MPI_Comm communicator() const
     {
       return the_bodies.communicator();
     }
 
+    /// The present meshes, with materials and boundary shapes.
     const Bodies &bodies() const
     {
       return the_bodies;
     }
 
+    /// Conditions and forces, by body.
     const Loads &loads() const
     {
       return the_loads;
     }
 
+    /// In the order of the definition.
     const std::vector<PairModel> &pairs() const
     {
       return the_pairs;
@@ -71,7 +81,7 @@ namespace Signorini
       return the_bodies.refine(space, marked);
     }
 
-    /// Collective.
+    /// Collective. Halves all cells of all bodies so many times.
     void refine_globally(const unsigned int times);
 
     /// The connected parts of bodies with faces on a side of a pair.

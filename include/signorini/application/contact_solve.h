@@ -16,8 +16,10 @@
 
 namespace Signorini
 {
+  /// How the problem of one mesh is solved.
   struct SolveParameters
   {
+    /// Method, smoothing, stopping.
     SolverParameters solver;
     /// Solve the decoupled linear problem, loaded with the contact stresses, from the same start.
     bool compare_linear = false;
@@ -42,23 +44,29 @@ namespace Signorini
   {
     /// Physical, on the partition of the next space (ConstrainedSpace::interpolate()).
     Vector displacement;
-    bool   needed_interface_sweeps = false;
+    /// What was slow there will be slow here (ConvergenceReport).
+    bool needed_interface_sweeps = false;
   };
 
   /// The multipliers, per row of the joined coupling: contact stress and its normal part, the pressure (force
   /// per area); opening g - n·û (length); whether active.
   struct ContactStress
   {
-    std::vector<Vector3>       traction;
-    std::vector<double>        pressure, opening;
+    /// Of the nonmortar surface on the mortar surface; along the normal, but in any direction at tied nodes.
+    std::vector<Vector3> traction;
+    /// Its normal part, positive where the surfaces press on each other; the gap that is left.
+    std::vector<double> pressure, opening;
+    /// 1 where the surfaces touch and press, else 0; 0 at tied nodes.
     std::vector<unsigned char> active;
   };
 
   /// No stress, all gaps as they are, nothing active.
   ContactStress no_stress(const Discretization &discretization);
 
+  /// The solution of the contact problem of one mesh. The same on all ranks but for the displacement.
   struct ContactSolution
   {
+    /// Of the solver.
     ConvergenceReport report;
     /// Physical, on the partition of the space, ghosts up to date.
     Vector        displacement;
@@ -66,7 +74,8 @@ namespace Signorini
     /// Active contact nodes; tied ones do not count.
     std::size_t n_active = 0;
     /// Of the multigrid hierarchy.
-    unsigned int     n_levels = 0;
+    unsigned int n_levels = 0;
+    /// If they were to be measured.
     SweepMeasurement sweeps;
     /// If it was wanted and the linear problem has a unique solution.
     std::optional<LinearComparison> linear;

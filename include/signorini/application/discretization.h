@@ -25,11 +25,13 @@ namespace Signorini
   /// One side of a pair on a mesh. The partner of a surface is empty where that is an obstacle.
   struct ContactSide
   {
+    /// Number of the body.
     unsigned int body = dealii::numbers::invalid_unsigned_int;
-    /// "body: boundary".
+    /// "body: boundary"; the numbers of that boundary on the mesh.
     std::string                          name;
     std::set<dealii::types::boundary_id> ids;
-    ContactSurface                       surface;
+    /// Its triangles and faces, the same on all ranks.
+    ContactSurface surface;
     /// Of the cells behind the surface, the mean over its area.
     IsotropicMaterial material;
   };
@@ -37,16 +39,22 @@ namespace Signorini
   /// One contact pair on a mesh.
   struct ContactPair
   {
-    std::string                  name;
-    bool                         is_tied = false;
-    ContactSide                  nonmortar, mortar;
+    /// As in the definition.
+    std::string name;
+    /// Whether its surfaces are glued together.
+    bool is_tied = false;
+    /// The side that carries the multipliers, and its partner.
+    ContactSide nonmortar, mortar;
+    /// In place of the mortar side.
     std::optional<RigidObstacle> obstacle;
     /// Null with an obstacle.
     std::unique_ptr<const ContactMapping> mapping;
     /// Seconds it took.
-    double                   mapping_time = 0.;
+    double mapping_time = 0.;
+    /// Integrals over the overlay of this rank's nonmortar faces.
     std::vector<FaceMoments> moments;
-    GapFunction              prescribed_gap;
+    /// Gap (length) at points of the nonmortar surface; empty for that of the geometry.
+    GapFunction prescribed_gap;
   };
 
   /// The discrete contact problem on one mesh. Constant.
@@ -57,16 +65,19 @@ namespace Signorini
                    std::vector<PairCoupling> couplings, std::vector<bool> turned);
     Discretization(const Discretization &) = delete;
 
+    /// The space of the displacements.
     const NodalSpace &nodal() const
     {
       return *constrained->space;
     }
 
+    /// The layout of displacements.
     const NodePartition &partition() const
     {
       return constrained->partition;
     }
 
+    /// Rigid motions that only contact holds.
     const std::vector<FreeMotion> &free_motions() const
     {
       return constrained->free_parts.motions;
@@ -78,18 +89,22 @@ namespace Signorini
       return lifted ? *lifted : constrained->dirichlet;
     }
 
+    /// Whether there are tied nodes.
     bool has_ties() const
     {
       return std::find(tied.begin(), tied.end(), 1) != tied.end();
     }
 
+    /// Space and conditions.
     std::shared_ptr<const ConstrainedSpace> constrained;
-    std::vector<ContactPair>                pairs;
-    std::vector<PairCoupling>               couplings;
+    /// By pair: its surfaces, its own coupling.
+    std::vector<ContactPair>  pairs;
+    std::vector<PairCoupling> couplings;
     /// Per pair: whether an automatic choice of the nonmortar side was turned round, because the other side
     /// left contact without multipliers. What the next mesh begins with.
     std::vector<bool> turned;
 
+    /// Of all pairs, joined: rows by contact node, sorted, the same on all ranks.
     InterfaceCoupling coupling;
     /// Per pair and row of its coupling the row of the joined one; rows of a pair stay in order.
     std::vector<std::vector<std::size_t>> rows_of_pair;

@@ -36,11 +36,13 @@ namespace Signorini
     /// A remark for the results; the same one is kept once.
     void note(const std::string &text);
 
+    /// All remarks so far, in order.
     const std::vector<std::string> &notes() const
     {
       return remarks;
     }
 
+    /// A line on the terminal, if this rank may print.
     void print(const std::string &line)
     {
       if (!prints)
@@ -49,22 +51,25 @@ namespace Signorini
       std::cout << line << std::endl;
     }
 
+    /// Whether a line for each iteration is wanted.
     bool wants_iterations() const
     {
       return prints_iterations;
     }
 
-    /// What is going on; with a share of what is done.
+    /// What is going on, on the terminal.
     void show(const std::string &phase)
     {
       progress.show(phase);
     }
 
+    /// The same with the share of it that is done, in [0,1].
     void show(const std::string &phase, const double fraction)
     {
       progress.show(phase, fraction);
     }
 
+    /// Removes what show() has left on the terminal.
     void clear()
     {
       progress.clear();

@@ -21,17 +21,19 @@ namespace Signorini
     double difference = 0.;
   };
 
-  /// What the linear problem is compared with: the contact problem's levels, its solution, and its start
-  /// (null for zero).
+  /// What the linear problem is compared with: the contact problem on the same mesh.
   struct LinearTask
   {
-    const LevelSpaces   &levels;
+    /// Its levels.
+    const LevelSpaces &levels;
+    /// Its solution: the displacement (physical), and what is the load here.
     const Vector        &displacement;
     const ContactStress &stress;
-    const Vector *const  start;
+    /// What it began with (physical); null for zero.
+    const Vector *const start;
   };
 
-  /// Collective.
+  /// Collective. Solves the linear problem by both methods.
   LinearComparison compare_linear(const ContactModel &model, const Discretization &discretization,
                                   const LinearTask &task, const SolverParameters &parameters,
                                   Journal &journal);

@@ -15,9 +15,11 @@ namespace Signorini
   /// How the meshes come about, how each of them is solved, and what is asked of the solutions.
   struct NestedParameters
   {
+    /// The meshes.
     RefinementParameters refinement;
     /// Sweeps are measured on the last mesh only.
-    SolveParameters    solve;
+    SolveParameters solve;
+    /// Where the last displacement is reported.
     std::vector<Probe> probes;
     /// Per body a known displacement to compare with; may be empty.
     std::vector<VectorField> exact_displacements;
@@ -26,9 +28,11 @@ namespace Signorini
   /// The last mesh with its solution, and the results of all.
   struct NestedSolution
   {
+    /// Of the last mesh.
     std::unique_ptr<const Discretization> discretization;
     ContactSolution                       solution;
-    Results                               results;
+    /// Of all meshes; the same on all ranks.
+    Results results;
   };
 
   /// Collective. Solves on one mesh after the other; each begins with the solution of the one before. The

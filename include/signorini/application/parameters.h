@@ -18,13 +18,15 @@ namespace Signorini
   /// The subsection of a contact pair: the front end of PairDefinition.
   struct PairParameters
   {
+    /// That of the subsection.
     std::string name;
     /// "body: boundary"; expressions that are positive where the surface may touch, or empty.
     std::string first, second, first_region, second_region;
     /// As RigidObstacle::parse() has it, or empty.
     std::string obstacle;
     /// "geometry" or an expression.
-    std::string        initial_gap = "geometry";
+    std::string initial_gap = "geometry";
+    /// As in PairDefinition.
     ContactKind        contact     = ContactKind::unilateral;
     GapKind            gap         = GapKind::weighted;
     NonmortarChoice    nonmortar   = NonmortarChoice::automatic;
@@ -41,10 +43,12 @@ namespace Signorini
   /// What is written, and what is said meanwhile.
   struct OutputParameters
   {
+    /// Relative to where the program runs.
     std::string folder = "output";
     /// See Journal.
     unsigned int verbosity = 2;
-    bool         bodies = true, surfaces = true, stress = true, mapping = false, measure_sweeps = true;
+    /// Files of bodies, of contact surfaces, with stresses in them, of the mapping; times of sweeps.
+    bool bodies = true, surfaces = true, stress = true, mapping = false, measure_sweeps = true;
 
     /// Declares the parameters in the current subsection.
     void add_parameters(dealii::ParameterHandler &prm);
@@ -68,16 +72,19 @@ namespace Signorini
       return file;
     }
 
+    /// Of the problem, as the file has it.
     const std::string &title() const
     {
       return top_level.title;
     }
 
+    /// What is to be written.
     const OutputParameters &output() const
     {
       return the_output;
     }
 
+    /// So often all cells are halved before the first solve.
     unsigned int n_initial_refinements() const
     {
       return refinement.initial_global;

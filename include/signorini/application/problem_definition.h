@@ -24,6 +24,7 @@ namespace Signorini
     tied
   };
 
+  /// What the gap of a contact node is.
   enum class GapKind
   {
     /// Integrals of the gap with the dual functions.
@@ -37,6 +38,7 @@ namespace Signorini
   {
     /// The softer body, then the finer mesh; the other one where this one could carry no contact stress.
     automatic,
+    /// As they stand in the definition.
     first,
     second
   };
@@ -57,12 +59,14 @@ namespace Signorini
   {
     /// An interference fit.
     resolve,
+    /// InputError.
     refuse
   };
 
   /// One surface of a pair: a boundary of a body.
   struct PairSide
   {
+    /// Their names.
     std::string body, boundary;
     /// Positive where the surface may touch (a face belongs to it if a corner or its centre does); empty for
     /// everywhere.
@@ -72,13 +76,16 @@ namespace Signorini
   /// Two surfaces, or a surface and an obstacle, that may touch.
   struct PairDefinition
   {
+    /// What results and messages call it.
     std::string name;
-    PairSide    first;
+    /// A surface.
+    PairSide first;
     /// Without meaning if there is an obstacle.
     PairSide                     second;
     std::optional<RigidObstacle> obstacle;
     /// The initial gap (length) at points of the nonmortar surface; empty for the geometric one.
-    ScalarField        prescribed_gap;
+    ScalarField prescribed_gap;
+    /// What the surfaces do to each other, and how that is discretized.
     ContactKind        contact     = ContactKind::unilateral;
     GapKind            gap         = GapKind::weighted;
     NonmortarChoice    nonmortar   = NonmortarChoice::automatic;
@@ -89,14 +96,17 @@ namespace Signorini
   /// A body and what acts on it.
   struct BodyProblem
   {
+    /// Mesh, material, boundary shapes.
     BodyDefinition body;
+    /// Conditions and forces.
     LoadDefinition loads;
   };
 
   /// A contact problem: bodies, what acts on them, and where they may touch. From a parameter file
-  /// (ProblemParameters::definition()), or filled in by a program.
+  /// (ParameterFile::problem()), or filled in by a program.
   struct ProblemDefinition
   {
+    /// In any order; names of bodies differ, and names of pairs.
     std::vector<BodyProblem>    bodies;
     std::vector<PairDefinition> pairs;
   };

@@ -80,6 +80,10 @@ namespace Signorini
   private:
     void collect_own_cells(const NodalSpace &coarse);
 
+    /// Collective. As the directory: by rank that asks for cells, their names and owners.
+    std::map<unsigned int, std::vector<std::pair<Key, unsigned int>>>
+    answer_for_owners(const NodalSpace &fine) const;
+    /// Collective. The owners send the cells.
     void fetch_remote_cells(const NodalSpace &fine);
 
     std::unordered_map<Key, unsigned int, Hash> index;

@@ -75,7 +75,9 @@ namespace Signorini
     void solve(Vector &solution, const Vector &rhs) const override;
 
   private:
-    void make_definite(const NodeBlockMatrix &singular, const std::vector<Vector> &free_motions);
+    /// Of the rigid motions those that cost nothing, orthonormal.
+    void find_kernel(const NodeBlockMatrix &singular, const std::vector<Vector> &free_motions);
+    void make_definite(const NodeBlockMatrix &singular);
     void solve_definite(Vector &solution, const Vector &rhs) const;
 
     const LevelZero level_zero;

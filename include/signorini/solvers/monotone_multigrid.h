@@ -45,6 +45,9 @@ namespace Signorini
     /// Room left at contact nodes of a level by a correction, restricted to the next coarser level.
     void restrict_room(const unsigned int to_level, const HalfSpaces &half_spaces, const Vector &values,
                        const std::vector<unsigned char> *const active);
+    /// Collective. The correction of the coarser levels, as far as it lowers the energy.
+    /// @param residual of v; its normal parts at active nodes are lost
+    void add_coarse_correction(Vector &v, Vector &residual, const ObstacleProblem &problem);
     /// The correction of a level for its right hand side and its room, from zero.
     void correct_level(const unsigned int level);
     void solve_level_zero();

@@ -95,7 +95,7 @@ namespace Signorini
   struct HierarchyParts
   {
     /// The finest matrix, whose fixed components are eliminated by the hierarchy, and the fixed masks of its
-    /// local nodes.
+    /// owned nodes (what follows is not looked at).
     NodeBlockMatrix        matrix;
     std::vector<FixedMask> fixed;
     LevelInterface         interface;

@@ -20,12 +20,18 @@ namespace Signorini
 
 
 
-  /// What multigrid asks of the smoother of a level. Whoever implements this hands it to the hierarchy
-  /// (HierarchyParts::make_smoother). Every function lowers the energy ½ vᵀAv - rhsᵀv, keeps v in the
-  /// half-spaces of `contact`, and says there which are active. All are collective.
+  /// What multigrid asks of the smoother of a level. Whoever implements this (smooth() is enough) hands it to
+  /// the hierarchy (HierarchyParts::make_smoother). Every function lowers the energy ½ vᵀAv - rhsᵀv, keeps v
+  /// in the half-spaces of `contact`, and says there which are active. All are collective.
   class Smoother
   {
   public:
+    /// The matrix must outlive the object.
+    explicit Smoother(const NodeBlockMatrix &matrix)
+      : matrix(matrix)
+    {
+    }
+
     virtual ~Smoother() = default;
 
     /// Sweeps before (forward) or after (backward) a coarse correction, one the adjoint of the other.
@@ -33,22 +39,29 @@ namespace Signorini
                         const SmoothingParameters &parameters, const Direction direction) = 0;
 
     /// The sweeps forward from v = 0 and residual = rhs - A v. v may be rounded to single precision: it is a
-    /// correction. Residuals of active nodes are not rounded relative to the contact force.
+    /// correction. Residuals of active nodes are not rounded relative to the contact force. Here: by a
+    /// product with the matrix, which smoothers that have the residual at hand save.
     virtual void smooth_from_zero(Vector &v, const Vector &rhs, ContactState &contact,
-                                  const SmoothingParameters &parameters, Vector &residual) = 0;
+                                  const SmoothingParameters &parameters, Vector &residual);
 
     /// The sweeps backward in the same way, and residual = rhs - A v in double precision unless it is null.
     virtual void smooth_to_residual(Vector &v, const Vector &rhs, ContactState &contact,
-                                    const SmoothingParameters &parameters, Vector *const residual) = 0;
+                                    const SmoothingParameters &parameters, Vector *const residual);
 
-    /// Not collective. Rows of the matrix have changed.
-    virtual void update(const std::vector<unsigned int> &rows) = 0;
+    /// Not collective. Rows of the matrix have changed, of which a smoother may keep something.
+    virtual void update(const std::vector<unsigned int> &)
+    {
+    }
 
     /// Whether sweeps over the contact nodes alone would be slow, so that they must not be spared.
     virtual bool is_slow_at_interface() const
     {
       return false;
     }
+
+  protected:
+    /// Of the level.
+    const NodeBlockMatrix &matrix;
   };
 
 

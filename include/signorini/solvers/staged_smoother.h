@@ -87,9 +87,8 @@ namespace Signorini
     void run_rounded(SmoothingStage &stage, Vector &v, const Vector &rhs, ContactState &contact,
                      const Direction direction, const bool passes_on);
 
-    const NodeBlockMatrix &matrix;
-    ProjectedGaussSeidel   sweeps;
-    RoundedGaussSeidel     rounded;
+    ProjectedGaussSeidel sweeps;
+    RoundedGaussSeidel   rounded;
     /// In the order of a forward run.
     std::vector<std::unique_ptr<SmoothingStage>> after_sweeps, at_interface;
   };

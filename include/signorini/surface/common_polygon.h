@@ -37,6 +37,9 @@ namespace Signorini
     bool sort(std::vector<Corner> &corners);
 
   private:
+    void collect(const std::vector<Corner> &corners);
+    void follow_both(const std::vector<Corner> &corners);
+
     std::vector<unsigned int> on_nonmortar, on_mortar;
     std::vector<Corner>       sorted;
   };

@@ -44,6 +44,9 @@ namespace Signorini
                          const dealii::Point<3> &p1, const dealii::Tensor<1, 3> &n1) const;
     };
 
+    /// Balls around the vertices of clusters of triangles.
+    static std::vector<Ball> cover(const SurfaceMesh &surface, const std::vector<unsigned int> &triangles);
+
     bool everything;
     /// The first one contains all others.
     std::vector<Ball> balls;

@@ -144,6 +144,8 @@ namespace Signorini
 
     void         map_nonmortar_vertices();
     unsigned int triangle_beside(const unsigned int vertex, const MappingNode &node) const;
+    /// The triangle around a mortar vertex whose two edges there have the vertex between them, or none.
+    unsigned int triangle_around(const unsigned int mortar_vertex, const unsigned int vertex) const;
     SurfacePoint image_in(const unsigned int vertex, const unsigned int triangle) const;
     unsigned int search_triangle(const unsigned int vertex);
     bool         lies_below(const unsigned int vertex, const unsigned int triangle) const;

@@ -70,6 +70,12 @@ namespace Signorini
     /// Triangles that would be the third on an edge or the second on the same side of it: their edge is a
     /// border of its own.
     std::size_t n_conflicts = 0;
+
+  private:
+    void make_edges();
+    /// The edge whose given side is free among those from `first` on; a new one if there is none.
+    unsigned int find_edge(const unsigned int low, const unsigned int high, const unsigned int side,
+                           const std::size_t first);
   };
 
   /// The vertices along a space-filling curve (Morton order): neighbours follow soon after each other, so

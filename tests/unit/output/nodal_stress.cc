@@ -66,8 +66,12 @@ TEST(NodalStress, OfTheMeanDilatation)
           largest                = std::max(largest, std::abs(expected));
         }
       if (mean)
-        EXPECT_LE(worst, 1e-6 * largest);
+        {
+          EXPECT_LE(worst, 1e-6 * largest);
+        }
       else if (largest > 0.)
-        EXPECT_GT(worst, 1e-3 * largest);
+        {
+          EXPECT_GT(worst, 1e-3 * largest);
+        }
     }
 }

@@ -245,7 +245,7 @@ namespace CubeProblem
     const Grid     grid(n);
     HierarchyParts parts;
     parts.matrix    = stiffness(grid);
-    parts.fixed     = import_ghost_masks(parts.matrix.partition(), grid.fixed());
+    parts.fixed     = grid.fixed();
     parts.interface = contact_interface(grid);
     return parts;
   }

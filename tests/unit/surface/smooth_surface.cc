@@ -161,8 +161,10 @@ TEST(SmoothSurface, FlatStaysFlatAndCreasesStaySharp)
       n_flat += roof.patch(t).is_flat;
       EXPECT_EQ(roof.patch(t).is_flat, plane) << centre;
       if (plane)
-        for (const auto &w : samples)
-          EXPECT_EQ(roof.offset(t, w).norm(), 0.);
+        {
+          for (const auto &w : samples)
+            EXPECT_EQ(roof.offset(t, w).norm(), 0.);
+        }
       else
         {
           EXPECT_TRUE(roof.patch(t).is_smooth) << centre;

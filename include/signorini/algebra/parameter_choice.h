@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
-#ifndef signorini_mesh_parameter_choice_h
-#define signorini_mesh_parameter_choice_h
+#ifndef signorini_algebra_parameter_choice_h
+#define signorini_algebra_parameter_choice_h
 
 #include <deal.II/base/parameter_handler.h>
 
