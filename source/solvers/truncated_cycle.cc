@@ -22,6 +22,8 @@ namespace Signorini
       hierarchy.level(level - 1).matrix.partition().reinit(*vector);
     for (Vector *vector : {&correction, &product, &new_residual, &step})
       hierarchy.level(level).matrix.partition().reinit(*vector);
+    if (problem.semidefinite && !hierarchy.level(level).contact_nodes.empty())
+      subspace.emplace(hierarchy, level);
   }
 
 
@@ -42,6 +44,11 @@ namespace Signorini
     check.begin_iteration();
     smoother.smooth_from_zero(correction, residual, contact, plan.smoothing, new_residual);
     check(v, correction);
+    if (subspace && plan.phase != IterationPhase::resting)
+      {
+        subspace->run(correction, new_residual, contact);
+        check(v, correction);
+      }
 
     keeps_active = contact.active() == active;
     searched     = plan.trusts_kept_set ? plan.phase == IterationPhase::on_the_way || !all_ranks(keeps_active)

@@ -4,6 +4,7 @@
 #ifndef signorini_solvers_truncated_cycle_h
 #define signorini_solvers_truncated_cycle_h
 
+#include <signorini/solvers/contact_subspace.h>
 #include <signorini/solvers/iteration_phase.h>
 #include <signorini/solvers/line_search.h>
 #include <signorini/solvers/substep_check.h>
@@ -84,6 +85,8 @@ namespace Signorini
     const ObstacleProblem &problem;
     ContactState          &contact;
     VCycle                 cycle;
+    /// For bodies that only contact holds.
+    std::optional<ContactSubspace> subspace;
     Vector                 coarse_defect, coarse_correction;
     /// b - A (v + z); a coarse correction on the finest level.
     Vector new_residual, step;
