@@ -73,7 +73,7 @@ namespace Signorini
     const auto          fields = motions_of_unknowns(model, *d.constrained, unknowns, *d.transformation);
     const std::size_t   n = fields.size(), n_rows = d.coupling.n_rows();
     std::vector<double> rows(n * n_rows), work(n);
-    const std::vector<double> bounds = d.transformation->reduce_gaps(d.gaps);
+    std::vector<double> bounds = d.transformation->reduce_gaps(d.gaps);
     // The work of the loads on a motion, zero to the rounding of their sums.
     const double scale = problem.rhs.l1_norm();
     for (std::size_t m = 0; m < n; ++m)
@@ -84,6 +84,19 @@ namespace Signorini
         for (std::size_t p = 0; p < n_rows; ++p)
           rows[n * p + m] = d.projections[p].direction() * values[p];
       }
+    const auto start = replicate_values(unknowns, v, d.coupling.rows);
+    // What touches may hold the bodies where they are.
+    std::vector<double> touching_rows, touching_gaps;
+    for (std::size_t p = 0; p < n_rows; ++p)
+      {
+        bounds[p] -= d.projections[p].direction() * start[p];
+        if (bounds[p] > 0.)
+          continue;
+        touching_gaps.push_back(bounds[p]);
+        touching_rows.insert(touching_rows.end(), rows.begin() + n * p, rows.begin() + n * (p + 1));
+      }
+    if (!v.all_zero() && balance_rigid_motions(touching_rows, touching_gaps, work).is_held)
+      return;
     const RigidBalance balance = balance_rigid_motions(rows, bounds, work);
     if (!balance.is_held)
       throw InputError("The loads press no body into contact that could hold it: " +

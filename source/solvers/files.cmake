@@ -6,6 +6,7 @@ signorini_add_layer(solvers
   foreign_levels.cc
   gathered_obstacle_problem.cc
   gauss_seidel_iteration.cc
+  idle_motions.cc
   interface_correction.cc
   level_zero_solver.cc
   line_search.cc

@@ -17,6 +17,7 @@ namespace Signorini
     , problem(problem)
     , contact(contact)
     , cycle(hierarchy, coarse_smoothing, level - 1)
+    , idle(problem.free_motions)
   {
     for (Vector *vector : {&coarse_defect, &coarse_correction})
       hierarchy.level(level - 1).matrix.partition().reinit(*vector);
@@ -46,7 +47,7 @@ namespace Signorini
     check(v, correction);
     if (subspace && plan.phase != IterationPhase::resting)
       {
-        subspace->run(correction, new_residual, contact);
+        subspace->run(correction, new_residual, contact, idle);
         check(v, correction);
       }
 
@@ -85,8 +86,10 @@ namespace Signorini
     cycle.apply(coarse_correction, coarse_defect);
     correction.zero_out_ghost_values();
     prolongate_correction();
+    idle.find(contact);
+    idle.remove(step, correction, contact);
     const double length = std::min(1., contact.longest_step(correction, step));
-    searched            = searched || (length < 1. && !problem.semidefinite);
+    searched            = searched || length < 1.;
     if (searched)
       {
         contact.restrict_to_tangents(new_residual);
@@ -106,7 +109,7 @@ namespace Signorini
                                       problem.semidefinite);
     };
     double square = 0.;
-    if (length < 1. && !problem.semidefinite)
+    if (length < 1.)
       {
         // A V-cycle is at most the inverse of A: the slope is at least the curvature.
         square                = std::max(new_residual * step, 0.);
@@ -118,6 +121,7 @@ namespace Signorini
             return std::sqrt(square);
           }
         prolongate_correction();
+        idle.remove(step, correction, contact);
       }
     if (length < 1.)
       step *= length;

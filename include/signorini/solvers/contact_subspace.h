@@ -5,6 +5,7 @@
 #define signorini_solvers_contact_subspace_h
 
 #include <signorini/solvers/gathered_obstacle_problem.h>
+#include <signorini/solvers/idle_motions.h>
 #include <signorini/solvers/multigrid_hierarchy.h>
 
 namespace Signorini
@@ -31,9 +32,10 @@ namespace Signorini
     /// Collective. Of a level of the hierarchy, with the levels below it.
     ContactSubspace(const MultigridHierarchy &hierarchy, const unsigned int level);
 
-    /// Collective. Adds the minimizer to v, and updates residual = rhs - A v.
+    /// Collective. Adds the minimizer to v, without motions that are idle then, and updates
+    /// residual = rhs - A v.
     /// @param contact half-spaces of v
-    void run(Vector &v, Vector &residual, ContactState &contact);
+    void run(Vector &v, Vector &residual, ContactState &contact, IdleMotions &idle);
 
   private:
     /// The nodes of a coarse space: of each rank its nodes of a level, then its contact nodes.

@@ -5,6 +5,7 @@
 #define signorini_solvers_truncated_cycle_h
 
 #include <signorini/solvers/contact_subspace.h>
+#include <signorini/solvers/idle_motions.h>
 #include <signorini/solvers/iteration_phase.h>
 #include <signorini/solvers/line_search.h>
 #include <signorini/solvers/substep_check.h>
@@ -87,6 +88,7 @@ namespace Signorini
     VCycle                 cycle;
     /// For bodies that only contact holds.
     std::optional<ContactSubspace> subspace;
+    IdleMotions                    idle;
     Vector                 coarse_defect, coarse_correction;
     /// b - A (v + z); a coarse correction on the finest level.
     Vector new_residual, step;
