@@ -250,7 +250,7 @@ namespace Signorini
 
 
 
-  void ContactSubspace::run(Vector &v, Vector &residual, ContactState &contact, IdleMotions &idle)
+  void ContactSubspace::run(Vector &v, Vector &residual, ContactState &contact, FreeMotionCorrection &motions)
   {
     const std::vector<NodeStep> steps = problem.solve(restrict_state(v, residual, contact));
     Space                      &space = spaces.back();
@@ -269,8 +269,8 @@ namespace Signorini
       }
     for (std::size_t k = spaces.size(); k-- > 0;)
       spaces[k].to_finer.prolongate(k > 0 ? spaces[k - 1].values : step, spaces[k].values);
-    idle.find(contact);
-    idle.remove(step, v, contact);
+    motions.update(contact);
+    motions.remove_idle(step, v, contact);
     finest.matrix.vmult(product, step);
     v.zero_out_ghost_values();
     residual.zero_out_ghost_values();

@@ -4,9 +4,9 @@ signorini_add_layer(solvers
   contact_state.cc
   contact_subspace.cc
   foreign_levels.cc
+  free_motion_correction.cc
   gathered_obstacle_problem.cc
   gauss_seidel_iteration.cc
-  idle_motions.cc
   interface_correction.cc
   level_zero_solver.cc
   line_search.cc

@@ -15,7 +15,7 @@ namespace Signorini
     /// A motion whose energy is below this part of the largest diagonal entry; work below this part of the
     /// largest load.
     constexpr double       costs_nothing = 1e-9, no_load = 1e-6;
-    constexpr double       regularization = 1e-6;
+    constexpr double       regularization = 1e-9;
     constexpr unsigned int amg_iterations = 100;
   } // namespace
 

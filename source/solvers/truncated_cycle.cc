@@ -17,11 +17,11 @@ namespace Signorini
     , problem(problem)
     , contact(contact)
     , cycle(hierarchy, coarse_smoothing, level - 1)
-    , idle(problem.free_motions)
+    , motions(hierarchy.level(level).matrix, problem.free_motions)
   {
     for (Vector *vector : {&coarse_defect, &coarse_correction})
       hierarchy.level(level - 1).matrix.partition().reinit(*vector);
-    for (Vector *vector : {&correction, &product, &new_residual, &step})
+    for (Vector *vector : {&correction, &product, &new_residual, &step, &tangential})
       hierarchy.level(level).matrix.partition().reinit(*vector);
     if (problem.semidefinite && !hierarchy.level(level).contact_nodes.empty())
       subspace.emplace(hierarchy, level);
@@ -47,7 +47,7 @@ namespace Signorini
     check(v, correction);
     if (subspace && plan.phase != IterationPhase::resting)
       {
-        subspace->run(correction, new_residual, contact, idle);
+        subspace->run(correction, new_residual, contact, motions);
         check(v, correction);
       }
 
@@ -69,10 +69,19 @@ namespace Signorini
 
 
 
-  void TruncatedCycle::prolongate_correction()
+  void TruncatedCycle::find_step()
   {
+    tangential = new_residual;
+    contact.restrict_to_tangents(tangential);
+    motions.update(contact);
+    const std::vector<double> moved = motions.minimize(tangential);
+    coarse_defect                   = 0.;
+    restrict_defect(hierarchy.level(level - 1), coarse_defect, tangential);
+    cycle.apply(coarse_correction, coarse_defect);
     hierarchy.level(level - 1).to_finer.prolongate(step, coarse_correction);
     contact.restrict_to_tangents(step);
+    correction.zero_out_ghost_values();
+    motions.complete(step, moved, tangential, correction, contact);
   }
 
 
@@ -81,13 +90,7 @@ namespace Signorini
   {
     if (hierarchy.truncate(level, contact.half_spaces(), contact.active()))
       ++n_updates;
-    coarse_defect = 0.;
-    restrict_defect(hierarchy.level(level - 1), coarse_defect, new_residual);
-    cycle.apply(coarse_correction, coarse_defect);
-    correction.zero_out_ghost_values();
-    prolongate_correction();
-    idle.find(contact);
-    idle.remove(step, correction, contact);
+    find_step();
     const double length = std::min(1., contact.longest_step(correction, step));
     searched            = searched || length < 1.;
     if (searched)
@@ -114,14 +117,14 @@ namespace Signorini
         // A V-cycle is at most the inverse of A: the slope is at least the curvature.
         square                = std::max(new_residual * step, 0.);
         const double decrease = (length - .5 * length * length) * square;
+        const Vector whole = step;
         contact.project_correction(step, correction);
         if (const LineSearch projected = search(); projected.decrease >= decrease)
           {
             correction.add(projected.length, step);
             return std::sqrt(square);
           }
-        prolongate_correction();
-        idle.remove(step, correction, contact);
+        step = whole;
       }
     if (length < 1.)
       step *= length;

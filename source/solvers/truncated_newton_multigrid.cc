@@ -138,7 +138,6 @@ namespace Signorini
         v += cycle.correction;
         check(v);
 
-        if (std::getenv("DBG")) std::printf("DBG v %g z %g conj %d short %d phase %d cut %g\n", v.linfty_norm(), cycle.correction.linfty_norm(), (int)step.is_conjugate, (int)step.is_shortened,(int)phase, norm);
         step.grows_freely = problem.semidefinite && !report.history.empty() && norm > report.history.back();
         sweeps.observe(step.is_conjugate, norm, report.history);
         phase = next_phase(step);

@@ -5,7 +5,7 @@
 #define signorini_solvers_contact_subspace_h
 
 #include <signorini/solvers/gathered_obstacle_problem.h>
-#include <signorini/solvers/idle_motions.h>
+#include <signorini/solvers/free_motion_correction.h>
 #include <signorini/solvers/multigrid_hierarchy.h>
 
 namespace Signorini
@@ -35,7 +35,7 @@ namespace Signorini
     /// Collective. Adds the minimizer to v, without motions that are idle then, and updates
     /// residual = rhs - A v.
     /// @param contact half-spaces of v
-    void run(Vector &v, Vector &residual, ContactState &contact, IdleMotions &idle);
+    void run(Vector &v, Vector &residual, ContactState &contact, FreeMotionCorrection &motions);
 
   private:
     /// The nodes of a coarse space: of each rank its nodes of a level, then its contact nodes.
