@@ -93,6 +93,14 @@ namespace Signorini
 
 
 
+  bool ContactSubspace::exists(const MultigridHierarchy &hierarchy, const unsigned int level)
+  {
+    return !hierarchy.level(level).contact_nodes.empty() &&
+           hierarchy.level(choose_level(hierarchy, level)).matrix.partition().n_global() <= Rule().most_nodes;
+  }
+
+
+
   ContactSubspace::ContactSubspace(const MultigridHierarchy &hierarchy, const unsigned int level)
     : finest(hierarchy.level(level))
   {

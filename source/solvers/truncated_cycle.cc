@@ -23,7 +23,7 @@ namespace Signorini
       hierarchy.level(level - 1).matrix.partition().reinit(*vector);
     for (Vector *vector : {&correction, &product, &new_residual, &step, &tangential})
       hierarchy.level(level).matrix.partition().reinit(*vector);
-    if (problem.semidefinite && !hierarchy.level(level).contact_nodes.empty())
+    if (problem.semidefinite && ContactSubspace::exists(hierarchy, level))
       subspace.emplace(hierarchy, level);
   }
 

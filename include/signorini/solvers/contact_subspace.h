@@ -27,7 +27,12 @@ namespace Signorini
       /// Nodes of the level with the number nearest to this one, as a ratio. On a lug that is pulled by a
       /// force (doc/measurements.md).
       double n_nodes = 170.;
+      /// More cannot be factorized at the cost of an iteration (a mesh without coarser ones).
+      unsigned int most_nodes = 5000;
     };
+
+    /// Whether a level of a hierarchy has contact nodes, and a level below it that is small enough.
+    static bool exists(const MultigridHierarchy &hierarchy, const unsigned int level);
 
     /// Collective. Of a level of the hierarchy, with the levels below it.
     ContactSubspace(const MultigridHierarchy &hierarchy, const unsigned int level);
