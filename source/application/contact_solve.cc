@@ -203,6 +203,20 @@ namespace Signorini
       return result;
     }
 
+    void note_loose_motions(const LooseMotions &loose, const ContactModel &model, const Discretization &d,
+                            Journal &journal)
+    {
+      for (const std::vector<double> &motion : loose.undetermined)
+        journal.note("nothing determines " + describe_motion(d.free_motions(), motion, model.bodies()) +
+                     ": frictionless contact does not hold it. The mean of the displacement in it is set to "
+                     "zero.");
+      for (const std::vector<double> &motion : loose.hardly_held)
+        journal.note("warning: " + describe_motion(d.free_motions(), motion, model.bodies()) +
+                     ": frictionless contact does not hold it but for the facets of the surfaces. How far the "
+                     "body moves that way, and what depends on it, is no property of the true bodies; "
+                     "prescribe a displacement there.");
+    }
+
     /// Solves; returns the active half-spaces.
     std::vector<unsigned char> solve(ConvergenceReport &report, AlgebraicProblem &algebraic,
                                      const ContactModel &model, const Discretization &d,
@@ -221,12 +235,13 @@ namespace Signorini
       hierarchy.finest().matrix.symmetric_residual(algebraic.residual, algebraic.v, problem.rhs);
       deformation.restore();
       if (!d.free_motions().empty())
-        remove_free_motions(
-            algebraic.v, motions_of_unknowns(model, *d.constrained, partition, *d.transformation),
-            problem.half_spaces, solver->active(), [&](const std::vector<double> &motion) {
-              journal.note("nothing determines " + describe_motion(d.free_motions(), motion, model.bodies()) +
-                           ": the mean of the displacement in it is set to zero.");
-            });
+        {
+          const auto         fields = motions_of_unknowns(model, *d.constrained, partition, *d.transformation);
+          const LooseMotions loose =
+              find_loose_motions(d.free_motions(), fields, problem.half_spaces, solver->active());
+          note_loose_motions(loose, model, d, journal);
+          remove_motions(algebraic.v, loose.undetermined, fields, problem.half_spaces);
+        }
       return solver->active();
     }
 

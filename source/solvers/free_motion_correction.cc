@@ -36,12 +36,20 @@ namespace Signorini
 
 
   FreeMotionCorrection::FreeMotionCorrection(const NodeBlockMatrix     &matrix,
-                                             const std::vector<Vector> &free_motions)
+                                             const std::vector<Vector> &free_motions, const Vector &rhs)
     : matrix(matrix)
     , motions(free_motions)
     , tangential(free_motions)
     , products(free_motions)
   {
+    if (motions.empty())
+      return;
+    const double scale = Rule().rounding * rhs.l1_norm();
+    for (const Vector &motion : motions)
+      {
+        const double work = motion * rhs;
+        loads.push_back(std::abs(work) > scale * motion.linfty_norm() ? work : 0.);
+      }
   }
 
 
@@ -83,6 +91,11 @@ namespace Signorini
         else
           inverse_energies += part / energy;
       }
+    const Eigen::Map<const Eigen::VectorXd> work(loads.data(), n);
+    const Eigen::VectorXd                   flight = idle * work;
+    driven                                         = flight.norm() > Rule().no_work * work.norm();
+    if (driven)
+      idle -= flight * flight.transpose() / flight.squaredNorm();
     inverse.assign(inverse_energies.data(), inverse_energies.data() + n * n);
     projector.assign(idle.data(), idle.data() + n * n);
   }

@@ -17,7 +17,7 @@ namespace Signorini
     , problem(problem)
     , contact(contact)
     , cycle(hierarchy, coarse_smoothing, level - 1)
-    , motions(hierarchy.level(level).matrix, problem.free_motions)
+    , motions(hierarchy.level(level).matrix, problem.free_motions, problem.rhs)
   {
     for (Vector *vector : {&coarse_defect, &coarse_correction})
       hierarchy.level(level - 1).matrix.partition().reinit(*vector);
@@ -91,15 +91,17 @@ namespace Signorini
     if (hierarchy.truncate(level, contact.half_spaces(), contact.active()))
       ++n_updates;
     find_step();
+    // Such a motion has no energy, but what it wins has not come to an end.
+    const double driven = motions.is_driven() ? std::sqrt(std::max(tangential * step, 0.)) : 0.;
     const double length = std::min(1., contact.longest_step(correction, step));
     searched            = searched || length < 1.;
     if (searched)
       {
         contact.restrict_to_tangents(new_residual);
-        return add_better(length);
+        return std::max(driven, add_better(length));
       }
     correction.add(length, step);
-    return 0.;
+    return driven;
   }
 
 

@@ -15,9 +15,9 @@ namespace Signorini
   /// their rotations only approximately: an error along a rotation would not go away. Each motion m has A m =
   /// 0, so products are those of its normal parts at active nodes alone.
   ///
-  /// Motions that nothing opposes are idle: they cost nothing, loads do no work on them, and what a correction
-  /// has of them is rounding over rounding. It can be many times longer than the deformation, and then its own
-  /// rounding hides that. They are taken out.
+  /// Motions that nothing opposes and on which the loads do no work are idle: what a correction has of them is
+  /// rounding over rounding. It can be many times longer than the deformation, and then its own rounding hides
+  /// that. They are taken out.
   class FreeMotionCorrection
   {
   public:
@@ -25,14 +25,24 @@ namespace Signorini
     struct Rule
     {
       /// Its energy relative to that of the motion that is opposed most: rounding.
-      double costs_nothing = 1e-10;
+      double costs_nothing = 1e-9;
+      /// The work of the loads on it, relative to what it is made up of, and to the work on all motions.
+      double rounding = 1e-10, no_work = 1e-7;
     };
 
     /// @param free_motions orthonormal; may be empty. Both must outlive the object.
-    FreeMotionCorrection(const NodeBlockMatrix &matrix, const std::vector<Vector> &free_motions);
+    /// @param rhs the loads
+    FreeMotionCorrection(const NodeBlockMatrix &matrix, const std::vector<Vector> &free_motions,
+                         const Vector &rhs);
 
     /// Collective. The active half-spaces have changed, perhaps.
     void update(const ContactState &contact);
+
+    /// Whether loads do work on a motion that nothing opposes: there is no minimum on these planes.
+    bool is_driven() const
+    {
+      return driven;
+    }
 
     /// Collective. Subtracts A s from a residual, which is tangential at active nodes; s minimizes over the
     /// motions. Returns the coefficients of s.
@@ -55,11 +65,14 @@ namespace Signorini
     const std::vector<Vector> &motions;
     /// Tangential at active nodes, and their products with A.
     std::vector<Vector> tangential, products;
-    /// For which these are.
+    /// Work of the loads on each motion.
+    std::vector<double> loads;
+    /// For which the tangential ones are.
     std::optional<std::vector<unsigned char>> active;
     /// Inverse of their energies without idle ones, and the projector onto the coefficients of those; row by
     /// row.
     std::vector<double> inverse, projector;
+    bool                driven = false;
   };
 } // namespace Signorini
 

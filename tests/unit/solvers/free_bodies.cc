@@ -271,7 +271,9 @@ TEST(FreeBodies, RandomCubesAreSolvedOrFlyAway)
       EXPECT_TRUE(report.converged) << "problem " << i;
       EXPECT_LE(report.iterations, 40u) << "problem " << i;
       EXPECT_LE(std::sqrt(std::max(0., difference.dot(d.matrix * difference))), 1e-8 * scale)
-          << "problem " << i << ", " << report.iterations << " iterations";
+          << "problem " << i << ", " << report.iterations << " iterations, energy " << report.energy
+          << ", dense " << solution.dot(.5 * (d.matrix * solution) - d.rhs) << ", largest violation there "
+          << (d.normals * solution - d.bounds).maxCoeff();
       for (std::size_t p = 0; p < problem.half_spaces.size(); ++p)
         EXPECT_LE(problem.half_spaces.normal_part(p, v), problem.half_spaces.bounds[p] + 1e-12)
             << "problem " << i;
