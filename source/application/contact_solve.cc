@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Signorini authors
 
 #include <signorini/algebra/input_error.h>
+#include <signorini/algebra/vector_span.h>
 #include <signorini/application/contact_solve.h>
 #include <signorini/application/free_bodies.h>
 #include <signorini/application/journal.h>
@@ -91,21 +92,19 @@ namespace Signorini
       };
     }
 
-    ContactStress evaluate_stress(const Discretization &d, const NodeBlockMatrix &matrix, const Vector &v,
-                                  const ObstacleProblem &problem, const std::vector<unsigned char> &active)
+    /// @param v and residual = rhs - A v
+    ContactStress evaluate_stress(const Discretization &d, const NodePartition &partition, const Vector &v,
+                                  const Vector &residual, const HalfSpaces &half_spaces,
+                                  const std::vector<unsigned char> &active)
     {
-      Vector residual;
-      residual.reinit(v);
-      matrix.symmetric_residual(residual, v, problem.rhs);
-      const NodePartition      &partition = matrix.partition();
       const auto                forces    = replicate_values(partition, residual, d.coupling.rows);
       const auto                values    = replicate_values(partition, v, d.coupling.rows);
       const std::vector<double> bounds    = d.transformation->reduce_gaps(d.gaps);
       // The active set is what the projection of the solver wrote.
       Vector flags;
       flags.reinit(v);
-      for (std::size_t p = 0; p < problem.half_spaces.size(); ++p)
-        flags.local_element(dim * problem.half_spaces.nodes[p]) = active[p];
+      for (std::size_t p = 0; p < half_spaces.size(); ++p)
+        flags.local_element(dim * half_spaces.nodes[p]) = active[p];
       const auto    active_rows = replicate_values(partition, flags, d.coupling.rows);
       ContactStress stress      = no_stress(d);
       for (std::size_t p = 0; p < d.coupling.n_rows(); ++p)
@@ -127,6 +126,41 @@ namespace Signorini
       std::shared_ptr<const LevelSpaces>  levels;
       std::unique_ptr<MultigridHierarchy> hierarchy;
       Vector                              v;
+      /// rhs - A v, after the solution.
+      Vector residual;
+    };
+
+    /// Solves for what is left when the rigid motions of a start are taken out of it: these can be longer than
+    /// the deformation by many orders of magnitude, and products of A with them are rounding.
+    class DeformationOnly
+    {
+    public:
+      explicit DeformationOnly(AlgebraicProblem &algebraic)
+        : algebraic(algebraic)
+        , bounds(algebraic.problem.half_spaces.bounds)
+      {
+        HalfSpaces   &spaces      = algebraic.problem.half_spaces;
+        const Vector &start       = algebraic.v;
+        Vector        deformation = start;
+        subtract_projection(deformation, algebraic.problem.free_motions);
+        rigid = start;
+        rigid -= deformation;
+        for (std::size_t p = 0; p < spaces.size(); ++p)
+          spaces.bounds[p] -= spaces.normal_part(p, rigid);
+        algebraic.v = deformation;
+      }
+
+      /// Puts them back.
+      void restore()
+      {
+        algebraic.v += rigid;
+        algebraic.problem.half_spaces.bounds = bounds;
+      }
+
+    private:
+      AlgebraicProblem         &algebraic;
+      const std::vector<double> bounds;
+      Vector                    rigid;
     };
 
     AlgebraicProblem build_problem(const ContactModel &model, const Discretization &d, CoarserSpaces &coarser,
@@ -154,6 +188,11 @@ namespace Signorini
       const NodePartition partition = system.matrix.partition();
       problem.half_spaces           = make_half_spaces(d, partition, d.transformation->reduce_gaps(d.gaps));
       problem.semidefinite          = !d.free_motions().empty();
+      if (problem.semidefinite)
+        {
+          problem.free_motions = motions_of_unknowns(model, *d.constrained, partition, *d.transformation);
+          orthonormalize(problem.free_motions);
+        }
       partition.reinit(result.v);
       if (start != nullptr)
         d.transformation->from_displacement(result.v, start->displacement);
@@ -162,6 +201,20 @@ namespace Signorini
       options.start    = start != nullptr ? &result.v : nullptr;
       result.hierarchy = make_hierarchy(std::move(system), *result.levels, d, parameters.solver, options);
       return result;
+    }
+
+    void note_loose_motions(const LooseMotions &loose, const ContactModel &model, const Discretization &d,
+                            Journal &journal)
+    {
+      for (const std::vector<double> &motion : loose.undetermined)
+        journal.note("nothing determines " + describe_motion(d.free_motions(), motion, model.bodies()) +
+                     ": frictionless contact does not hold it. The mean of the displacement in it is set to "
+                     "zero.");
+      for (const std::vector<double> &motion : loose.hardly_held)
+        journal.note("warning: " + describe_motion(d.free_motions(), motion, model.bodies()) +
+                     ": frictionless contact does not hold it but for the facets of the surfaces. How far the "
+                     "body moves that way, and what depends on it, is no property of the true bodies; "
+                     "prescribe a displacement there.");
     }
 
     /// Solves; returns the active half-spaces.
@@ -176,14 +229,19 @@ namespace Signorini
         problem.near_kernel = rigid_motions(node_places(model.bodies(), d.nodal()).positions, partition,
                                             hierarchy.finest().fixed, d.coupling, d.projections);
       const auto solver = make_solver(hierarchy, parameters);
-      report            = solver->solve(algebraic.v, problem, make_monitor(parameters.tolerance, journal));
+      DeformationOnly deformation(algebraic);
+      report = solver->solve(algebraic.v, problem, make_monitor(parameters.tolerance, journal));
+      partition.reinit(algebraic.residual);
+      hierarchy.finest().matrix.symmetric_residual(algebraic.residual, algebraic.v, problem.rhs);
+      deformation.restore();
       if (!d.free_motions().empty())
-        remove_free_motions(
-            algebraic.v, motions_of_unknowns(model, *d.constrained, partition, *d.transformation),
-            problem.half_spaces, solver->active(), [&](const std::vector<double> &motion) {
-              journal.note("nothing determines " + describe_motion(d.free_motions(), motion, model.bodies()) +
-                           ": the mean of the displacement in it is set to zero.");
-            });
+        {
+          const auto         fields = motions_of_unknowns(model, *d.constrained, partition, *d.transformation);
+          const LooseMotions loose =
+              find_loose_motions(d.free_motions(), fields, problem.half_spaces, solver->active());
+          note_loose_motions(loose, model, d, journal);
+          remove_motions(algebraic.v, loose.undetermined, fields, problem.half_spaces);
+        }
       return solver->active();
     }
 
@@ -218,7 +276,7 @@ namespace Signorini
     const NodeBlockMatrix &matrix = algebraic.hierarchy->finest().matrix;
 
     PhaseTimes::Scope solving = journal.measure(Phase::solve);
-    if (start == nullptr && !d.free_motions().empty())
+    if (!d.free_motions().empty())
       settle_free_parts(algebraic.v, model, d, matrix.partition(), algebraic.problem);
     SolverParameters solver_parameters = parameters.solver;
     // What was slow on one mesh is slow on the next.
@@ -226,7 +284,8 @@ namespace Signorini
     const auto active = solve(result.report, algebraic, model, d, solver_parameters, journal);
     solving.stop();
 
-    result.stress = evaluate_stress(d, matrix, algebraic.v, algebraic.problem, active);
+    result.stress = evaluate_stress(d, matrix.partition(), algebraic.v, algebraic.residual,
+                                    algebraic.problem.half_spaces, active);
     result.n_active =
         std::accumulate(result.stress.active.begin(), result.stress.active.end(), std::size_t(0));
     result.displacement = d.transformation->to_displacement(algebraic.v, matrix.partition());

@@ -13,6 +13,18 @@ namespace Signorini
 {
   using namespace dealii;
 
+  namespace
+  {
+    struct FreedomRule
+    {
+      /// The mean square of the normal parts of a motion at active nodes, relative to that of the motion that
+      /// is opposed most: zero to rounding; what facets of round surfaces give.
+      double not_opposed = 1e-9, hardly_opposed = 1e-4;
+    };
+  } // namespace
+
+
+
   void check_free_parts(const ContactModel &model, const FreeParts &parts, const SolverMethod method,
                         Journal &journal)
   {
@@ -73,7 +85,7 @@ namespace Signorini
     const auto          fields = motions_of_unknowns(model, *d.constrained, unknowns, *d.transformation);
     const std::size_t   n = fields.size(), n_rows = d.coupling.n_rows();
     std::vector<double> rows(n * n_rows), work(n);
-    const std::vector<double> bounds = d.transformation->reduce_gaps(d.gaps);
+    std::vector<double> bounds = d.transformation->reduce_gaps(d.gaps);
     // The work of the loads on a motion, zero to the rounding of their sums.
     const double scale = problem.rhs.l1_norm();
     for (std::size_t m = 0; m < n; ++m)
@@ -84,6 +96,19 @@ namespace Signorini
         for (std::size_t p = 0; p < n_rows; ++p)
           rows[n * p + m] = d.projections[p].direction() * values[p];
       }
+    const auto start = replicate_values(unknowns, v, d.coupling.rows);
+    // What touches may hold the bodies where they are.
+    std::vector<double> touching_rows, touching_gaps;
+    for (std::size_t p = 0; p < n_rows; ++p)
+      {
+        bounds[p] -= d.projections[p].direction() * start[p];
+        if (bounds[p] > 0.)
+          continue;
+        touching_gaps.push_back(bounds[p]);
+        touching_rows.insert(touching_rows.end(), rows.begin() + n * p, rows.begin() + n * (p + 1));
+      }
+    if (!v.all_zero() && balance_rigid_motions(touching_rows, touching_gaps, work).is_held)
+      return;
     const RigidBalance balance = balance_rigid_motions(rows, bounds, work);
     if (!balance.is_held)
       throw InputError("The loads press no body into contact that could hold it: " +
@@ -95,11 +120,9 @@ namespace Signorini
 
 
 
-  void remove_free_motions(Vector &v, const std::vector<Vector> &fields, const HalfSpaces &spaces,
-                           const std::vector<unsigned char>                             &active,
-                           const std::function<void(const std::vector<double> &motion)> &undetermined)
+  LooseMotions find_loose_motions(const std::vector<FreeMotion> &motions, const std::vector<Vector> &fields,
+                                  const HalfSpaces &spaces, const std::vector<unsigned char> &active)
   {
-    const MPI_Comm  comm = v.get_mpi_communicator();
     const auto      n    = static_cast<Eigen::Index>(fields.size());
     Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(n, n);
     for (std::size_t p = 0; p < spaces.size(); ++p)
@@ -108,22 +131,38 @@ namespace Signorini
           for (Eigen::Index j = 0; j < n; ++j)
             sums(i, j) += spaces.normal_part(p, fields[i]) * spaces.normal_part(p, fields[j]);
     for (Eigen::Index i = 0; i < n * n; ++i)
-      sums.data()[i] = Utilities::MPI::sum(sums.data()[i], comm);
+      sums.data()[i] = Utilities::MPI::sum(sums.data()[i], fields[0].get_mpi_communicator());
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(sums);
-    std::vector<Vector>                                  kernel;
+    const double                                         scale = std::max(eigen.eigenvalues()[n - 1], 1e-300);
+    const FreedomRule                                    rule;
+    LooseMotions                                         result;
     for (Eigen::Index k = 0; k < n; ++k)
-      if (eigen.eigenvalues()[k] <= 1e-10 * std::max(eigen.eigenvalues()[n - 1], 1e-300))
-        {
-          std::vector<double> coefficients(n);
-          kernel.emplace_back();
-          kernel.back().reinit(v);
-          for (Eigen::Index i = 0; i < n; ++i)
-            {
-              coefficients[i] = eigen.eigenvectors()(i, k);
-              kernel.back().add(coefficients[i], fields[i]);
-            }
-          undetermined(coefficients);
-        }
+      {
+        const double              opposed = eigen.eigenvalues()[k];
+        const std::vector<double> motion(eigen.eigenvectors().col(k).data(),
+                                         eigen.eigenvectors().col(k).data() + n);
+        if (opposed <= rule.not_opposed * scale)
+          result.undetermined.push_back(motion);
+        else if (opposed <= rule.hardly_opposed * scale)
+          result.hardly_held.push_back(motion);
+      }
+    result.undetermined = separate_motions(motions, result.undetermined);
+    return result;
+  }
+
+
+
+  void remove_motions(Vector &v, const std::vector<std::vector<double>> &motions,
+                      const std::vector<Vector> &fields, const HalfSpaces &spaces)
+  {
+    std::vector<Vector> kernel;
+    for (const std::vector<double> &motion : motions)
+      {
+        kernel.emplace_back();
+        kernel.back().reinit(v);
+        for (std::size_t i = 0; i < fields.size(); ++i)
+          kernel.back().add(motion[i], fields[i]);
+      }
     if (kernel.empty())
       return;
     orthonormalize(kernel);
@@ -134,7 +173,7 @@ namespace Signorini
     for (std::size_t p = 0; p < spaces.size(); ++p)
       admissible = admissible &&
                    spaces.normal_part(p, shifted) <= std::max(spaces.normal_part(p, v), spaces.bounds[p]);
-    if (Utilities::MPI::min(static_cast<int>(admissible), comm) != 0)
+    if (Utilities::MPI::min(static_cast<int>(admissible), v.get_mpi_communicator()) != 0)
       v = shifted;
   }
 } // namespace Signorini

@@ -101,7 +101,7 @@ namespace Signorini
 
       NestedSolution run()
       {
-        for (unsigned int cycle = 0; cycle <= refinement.n_cycles(); ++cycle)
+        for (unsigned int cycle = 0; cycle <= refinement.n_cycles() && goes_on(cycle); ++cycle)
           if (next_mesh(cycle))
             solve_mesh(cycle);
         compare_cycles();
@@ -112,6 +112,16 @@ namespace Signorini
       }
 
     private:
+      /// Finer meshes are no use where a coarser one could not be solved, and an indicator means nothing there.
+      bool goes_on(const unsigned int cycle)
+      {
+        if (cycle == 0 || last.results.converged)
+          return true;
+        journal.note("cycle " + std::to_string(last.results.cycles.back().cycle) +
+                     " was not solved: no further refinement.");
+        return false;
+      }
+
       bool next_mesh(const unsigned int cycle)
       {
         const auto time = journal.measure(Phase::mesh);

@@ -249,6 +249,82 @@ namespace Signorini
 
 
 
+  namespace
+  {
+    /// Splits the span of the columns of a matrix: what some functions (rows) vanish on, which is taken out of
+    /// it, is returned.
+    Eigen::MatrixXd take_kernel(Eigen::MatrixXd &columns, const Eigen::MatrixXd &functions)
+    {
+      const Eigen::Index n = columns.cols();
+      if (n == 0)
+        return columns;
+      const Eigen::MatrixXd                                values = functions * columns;
+      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(values.transpose() * values);
+      Eigen::Index                                         n_kernel = 0;
+      while (n_kernel < n && eigen.eigenvalues()[n_kernel] <= 1e-12)
+        ++n_kernel;
+      const Eigen::MatrixXd turned = columns * eigen.eigenvectors();
+      columns                      = turned.rightCols(n - n_kernel);
+      return turned.leftCols(n_kernel);
+    }
+  } // namespace
+
+
+
+  std::vector<std::vector<double>> separate_motions(const std::vector<FreeMotion>          &motions,
+                                                    const std::vector<std::vector<double>> &basis)
+  {
+    const auto             n = static_cast<Eigen::Index>(motions.size());
+    Eigen::MatrixXd        rest(n, basis.size()), rotations(dim, n);
+    std::set<unsigned int> parts;
+    for (std::size_t k = 0; k < basis.size(); ++k)
+      rest.col(k) = Eigen::Map<const Eigen::VectorXd>(basis[k].data(), n);
+    for (Eigen::Index m = 0; m < n; ++m)
+      {
+        parts.insert(motions[m].part);
+        for (unsigned int c = 0; c < dim; ++c)
+          rotations(c, m) = motions[m].rotation[c];
+      }
+    std::vector<std::vector<double>> result;
+    const auto                       append = [&](const Eigen::MatrixXd &columns) {
+      for (Eigen::Index k = 0; k < columns.cols(); ++k)
+        result.emplace_back(columns.col(k).data(), columns.col(k).data() + n);
+    };
+    for (const unsigned int part : parts)
+      {
+        Eigen::MatrixXd others = Eigen::MatrixXd::Identity(n, n);
+        for (Eigen::Index m = 0; m < n; ++m)
+          if (motions[m].part == part)
+            others(m, m) = 0.;
+        Eigen::MatrixXd own = take_kernel(rest, others);
+        append(take_kernel(own, rotations));
+        append(own);
+      }
+    append(rest);
+    return result;
+  }
+
+
+
+  namespace
+  {
+    std::string print_vector(const Vector3 &v, const double zero)
+    {
+      std::ostringstream text;
+      text.precision(3);
+      for (unsigned int c = 0; c < dim; ++c)
+        text << (c > 0 ? ", " : "(") << (std::abs(v[c]) > zero ? v[c] : 0.);
+      return text.str() + ")";
+    }
+
+    std::string print_direction(const Vector3 &v)
+    {
+      return print_vector(v / v.norm(), 1e-6);
+    }
+  } // namespace
+
+
+
   std::string describe_motion(const std::vector<FreeMotion> &motions, const std::vector<double> &coefficients,
                               const Bodies &bodies)
   {
@@ -258,28 +334,27 @@ namespace Signorini
       size[motions[m].part] += coefficients[m] * coefficients[m];
     const auto part = static_cast<unsigned int>(std::max_element(size.begin(), size.end()) - size.begin());
     Vector3    translation, rotation;
+    Point<3>   centre;
+    double     length = 0.;
     for (std::size_t m = 0; m < motions.size(); ++m)
       if (motions[m].part == part)
         {
           translation += coefficients[m] * motions[m].translation;
           rotation += coefficients[m] * motions[m].rotation;
+          centre = motions[m].centre;
+          length = motions[m].length;
         }
-    std::ostringstream text;
-    text.precision(3);
-    const auto print = [&](const char *const name, const Vector3 &v, const Vector3 &other) {
-      if (v.norm() > 1e-3 * other.norm())
-        {
-          text << name << " (";
-          for (unsigned int c = 0; c < dim; ++c)
-            text << (c > 0 ? ", " : "") << (std::abs(v[c]) > 1e-6 * v.norm() ? v[c] / v.norm() : 0.);
-          text << ")";
-        }
-    };
-    text << bodies.part_name(part) << ", ";
-    print("translation", translation, rotation);
-    if (translation.norm() > 1e-3 * rotation.norm() && rotation.norm() > 1e-3 * translation.norm())
-      text << " with ";
-    print("rotation about", rotation, translation);
-    return text.str();
+    const std::string name = bodies.part_name(part) + ", ";
+    if (rotation.norm() <= 1e-3 * translation.norm())
+      return name + "translation " + print_direction(translation);
+    // Where the points of the axis are.
+    const double   square = rotation.norm_square();
+    const Vector3  along  = (rotation * translation) / square * rotation;
+    const Point<3> point(centre + length / square * cross_product_3d(rotation, translation));
+    const std::string turning = "rotation about the axis through " + print_vector(point, 1e-6 * length) +
+                                " along " + print_direction(rotation);
+    return name + (along.norm() > 1e-3 * rotation.norm()
+                       ? "translation " + print_direction(along) + " with " + turning
+                       : turning);
   }
 } // namespace Signorini

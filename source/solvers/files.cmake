@@ -2,7 +2,10 @@ signorini_add_layer(solvers
   active_set_amg.cc
   coarse_cholesky.cc
   contact_state.cc
+  contact_subspace.cc
   foreign_levels.cc
+  free_motion_correction.cc
+  gathered_obstacle_problem.cc
   gauss_seidel_iteration.cc
   interface_correction.cc
   level_zero_solver.cc

@@ -9,6 +9,7 @@ namespace Signorini
 {
   namespace
   {
+<<<<<<< HEAD
     /// Ranges in which nothing changes: iterations on S1, a tetrahedral level 0 and ν = 0.49 (for algebraic
     /// multigrid), and on five problems of bodies that only contact holds.
     struct LevelZeroRule
@@ -32,6 +33,16 @@ namespace Signorini
       double regularization = 1e-6;
     };
     constexpr LevelZeroRule rule;
+=======
+    /// From here on the fill of the factors costs more than the cycles.
+    constexpr NodeIndex largest_for_cholesky = 500;
+    constexpr double    amg_tolerance        = 1e-3;
+    /// A motion whose energy is below this part of the largest diagonal entry; work below this part of the
+    /// largest load.
+    constexpr double       costs_nothing = 1e-9, no_load = 1e-6;
+    constexpr double       regularization = 1e-9;
+    constexpr unsigned int amg_iterations = 100;
+>>>>>>> h-free
   } // namespace
 
 

@@ -129,6 +129,7 @@ namespace Signorini
   {
     level.smoother = parts.make_smoother ? parts.make_smoother(level.matrix, interface)
                                          : std::make_unique<StagedSmoother>(level.matrix, interface);
+    level.contact_nodes = interface.contact_nodes;
     slow_interface = slow_interface || level.smoother->is_slow_at_interface();
   }
 

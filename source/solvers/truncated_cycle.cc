@@ -17,11 +17,14 @@ namespace Signorini
     , problem(problem)
     , contact(contact)
     , cycle(hierarchy, coarse_smoothing, level - 1)
+    , motions(hierarchy.level(level).matrix, problem.free_motions, problem.rhs)
   {
     for (Vector *vector : {&coarse_defect, &coarse_correction})
       hierarchy.level(level - 1).matrix.partition().reinit(*vector);
-    for (Vector *vector : {&correction, &product, &new_residual, &step})
+    for (Vector *vector : {&correction, &product, &new_residual, &step, &tangential})
       hierarchy.level(level).matrix.partition().reinit(*vector);
+    if (problem.semidefinite && ContactSubspace::exists(hierarchy, level))
+      subspace.emplace(hierarchy, level);
   }
 
 
@@ -42,6 +45,11 @@ namespace Signorini
     check.begin_iteration();
     smoother.smooth_from_zero(correction, residual, contact, plan.smoothing, new_residual);
     check(v, correction);
+    if (subspace && plan.phase != IterationPhase::resting)
+      {
+        subspace->run(correction, new_residual, contact, motions);
+        check(v, correction);
+      }
 
     keeps_active = contact.active() == active;
     searched     = plan.trusts_kept_set ? plan.phase == IterationPhase::on_the_way || !all_ranks(keeps_active)
@@ -61,10 +69,19 @@ namespace Signorini
 
 
 
-  void TruncatedCycle::prolongate_correction()
+  void TruncatedCycle::find_step()
   {
+    tangential = new_residual;
+    contact.restrict_to_tangents(tangential);
+    motions.update(contact);
+    const std::vector<double> moved = motions.minimize(tangential);
+    coarse_defect                   = 0.;
+    restrict_defect(hierarchy.level(level - 1), coarse_defect, tangential);
+    cycle.apply(coarse_correction, coarse_defect);
     hierarchy.level(level - 1).to_finer.prolongate(step, coarse_correction);
     contact.restrict_to_tangents(step);
+    correction.zero_out_ghost_values();
+    motions.complete(step, moved, tangential, correction, contact);
   }
 
 
@@ -73,20 +90,18 @@ namespace Signorini
   {
     if (hierarchy.truncate(level, contact.half_spaces(), contact.active()))
       ++n_updates;
-    coarse_defect = 0.;
-    restrict_defect(hierarchy.level(level - 1), coarse_defect, new_residual);
-    cycle.apply(coarse_correction, coarse_defect);
-    correction.zero_out_ghost_values();
-    prolongate_correction();
+    find_step();
+    // Such a motion has no energy, but what it wins has not come to an end.
+    const double driven = motions.is_driven() ? std::sqrt(std::max(tangential * step, 0.)) : 0.;
     const double length = std::min(1., contact.longest_step(correction, step));
-    searched            = searched || (length < 1. && !problem.semidefinite);
+    searched            = searched || length < 1.;
     if (searched)
       {
         contact.restrict_to_tangents(new_residual);
-        return add_better(length);
+        return std::max(driven, add_better(length));
       }
     correction.add(length, step);
-    return 0.;
+    return driven;
   }
 
 
@@ -99,18 +114,19 @@ namespace Signorini
                                       problem.semidefinite);
     };
     double square = 0.;
-    if (length < 1. && !problem.semidefinite)
+    if (length < 1.)
       {
         // A V-cycle is at most the inverse of A: the slope is at least the curvature.
         square                = std::max(new_residual * step, 0.);
         const double decrease = (length - .5 * length * length) * square;
+        const Vector whole = step;
         contact.project_correction(step, correction);
         if (const LineSearch projected = search(); projected.decrease >= decrease)
           {
             correction.add(projected.length, step);
             return std::sqrt(square);
           }
-        prolongate_correction();
+        step = whole;
       }
     if (length < 1.)
       step *= length;

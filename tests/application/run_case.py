@@ -432,6 +432,27 @@ def free_bodies(p):
             check(os.listdir(folder) == [], f'{setting}: something was written')
 
 
+def held_by_contact(p):
+    """Bodies that only contact holds, on each other and on curved surfaces: few iterations, forces that balance the loads."""
+    loads = {'blocks': ('floor', (0, 0, 2.392)), 'socket': ('seat', None), 'plate': ('first', (0, 0, -2.16)), 'rollers': ('on left', None), 'weight': ('floor', None)}
+    for name, (pair, force) in loads.items():
+        s = p.solve(f'../tests/application/{name}.prm')
+        counts = [c['nonlinear']['iterations'] for c in s['cycles']]
+        print(f'{name}: {counts} iterations')
+        check(s['converged'] and max(counts) <= 25, f'{name}: {counts} iterations')
+        check(s['certificate']['equilibrium'] <= 1e-8, f'{name}: equilibrium {s["certificate"]["equilibrium"]}')
+        found = next(q for q in s['pairs'] if q['name'] == pair)['force']
+        for c in range(3 if force else 0):
+            check(abs(found[c] - force[c]) <= 1e-9 * max(map(abs, force)), f'{name}: force {found}, expected {force}')
+        if name == 'weight':
+            # The mesh is a little smaller than the ball.
+            near(found[2], 7.7e-5 * 4 / 3 * math.pi * 1e3, .07, 'weight of the ball')
+            check(max(abs(found[0]), abs(found[1])) <= 1e-9 * found[2], f'weight: force {found}')
+        if name == 'rollers':
+            check(any('body shaft, rotation about the axis through (0, 0, 0)' in n or 'body shaft, translation (0, 0' in n for n in s['notes']),
+                  f'notes: {s["notes"]}')
+
+
 # doc/verification.md, H1: F/4, a, p0 of this geometry (M1, M2) and the bars at about 50,000 and 400,000 unknowns.
 H1 = {'M1': (('6.896e5', '0.45'), (20.820, 0.4031, 244.63)), 'M2': (('7e3', '0.3'), (10.638, 0.4047, 124.01))}
 COARSE_BARS, FINE_BARS = (1e-2, 2e-2, 3e-2), (3e-3, 7e-3, 1.5e-2)

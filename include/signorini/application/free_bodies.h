@@ -28,11 +28,24 @@ namespace Signorini
   void settle_free_parts(Vector &v, const ContactModel &model, const Discretization &discretization,
                          const NodePartition &unknowns, const ObstacleProblem &problem);
 
-  /// Collective. Takes motions that slide along all active contacts out of a solution, with a note, where
-  /// that is admissible.
-  void remove_free_motions(Vector &v, const std::vector<Vector> &motions, const HalfSpaces &half_spaces,
-                           const std::vector<unsigned char>                             &active,
-                           const std::function<void(const std::vector<double> &motion)> &undetermined);
+  /// Motions that slide along active contacts, as coefficients of the free motions.
+  struct LooseMotions
+  {
+    /// No active contact opposes them.
+    std::vector<std::vector<double>> undetermined;
+    /// Next to nothing does: facets of round surfaces.
+    std::vector<std::vector<double>> hardly_held;
+  };
+
+  /// Collective. Those of a solution.
+  /// @param fields of motions_of_unknowns(); at least one
+  LooseMotions find_loose_motions(const std::vector<FreeMotion> &motions, const std::vector<Vector> &fields,
+                                  const HalfSpaces &half_spaces, const std::vector<unsigned char> &active);
+
+  /// Collective. Takes motions out of a solution where that is admissible.
+  /// @param motions coefficients of the fields
+  void remove_motions(Vector &v, const std::vector<std::vector<double>> &motions,
+                      const std::vector<Vector> &fields, const HalfSpaces &half_spaces);
 } // namespace Signorini
 
 #endif

@@ -75,7 +75,13 @@ namespace Signorini
   RigidBalance balance_rigid_motions(const std::vector<double> &motions, const std::vector<double> &gaps,
                                      const std::vector<double> &loads);
 
-  /// A motion in words: "translation (0, 0, -1)".
+  /// Another basis of the span of some motions, given by their coefficients: motions of a single part before
+  /// those of several, translations before rotations.
+  std::vector<std::vector<double>> separate_motions(const std::vector<FreeMotion>          &motions,
+                                                    const std::vector<std::vector<double>> &basis);
+
+  /// A motion in words: "body cube, translation (0, 0, -1)", "body lug, rotation about the axis through (0, 0,
+  /// 0) along (0, 0, 1)".
   std::string describe_motion(const std::vector<FreeMotion> &motions, const std::vector<double> &coefficients,
                               const Bodies &bodies);
 } // namespace Signorini

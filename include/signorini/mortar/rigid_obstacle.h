@@ -52,6 +52,10 @@ namespace Signorini
     /// in it (length). `size` is a length of the problem. False if the line does not enter it.
     bool gap(double &distance, const dealii::Point<3> &x, const Vector3 &n, const double size) const;
 
+    /// Whether a line along the unit vector n that enters the obstacle at y turns towards its surface there:
+    /// whether n and the outward normal differ by more than 120 degrees. `size` is a length of the problem.
+    bool is_faced(const dealii::Point<3> &y, const Vector3 &n, const double size) const;
+
     /// The text that it was made from.
     const std::string &description() const
     {
@@ -71,6 +75,9 @@ namespace Signorini
     RigidObstacle(const Kind kind, const std::string &name, const dealii::Point<3> &point,
                   const Vector3 &axis, const double radius, const bool is_hollow);
 
+    /// A multiple of the outward normal of the surface through y.
+    Vector3 gradient(const dealii::Point<3> &y, const double size) const;
+
     bool function_gap(double &distance, const dealii::Point<3> &x, const Vector3 &n, const double size) const;
 
     Kind             kind = Kind::plane;
@@ -88,7 +95,7 @@ namespace Signorini
 
   /// Collective. The moments of all faces against an obstacle, as compute_face_moments() has them against a
   /// surface. The gap is measured along the linear field of vertex normals. A triangle of which a part does
-  /// not see the obstacle counts as uncovered.
+  /// not see the obstacle, or not face it (RigidObstacle::is_faced()), counts as uncovered.
   std::vector<FaceMoments> compute_rigid_moments(const ContactSurface &surface, const RigidObstacle &obstacle,
                                                  const MPI_Comm communicator);
 

@@ -4,9 +4,9 @@
 #ifndef signorini_solvers_interface_correction_h
 #define signorini_solvers_interface_correction_h
 
+#include <signorini/solvers/gathered_obstacle_problem.h>
 #include <signorini/solvers/smoother.h>
 
-#include <memory>
 #include <vector>
 
 namespace Signorini
@@ -24,7 +24,6 @@ namespace Signorini
     /// The contact nodes of both sides: global numbers, sorted, the same on all ranks. The matrix must
     /// outlive the object.
     InterfaceCorrection(const NodeBlockMatrix &matrix, const std::vector<NodeIndex> &contact_nodes);
-    ~InterfaceCorrection() override;
 
     /// For each local node whether it is one of the contact nodes.
     const std::vector<bool> &contact_rows() const
@@ -46,8 +45,6 @@ namespace Signorini
     void run(Vector &v, const Vector &rhs, ContactState &contact, const Direction direction) override;
 
   private:
-    struct Gathered;
-
     void gather_matrix();
 
     bool                      is_current = false;
@@ -55,8 +52,7 @@ namespace Signorini
     std::vector<unsigned int> owned;
     /// Whether a local node is one of the contact nodes.
     std::vector<bool> is_contact;
-    /// On rank 0.
-    std::unique_ptr<Gathered> gathered;
+    GatheredObstacleProblem problem;
   };
 } // namespace Signorini
 

@@ -34,6 +34,8 @@ namespace Signorini
     /// Fixed components of the local nodes.
     std::vector<FixedMask>    fixed;
     std::unique_ptr<Smoother> smoother;
+    /// Contact nodes of both sides: global numbers, sorted, the same on all ranks.
+    std::vector<NodeIndex> contact_nodes;
     /// Contact nodes of a coarse level with their normals, for coarse obstacles (no bounds); may be empty.
     HalfSpaces contact;
     /// Half-spaces at the contact nodes that a coarse level shares with the finest one, those of the problem

@@ -4,6 +4,8 @@
 #ifndef signorini_solvers_truncated_cycle_h
 #define signorini_solvers_truncated_cycle_h
 
+#include <signorini/solvers/contact_subspace.h>
+#include <signorini/solvers/free_motion_correction.h>
 #include <signorini/solvers/iteration_phase.h>
 #include <signorini/solvers/line_search.h>
 #include <signorini/solvers/substep_check.h>
@@ -64,8 +66,9 @@ namespace Signorini
   private:
     bool all_ranks(const bool condition) const;
 
-    /// step = the coarse correction on the finest level, tangential at active nodes.
-    void prolongate_correction();
+    /// Collective. step = the coarse correction on the finest level, tangential at active nodes, with the free
+    /// motions before and after it.
+    void find_step();
 
     /// Adds the truncated V-cycle of the residual to the correction: by add_better() if `searched` is set or
     /// something is not admissible, and then it is set. Motions of semidefinite problems that cost nothing
@@ -84,9 +87,12 @@ namespace Signorini
     const ObstacleProblem &problem;
     ContactState          &contact;
     VCycle                 cycle;
+    /// For bodies that only contact holds.
+    std::optional<ContactSubspace> subspace;
+    FreeMotionCorrection           motions;
     Vector                 coarse_defect, coarse_correction;
     /// b - A (v + z); a coarse correction on the finest level.
-    Vector new_residual, step;
+    Vector new_residual, step, tangential;
     /// Whether the coarse correction was searched; whether the active set is that from before the run.
     bool searched = false, keeps_active = false;
     /// Energy norm of a coarse correction of which something was cut off or shortened; else zero.

@@ -1,1 +1,3 @@
 signorini_add_unit_tests(solvers RANKS "1;2;4" foreign_levels.cc linear_multigrid.cc obstacle_cubes.cc random_problems.cc)
+signorini_add_unit_tests(solvers RANKS "1;2;4" linear_multigrid.cc obstacle_cubes.cc free_bodies.cc
+  random_problems.cc)

@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/algebra/galerkin_product.h>
+#include <signorini/solvers/contact_subspace.h>
+
+#include <deal.II/base/mpi.h>
+
+namespace Signorini
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// How many nodes the ranks before each rank own, and all of them.
+    std::vector<NodeIndex> first_nodes(const NodePartition &partition)
+    {
+      std::vector<NodeIndex> result = {0};
+      for (const unsigned int n : Utilities::MPI::all_gather(partition.communicator(), partition.n_owned()))
+        result.push_back(result.back() + n);
+      return result;
+    }
+  } // namespace
+
+
+
+  ContactSubspace::Numbering::Numbering(const NodePartition &coarse, std::vector<NodeIndex> contact_begin)
+    : communicator(coarse.communicator())
+    , coarse_begin(first_nodes(coarse))
+    , contact_begin(std::move(contact_begin))
+  {
+  }
+
+
+
+  NodeIndex ContactSubspace::Numbering::of_coarse(const NodeIndex node) const
+  {
+    const auto next = std::upper_bound(coarse_begin.begin(), coarse_begin.end(), node);
+    return node + contact_begin[next - coarse_begin.begin() - 1];
+  }
+
+
+
+  NodeIndex ContactSubspace::Numbering::of_contact(const NodeIndex index) const
+  {
+    const auto next = std::upper_bound(contact_begin.begin(), contact_begin.end(), index);
+    return index + coarse_begin[next - contact_begin.begin()];
+  }
+
+
+
+  void ContactSubspace::Numbering::find(const NodeIndex number, std::optional<NodeIndex> &coarse_node,
+                                        std::optional<NodeIndex> &contact_node) const
+  {
+    std::size_t rank = 0;
+    while (number >= coarse_begin[rank + 1] + contact_begin[rank + 1])
+      ++rank;
+    if (number < coarse_begin[rank + 1] + contact_begin[rank])
+      coarse_node = number - contact_begin[rank];
+    else
+      contact_node = number - coarse_begin[rank + 1];
+  }
+
+
+
+  IndexSet ContactSubspace::Numbering::owned() const
+  {
+    const unsigned int rank = Utilities::MPI::this_mpi_process(communicator);
+    IndexSet           result(coarse_begin.back() + contact_begin.back());
+    result.add_range(coarse_begin[rank] + contact_begin[rank],
+                     coarse_begin[rank + 1] + contact_begin[rank + 1]);
+    return result;
+  }
+
+
+
+  namespace
+  {
+    /// The level with the number of nodes that is nearest to the wanted one.
+    unsigned int choose_level(const MultigridHierarchy &hierarchy, const unsigned int finest)
+    {
+      const auto distance = [&](const unsigned int l) {
+        return std::abs(std::log(static_cast<double>(hierarchy.level(l).matrix.partition().n_global()) /
+                                 ContactSubspace::Rule().n_nodes));
+      };
+      unsigned int best = 0;
+      for (unsigned int l = 1; l < finest; ++l)
+        if (distance(l) < distance(best))
+          best = l;
+      return best;
+    }
+  } // namespace
+
+
+
+  bool ContactSubspace::exists(const MultigridHierarchy &hierarchy, const unsigned int level)
+  {
+    return !hierarchy.level(level).contact_nodes.empty() &&
+           hierarchy.level(choose_level(hierarchy, level)).matrix.partition().n_global() <= Rule().most_nodes;
+  }
+
+
+
+  ContactSubspace::ContactSubspace(const MultigridHierarchy &hierarchy, const unsigned int level)
+    : finest(hierarchy.level(level))
+  {
+    const NodePartition          &partition = finest.matrix.partition();
+    const std::vector<NodeIndex> &nodes     = finest.contact_nodes;
+    for (const NodeIndex first : first_nodes(partition))
+      contact_begin.push_back(std::lower_bound(nodes.begin(), nodes.end(), first) - nodes.begin());
+    const unsigned int coarsest = choose_level(hierarchy, level);
+    for (unsigned int l = level; l > coarsest; --l)
+      add_space(hierarchy, l - 1);
+    gather_matrix();
+    partition.reinit(step);
+    partition.reinit(product);
+    for (Space &space : spaces)
+      {
+        space.matrix.partition().reinit(space.values);
+        if (&space != &spaces.back())
+          space.matrix = NodeBlockMatrix();
+      }
+  }
+
+
+
+  std::optional<NodeIndex> ContactSubspace::contact_index(const NodeIndex node) const
+  {
+    const auto &nodes = finest.contact_nodes;
+    const auto  place = std::lower_bound(nodes.begin(), nodes.end(), node);
+    if (place == nodes.end() || *place != node)
+      return {};
+    return place - nodes.begin();
+  }
+
+
+
+  NodalTransfer ContactSubspace::make_transfer(const MultigridLevel &coarse, const NodePartition &level_above,
+                                               const NodePartition &space_above,
+                                               const Numbering     &numbering) const
+  {
+    const NodalTransfer                 &transfer = coarse.to_finer;
+    NodeRows                             rows;
+    std::vector<NodalTransfer::BlockRow> block_rows;
+    for (unsigned int i = 0; i < space_above.n_local(); ++i)
+      {
+        std::optional<NodeIndex> node, contact;
+        if (spaces.empty())
+          {
+            node    = space_above.to_global(i);
+            contact = contact_index(*node);
+          }
+        else
+          spaces.back().numbering.find(space_above.to_global(i), node, contact);
+        if (contact)
+          rows.add(numbering.of_contact(*contact), 1.);
+        else
+          {
+            const unsigned int row    = level_above.to_local(*node);
+            const Block *const blocks = transfer.row_blocks(row);
+            if (blocks != nullptr)
+              block_rows.push_back({i, {}, {}, {}});
+            for (std::size_t k = transfer.row_begin(row); k < transfer.row_end(row); ++k)
+              {
+                const NodeIndex column =
+                    numbering.of_coarse(transfer.coarse_partition().to_global(transfer.column(k)));
+                rows.add(column, transfer.weight(k));
+                if (blocks == nullptr)
+                  continue;
+                block_rows.back().columns.push_back(column);
+                block_rows.back().blocks.push_back(blocks[k - transfer.row_begin(row)]);
+              }
+          }
+        rows.finish_row();
+      }
+    NodalTransfer result;
+    result.reinit(std::move(rows), block_rows, space_above.n_owned());
+    return result;
+  }
+
+
+
+  void ContactSubspace::add_space(const MultigridHierarchy &hierarchy, const unsigned int coarse_level)
+  {
+    const MultigridLevel  &coarse      = hierarchy.level(coarse_level);
+    const NodePartition   &level_above = hierarchy.level(coarse_level + 1).matrix.partition();
+    const NodeBlockMatrix &above       = spaces.empty() ? finest.matrix : spaces.back().matrix;
+    Space                  space{Numbering(coarse.matrix.partition(), contact_begin), {}, {}, {}, {}};
+    space.to_finer = make_transfer(coarse, level_above, above.partition(), space.numbering);
+    reinit_galerkin(space.matrix, above, space.to_finer, space.numbering.owned());
+    compute_galerkin(space.matrix, above, space.to_finer);
+
+    const NodePartition   &own = finest.matrix.partition();
+    std::vector<FixedMask> masks(coarse.fixed.begin(),
+                                 coarse.fixed.begin() + coarse.matrix.partition().n_owned());
+    for (const NodeIndex node : finest.contact_nodes)
+      if (own.owns(node))
+        masks.push_back(finest.fixed[own.to_local(node)]);
+    space.fixed = import_ghost_masks(space.matrix.partition(), masks);
+    std::vector<unsigned int> rows(space.matrix.n_rows());
+    std::iota(rows.begin(), rows.end(), 0u);
+    eliminate_fixed_components(space.matrix, space.fixed, rows, finest.scale);
+    spaces.push_back(std::move(space));
+  }
+
+
+
+  void ContactSubspace::gather_matrix()
+  {
+    const NodeBlockMatrix          &matrix    = spaces.back().matrix;
+    const NodePartition            &partition = matrix.partition();
+    GatheredObstacleProblem::Blocks mine;
+    for (unsigned int row = 0; row < matrix.n_rows(); ++row)
+      for (const BlockRange &range : matrix.ranges(row))
+        for (std::size_t k = range.begin; k < range.end; ++k)
+          mine.add(partition.to_global(row), partition.to_global(matrix.column(k)), matrix.block(k));
+    problem.set_matrix(mine, partition.n_global(), partition.communicator());
+  }
+
+
+
+  std::vector<NodeState> ContactSubspace::restrict_state(const Vector &v, const Vector &residual,
+                                                         const ContactState &contact)
+  {
+    const Vector *above = &residual;
+    for (Space &space : spaces)
+      {
+        space.values = 0.;
+        space.to_finer.restrict_and_add(space.values, *above);
+        for (unsigned int i = 0; i < space.to_finer.coarse_partition().n_owned(); ++i)
+          for (unsigned int c = 0; c < dim; ++c)
+            if (space.fixed[i] & (1u << c))
+              space.values.local_element(dim * i + c) = 0.;
+        above = &space.values;
+      }
+    const Space           &space     = spaces.back();
+    const NodePartition   &partition = space.matrix.partition();
+    std::vector<NodeState> states(partition.n_owned());
+    for (unsigned int i = 0; i < partition.n_owned(); ++i)
+      {
+        for (unsigned int c = 0; c < dim; ++c)
+          states[i].residual[c] = space.values.local_element(dim * i + c);
+        std::optional<NodeIndex> node, index;
+        space.numbering.find(partition.to_global(i), node, index);
+        if (!index)
+          continue;
+        const unsigned int row = finest.matrix.partition().to_local(finest.contact_nodes[*index]);
+        if (const int p = contact.at(row); p >= 0)
+          {
+            const HalfSpaces &half_spaces = contact.half_spaces();
+            states[i].normal              = half_spaces.normals[p];
+            states[i].room      = std::max(0., half_spaces.bounds[p] - half_spaces.normal_part(p, v));
+            states[i].is_active = contact.active()[p];
+          }
+      }
+    return states;
+  }
+
+
+
+  void ContactSubspace::run(Vector &v, Vector &residual, ContactState &contact, FreeMotionCorrection &motions)
+  {
+    const std::vector<NodeStep> steps = problem.solve(restrict_state(v, residual, contact));
+    Space                      &space = spaces.back();
+    space.values.zero_out_ghost_values();
+    for (unsigned int i = 0; i < steps.size(); ++i)
+      {
+        for (unsigned int c = 0; c < dim; ++c)
+          space.values.local_element(dim * i + c) = steps[i].step[c];
+        std::optional<NodeIndex> node, index;
+        space.numbering.find(space.matrix.partition().to_global(i), node, index);
+        if (!index)
+          continue;
+        const unsigned int row = finest.matrix.partition().to_local(finest.contact_nodes[*index]);
+        if (const int p = contact.at(row); p >= 0)
+          contact.set_active(p, steps[i].is_active != 0.);
+      }
+    for (std::size_t k = spaces.size(); k-- > 0;)
+      spaces[k].to_finer.prolongate(k > 0 ? spaces[k - 1].values : step, spaces[k].values);
+    motions.update(contact);
+    motions.remove_idle(step, v, contact);
+    finest.matrix.vmult(product, step);
+    v.zero_out_ghost_values();
+    residual.zero_out_ghost_values();
+    step.zero_out_ghost_values();
+    v += step;
+    residual -= product;
+  }
+} // namespace Signorini

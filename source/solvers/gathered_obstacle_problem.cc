@@ -1,0 +1,418 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/solvers/gathered_obstacle_problem.h>
+#include <signorini/solvers/obstacle_problem.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <Eigen/CholmodSupport>
+
+namespace Signorini
+{
+  using namespace dealii;
+
+  namespace
+  {
+    struct ActiveSetRule
+    {
+      /// Steps of the primal-dual active set method, which may cycle.
+      unsigned int n_steps = 20;
+      /// Steps of the projected Newton method, and how often one of them is halved.
+      unsigned int n_newton_steps = 20, n_halvings = 8;
+      /// Part of the diagonal that makes a singular matrix definite: the rounding of the residual does not
+      /// move a body much, and a body that nothing holds moves as far as something does.
+      double regularization = 1e-9;
+      /// Rounding of an energy, relative to the work of the residual.
+      double rounding = 1e-12;
+    };
+
+    using States = std::vector<NodeState>;
+    using Flags  = std::vector<unsigned char>;
+
+    template <typename Number>
+    constexpr std::size_t n_numbers = sizeof(Number) / sizeof(double);
+    static_assert(sizeof(NodeState) == 8 * sizeof(double), "sent as numbers");
+    static_assert(sizeof(NodeStep) == 4 * sizeof(double), "sent as numbers");
+
+    template <typename Item>
+    std::vector<double> to_numbers(const std::vector<Item> &items)
+    {
+      std::vector<double> result(n_numbers<Item> * items.size());
+      if (!items.empty())
+        std::memcpy(result.data(), items.data(), sizeof(Item) * items.size());
+      return result;
+    }
+
+    template <typename Item>
+    void append_from_numbers(std::vector<Item> &items, const std::vector<double> &data)
+    {
+      const std::size_t n = items.size();
+      items.resize(n + data.size() / n_numbers<Item>);
+      if (!data.empty())
+        std::memcpy(items.data() + n, data.data(), sizeof(double) * data.size());
+    }
+
+    double normal_part(const Eigen::VectorXd &x, const std::size_t node, const Vector3 &n)
+    {
+      return n[0] * x[dim * node] + n[1] * x[dim * node + 1] + n[2] * x[dim * node + 2];
+    }
+
+    void add_normal(Eigen::VectorXd &x, const std::size_t node, const Vector3 &n, const double length)
+    {
+      for (unsigned int c = 0; c < dim; ++c)
+        x[dim * node + c] += length * n[c];
+    }
+  } // namespace
+
+
+
+  /// The problem on rank 0.
+  struct GatheredObstacleProblem::Factors
+  {
+    Blocks                                                   blocks;
+    Eigen::SparseMatrix<double>                              matrix, truncated;
+    Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>> cholesky;
+    /// Where the entries of the blocks of the lower half are in `truncated`; -1 above the diagonal.
+    std::vector<std::ptrdiff_t> places;
+    /// Planes that were cut off before the factorization; valid if has_factors.
+    Flags factorized;
+    bool  has_factors = false, is_definite = false;
+    /// Singular matrices stay singular.
+    bool is_singular = false;
+
+    Factors()
+    {
+      cholesky.cholmod().print = 0;
+    }
+
+    void set_matrix(const std::size_t n_nodes);
+    void set_structure();
+    void factorize(const States &states, const Flags &active);
+    bool try_factors(const States &states);
+
+    /// The step to the minimizer on the planes of active nodes, from where it first goes to them if wanted;
+    /// `residual` becomes that of the result.
+    bool minimize(Eigen::VectorXd &step, Eigen::VectorXd &residual, const States &states, const Flags &active,
+                  const bool goes_to_planes);
+
+    /// Adds the minimizer in the planes of active nodes to a step.
+    bool add_tangential_minimizer(Eigen::VectorXd &step, Eigen::VectorXd &residual, const States &states,
+                                  const Flags &active);
+
+    double energy(const Eigen::VectorXd &step, const Eigen::VectorXd &load) const
+    {
+      return step.dot(.5 * (matrix * step) - load);
+    }
+
+    bool            settle(Eigen::VectorXd &step, const States &states, Flags &active);
+    Eigen::VectorXd search(const States &states, Flags &active);
+    bool search_along(Eigen::VectorXd &step, const Eigen::VectorXd &direction, const States &states,
+                      const Eigen::VectorXd &load) const;
+    Eigen::VectorXd solve(const States &states, Flags &active);
+  };
+
+
+
+  namespace
+  {
+    Eigen::VectorXd residual_of(const States &states)
+    {
+      Eigen::VectorXd result(dim * states.size());
+      for (std::size_t i = 0; i < states.size(); ++i)
+        for (unsigned int c = 0; c < dim; ++c)
+          result[dim * i + c] = states[i].residual[c];
+      return result;
+    }
+
+    /// Moves nodes that are outside onto their planes.
+    void project(Eigen::VectorXd &step, const States &states)
+    {
+      for (std::size_t i = 0; i < states.size(); ++i)
+        if (states[i].room >= 0.)
+          if (const double excess = normal_part(step, i, states[i].normal) - states[i].room; excess > 0.)
+            add_normal(step, i, states[i].normal, -excess);
+    }
+
+    double longest_step(const Eigen::VectorXd &step, const States &states, const Flags &active)
+    {
+      double length = 1.;
+      for (std::size_t i = 0; i < states.size(); ++i)
+        if (states[i].room >= 0. && !active[i])
+          if (const double motion = normal_part(step, i, states[i].normal); motion > 0.)
+            length = std::min(length, states[i].room / motion);
+      return length;
+    }
+  } // namespace
+
+
+
+  void GatheredObstacleProblem::Factors::set_matrix(const std::size_t n_nodes)
+  {
+    std::vector<Eigen::Triplet<double>> entries;
+    entries.reserve(dim * dim * blocks.rows.size());
+    for (std::size_t k = 0; k < blocks.rows.size(); ++k)
+      for (unsigned int c = 0; c < dim; ++c)
+        for (unsigned int d = 0; d < dim; ++d)
+          entries.emplace_back(dim * blocks.rows[k] + c, dim * blocks.columns[k] + d,
+                               blocks.values[dim * dim * k + dim * c + d]);
+    const auto n = static_cast<Eigen::Index>(dim * n_nodes);
+    matrix.resize(n, n);
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    has_factors = false;
+    if (places.empty())
+      set_structure();
+  }
+
+
+
+  void GatheredObstacleProblem::Factors::set_structure()
+  {
+    truncated = matrix.triangularView<Eigen::Lower>();
+    cholesky.analyzePattern(truncated);
+    const int *const rows = truncated.innerIndexPtr();
+    places.assign(dim * dim * blocks.rows.size(), -1);
+    for (std::size_t k = 0; k < blocks.rows.size(); ++k)
+      for (unsigned int c = 0; c < dim; ++c)
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            const auto row    = static_cast<int>(dim * blocks.rows[k] + c);
+            const auto column = static_cast<int>(dim * blocks.columns[k] + d);
+            if (row < column)
+              continue;
+            const int *const begin = rows + truncated.outerIndexPtr()[column];
+            const int *const end   = rows + truncated.outerIndexPtr()[column + 1];
+            places[dim * dim * k + dim * c + d] = std::lower_bound(begin, end, row) - rows;
+          }
+  }
+
+
+
+  bool GatheredObstacleProblem::Factors::try_factors(const States &states)
+  {
+    const double stiffer = is_singular ? 1. + ActiveSetRule().regularization : 1.;
+    for (std::size_t k = 0; k < blocks.rows.size(); ++k)
+      {
+        const std::size_t row = blocks.rows[k], column = blocks.columns[k];
+        if (row < column)
+          continue;
+        const Block block =
+            restrict_to_planes(blocks.values.data() + dim * dim * k,
+                               factorized[row] ? states[row].normal : Vector3(),
+                               factorized[column] ? states[column].normal : Vector3(), row == column);
+        for (unsigned int c = 0; c < dim; ++c)
+          for (unsigned int d = 0; d < dim; ++d)
+            if (const std::ptrdiff_t place = places[dim * dim * k + dim * c + d]; place >= 0)
+              truncated.valuePtr()[place] = block[c][d] * (row == column ? stiffer : 1.);
+      }
+    cholesky.factorize(truncated);
+    return cholesky.info() == Eigen::Success;
+  }
+
+
+
+  void GatheredObstacleProblem::Factors::factorize(const States &states, const Flags &active)
+  {
+    if (has_factors && factorized == active)
+      return;
+    factorized  = active;
+    has_factors = true;
+    is_definite = try_factors(states);
+    if (!is_definite && !is_singular)
+      {
+        is_singular = true;
+        is_definite = try_factors(states);
+      }
+  }
+
+
+
+  bool GatheredObstacleProblem::Factors::add_tangential_minimizer(Eigen::VectorXd &step,
+                                                                  Eigen::VectorXd &residual,
+                                                                  const States &states, const Flags &active)
+  {
+    factorize(states, active);
+    if (!is_definite)
+      return false;
+    Eigen::VectorXd tangential = residual;
+    for (std::size_t i = 0; i < states.size(); ++i)
+      if (active[i])
+        add_normal(tangential, i, states[i].normal, -normal_part(tangential, i, states[i].normal));
+    tangential = Eigen::VectorXd(cholesky.solve(tangential));
+    step += tangential;
+    residual -= matrix * tangential;
+    return true;
+  }
+
+
+
+  bool GatheredObstacleProblem::Factors::minimize(Eigen::VectorXd &step, Eigen::VectorXd &residual,
+                                                  const States &states, const Flags &active,
+                                                  const bool goes_to_planes)
+  {
+    step = Eigen::VectorXd::Zero(dim * states.size());
+    for (std::size_t i = 0; i < states.size(); ++i)
+      if (goes_to_planes && active[i])
+        add_normal(step, i, states[i].normal, states[i].room);
+    residual = residual_of(states) - matrix * step;
+    return add_tangential_minimizer(step, residual, states, active);
+  }
+
+
+
+  bool GatheredObstacleProblem::Factors::settle(Eigen::VectorXd &step, const States &states, Flags &active)
+  {
+    Eigen::VectorXd residual;
+    for (unsigned int k = 0; k < ActiveSetRule().n_steps; ++k)
+      {
+        if (!minimize(step, residual, states, active, true))
+          return false;
+        bool changes = false;
+        for (std::size_t i = 0; i < states.size(); ++i)
+          if (states[i].room >= 0.)
+            {
+              const bool now = active[i] ? normal_part(residual, i, states[i].normal) >= 0.
+                                         : normal_part(step, i, states[i].normal) > states[i].room;
+              changes        = changes || now != static_cast<bool>(active[i]);
+              active[i]      = now;
+            }
+        if (!changes)
+          return true;
+      }
+    return false;
+  }
+
+
+
+  bool GatheredObstacleProblem::Factors::search_along(Eigen::VectorXd       &step,
+                                                      const Eigen::VectorXd &direction, const States &states,
+                                                      const Eigen::VectorXd &load) const
+  {
+    const double    start = energy(step, load);
+    double          best = start, length = 1.;
+    Eigen::VectorXd result = step;
+    for (unsigned int k = 0; k < ActiveSetRule().n_halvings; ++k, length *= .5)
+      {
+        Eigen::VectorXd trial = step + length * direction;
+        project(trial, states);
+        if (const double value = energy(trial, load); value < best)
+          {
+            best   = value;
+            result = trial;
+          }
+        else if (best < start)
+          break;
+      }
+    step = result;
+    return start - best > ActiveSetRule().rounding * std::abs(best);
+  }
+
+
+
+  Eigen::VectorXd GatheredObstacleProblem::Factors::search(const States &states, Flags &active)
+  {
+    const Eigen::VectorXd load = residual_of(states);
+    Eigen::VectorXd       step = Eigen::VectorXd::Zero(load.size());
+    for (unsigned int k = 0; k < ActiveSetRule().n_newton_steps; ++k)
+      {
+        Eigen::VectorXd residual = load - matrix * step, direction = Eigen::VectorXd::Zero(load.size());
+        for (std::size_t i = 0; i < states.size(); ++i)
+          active[i] = states[i].room >= 0. && normal_part(residual, i, states[i].normal) >= 0. &&
+                      normal_part(step, i, states[i].normal) >=
+                          states[i].room - 1e-14 * std::abs(states[i].room);
+        if (!add_tangential_minimizer(direction, residual, states, active))
+          break;
+        if (!search_along(step, direction, states, load))
+          {
+            // What is in the way of short steps may not be in the way of a step that ends there.
+            direction *= longest_step(direction, states, active);
+            if (!search_along(step, direction, states, load))
+              break;
+          }
+      }
+    return step;
+  }
+
+
+
+  Eigen::VectorXd GatheredObstacleProblem::Factors::solve(const States &states, Flags &active)
+  {
+    const std::size_t n     = states.size();
+    const Flags       start = active;
+    Eigen::VectorXd   step;
+    // Sweeps by node leave a poor guess behind; the factors of the last visit are a better one.
+    if (has_factors)
+      for (std::size_t i = 0; i < n; ++i)
+        active[i] = factorized[i] && states[i].room >= 0.;
+    if (settle(step, states, active))
+      return step;
+    active = start;
+    step   = search(states, active);
+    return step;
+  }
+
+
+
+  GatheredObstacleProblem::GatheredObstacleProblem() = default;
+
+
+
+  GatheredObstacleProblem::~GatheredObstacleProblem() = default;
+
+
+
+  GatheredObstacleProblem::GatheredObstacleProblem(GatheredObstacleProblem &&) noexcept = default;
+
+
+
+  void GatheredObstacleProblem::set_matrix(const Blocks &mine, const std::size_t n_nodes, const MPI_Comm comm)
+  {
+    communicator      = comm;
+    const auto pieces = Utilities::MPI::gather(comm, mine, 0);
+    if (Utilities::MPI::this_mpi_process(comm) != 0)
+      return;
+    if (!factors)
+      factors = std::make_unique<Factors>();
+    Blocks &all = factors->blocks;
+    all         = Blocks();
+    for (const Blocks &piece : pieces)
+      {
+        all.rows.insert(all.rows.end(), piece.rows.begin(), piece.rows.end());
+        all.columns.insert(all.columns.end(), piece.columns.begin(), piece.columns.end());
+        all.values.insert(all.values.end(), piece.values.begin(), piece.values.end());
+      }
+    factors->set_matrix(n_nodes);
+  }
+
+
+
+  std::vector<NodeStep> GatheredObstacleProblem::solve(const std::vector<NodeState> &mine)
+  {
+    const auto          pieces = Utilities::MPI::gather(communicator, to_numbers(mine), 0);
+    std::vector<double> result;
+    if (Utilities::MPI::this_mpi_process(communicator) == 0)
+      {
+        States states;
+        for (const auto &piece : pieces)
+          append_from_numbers(states, piece);
+        AssertDimension(dim * states.size(), static_cast<std::size_t>(factors->matrix.rows()));
+        Flags active;
+        for (const NodeState &node : states)
+          active.push_back(node.is_active != 0.);
+        const Eigen::VectorXd step = factors->solve(states, active);
+        std::vector<NodeStep> steps(states.size());
+        for (std::size_t i = 0; i < states.size(); ++i)
+          steps[i] = {Vector3({step[dim * i], step[dim * i + 1], step[dim * i + 2]}),
+                      static_cast<double>(active[i])};
+        result = to_numbers(steps);
+      }
+    result = Utilities::MPI::broadcast(communicator, result, 0);
+    std::vector<NodeStep> all;
+    append_from_numbers(all, result);
+    const auto  counts = Utilities::MPI::all_gather(communicator, mine.size());
+    const auto  begin  = std::accumulate(counts.begin(),
+                                        counts.begin() + Utilities::MPI::this_mpi_process(communicator),
+                                        std::size_t(0));
+    return {all.begin() + begin, all.begin() + begin + mine.size()};
+  }
+} // namespace Signorini
