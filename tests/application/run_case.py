@@ -12,6 +12,7 @@ import sys
 import tempfile
 
 import geometry_cases
+import random_pairs as random_pairs_module
 import true_gap_cases
 import verification_cases
 from harness import FAILURES, TOP, Program, certificate, check, constant_pressure, iterations, near
