@@ -26,7 +26,7 @@ namespace Signorini
       /// Larger blocks are cut: their factors would cost too much.
       std::size_t largest_block = 4000;
       /// Up to so many nodes factors are dense.
-      std::size_t largest_dense = 24;
+      std::size_t largest_dense = 60;
     };
     constexpr StrongBlocksRule rule;
 
@@ -58,10 +58,13 @@ namespace Signorini
     : SmoothingStage(matrix)
     , sweeps(sweeps)
     , phases(sweeps.schedule().phases().size())
-    , block_of_row(matrix.n_rows(), -1)
-    , place_in_block(matrix.n_rows(), 0)
+    , blocks_of_row(matrix.n_rows())
+    , place_in_block(matrix.n_rows(), -1)
   {
-    find_blocks();
+    if (std::getenv("PATCH") != nullptr)
+      find_patches();
+    else
+      find_blocks();
     collect_rows();
   }
 
@@ -145,14 +148,93 @@ namespace Signorini
 
 
 
+  void StrongBlocks::find_patches()
+  {
+    const unsigned int        n = matrix.n_rows();
+    const std::string         kind = std::getenv("PATCH");
+    const std::size_t         size = std::getenv("SIZE") ? std::stoul(std::getenv("SIZE")) : 24;
+    const double              theta = std::getenv("THETA") ? std::stod(std::getenv("THETA")) : .25;
+    const unsigned int        last = static_cast<unsigned int>(phases.size()) - 1;
+    std::vector<std::vector<std::pair<unsigned int, double>>> neighbours(n);
+    std::vector<double> diagonal(n), strongest(n, 0.);
+    for (unsigned int i = 0; i < n; ++i)
+      diagonal[i] = trace_of(matrix.block(matrix.diagonal(i)));
+    for (unsigned int i = 0; i < n; ++i)
+      for (const BlockRange &range : matrix.ranges(i))
+        for (std::size_t k = range.begin; k < range.end; ++k)
+          if (const unsigned int j = matrix.column(k); j < n && j != i)
+            {
+              double s = -trace_of(matrix.block(k)) / std::sqrt(diagonal[i] * diagonal[j]);
+              if (std::getenv("FROB"))
+                {
+                  s = 0.;
+                  for (unsigned int c = 0; c < 9; ++c)
+                    s += matrix.block(k)[c] * matrix.block(k)[c];
+                  s = std::sqrt(s / (diagonal[i] * diagonal[j]));
+                }
+              neighbours[i].emplace_back(j, s);
+              strongest[i] = std::max(strongest[i], s);
+            }
+    std::vector<bool> covered(n, false);
+    if (kind == "star")
+      {
+        for (unsigned int i = 0; i < n; ++i)
+          if (!covered[i])
+            {
+              std::vector<unsigned int> rows = {i};
+              for (const auto &[j, s] : neighbours[i])
+                if (s >= theta * strongest[i])
+                  rows.push_back(j);
+              for (const unsigned int j : rows)
+                covered[j] = true;
+              std::sort(rows.begin(), rows.end());
+              add_block(std::move(rows), last);
+            }
+      }
+    else // aggregates grown along the strongest coupling to the aggregate; overlap if kind == "grown"
+      for (unsigned int i = 0; i < n; ++i)
+        if (!covered[i])
+          {
+            std::vector<unsigned int> rows;
+            std::map<unsigned int, double> front = {{i, 1.}};
+            while (rows.size() < size && !front.empty())
+              {
+                auto best = front.begin();
+                for (auto it = front.begin(); it != front.end(); ++it)
+                  if (it->second > best->second)
+                    best = it;
+                if (!rows.empty() && best->second < theta * strongest[i])
+                  break;
+                const unsigned int row = best->first;
+                front.erase(best);
+                rows.push_back(row);
+                for (const auto &[j, s] : neighbours[row])
+                  if (!(kind == "aggregate" && covered[j]) && std::find(rows.begin(), rows.end(), j) == rows.end())
+                    front[j] += s;
+              }
+            for (std::size_t k = 0; k < rows.size(); ++k)
+              if (kind == "aggregate" || k < rows.size() / 2)
+                covered[rows[k]] = true;
+            covered[i] = true;
+            std::sort(rows.begin(), rows.end());
+            add_block(std::move(rows), last);
+          }
+    if (std::getenv("VERBOSE"))
+      {
+        std::size_t sum = 0;
+        for (const Block &b : blocks)
+          sum += b.rows.size();
+        std::cerr << n << " rows, " << blocks.size() << " patches, mean size " << double(sum) / blocks.size() << ", overlap " << double(sum) / n << std::endl;
+      }
+  }
+
+
+
   void StrongBlocks::add_block(std::vector<unsigned int> &&rows, const unsigned int phase)
   {
     phases[phase].push_back(static_cast<unsigned int>(blocks.size()));
-    for (unsigned int i = 0; i < rows.size(); ++i)
-      {
-        block_of_row[rows[i]]   = static_cast<int>(blocks.size());
-        place_in_block[rows[i]] = i;
-      }
+    for (const unsigned int row : rows)
+      blocks_of_row[row].push_back(static_cast<unsigned int>(blocks.size()));
     blocks.emplace_back();
     blocks.back().rows = std::move(rows);
   }
@@ -163,7 +245,7 @@ namespace Signorini
   {
     block_rows.clear();
     for (unsigned int row = 0; row < matrix.n_rows(); ++row)
-      if (block_of_row[row] >= 0)
+      if (!blocks_of_row[row].empty())
         block_rows.push_back(row);
     is_empty =
         Utilities::MPI::max(static_cast<int>(!block_rows.empty()), matrix.partition().communicator()) == 0;
@@ -180,7 +262,7 @@ namespace Signorini
                                     [&](const unsigned int row) { return nodes[row]; });
         if (is_dropped[b])
           for (const unsigned int row : blocks[b].rows)
-            block_of_row[row] = -1;
+            blocks_of_row[row].erase(std::find(blocks_of_row[row].begin(), blocks_of_row[row].end(), b));
       }
     for (auto &phase : phases)
       phase.erase(
@@ -194,8 +276,8 @@ namespace Signorini
   void StrongBlocks::update(const std::vector<unsigned int> &rows)
   {
     for (const unsigned int row : rows)
-      if (block_of_row[row] >= 0)
-        blocks[block_of_row[row]].is_current = false;
+      for (const unsigned int b : blocks_of_row[row])
+        blocks[b].is_current = false;
   }
 
 
@@ -208,7 +290,8 @@ namespace Signorini
     std::vector<Eigen::Triplet<double>> entries;
     if (is_dense)
       full = Eigen::MatrixXd::Zero(size, size);
-    const int index = block_of_row[block.rows[0]];
+    for (std::size_t i = 0; i < block.rows.size(); ++i)
+      place_in_block[block.rows[i]] = static_cast<int>(i);
     for (std::size_t i = 0; i < block.rows.size(); ++i)
       {
         const unsigned int row        = block.rows[i];
@@ -217,9 +300,9 @@ namespace Signorini
           for (std::size_t k = range.begin; k < range.end; ++k)
             {
               const unsigned int column = matrix.column(k);
-              if (column >= matrix.n_rows() || block_of_row[column] != index)
+              if (column >= matrix.n_rows() || place_in_block[column] < 0)
                 continue;
-              const std::size_t j = place_in_block[column];
+              const auto j = static_cast<std::size_t>(place_in_block[column]);
               const auto        entry =
                   restrict_to_planes(matrix.block(k), row_normal, contact.plane(column), row == column);
               for (unsigned int c = 0; c < dim; ++c)
@@ -230,6 +313,8 @@ namespace Signorini
                     entries.emplace_back(dim * i + c, dim * j + d, entry[c][d]);
             }
       }
+    for (const unsigned int row : block.rows)
+      place_in_block[row] = -1;
     if (is_dense)
       {
         block.dense.compute(full);

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Signorini authors
 
 #include <signorini/solvers/interface_sweep_policy.h>
+#include <signorini/solvers/safety_net.h>
 #include <signorini/solvers/truncated_newton_multigrid.h>
 
 #include <deal.II/base/mpi.h>
@@ -119,6 +120,7 @@ namespace Signorini
                                 parameters.starts_with_interface_sweeps);
     TruncatedCycle       cycle(hierarchy, level, parameters.smoothing, problem, contact);
     SubstepCheck         check(matrix(), problem, report, parameters.check_monotonicity);
+    SafetyNet            net(hierarchy, parameters, level);
     Vector               residual;
     residual.reinit(v);
     matrix().symmetric_residual(residual, v, problem.rhs);
@@ -145,6 +147,16 @@ namespace Signorini
           conjugate.restart();
         const double square = v * problem.rhs - v * residual;
         book_iteration(report, norm, std::sqrt(std::max(square, 0.)), monitor);
+
+        net.observe(step.is_conjugate);
+        if (!accelerates || !parameters.safety_net || !net.is_due(report, problem))
+          continue;
+        net.take_over(v, contact.active(), problem, report, monitor);
+        for (std::size_t p = 0; p < contact.size(); ++p)
+          contact.set_active(p, net.active()[p]);
+        matrix().symmetric_residual(residual, v, problem.rhs);
+        conjugate.restart();
+        phase = IterationPhase::searching;
       }
     close(report, v, problem, residual);
     report.hierarchy_updates       = cycle.n_updates;

@@ -48,6 +48,7 @@ namespace Signorini
 
     void find_stretched(std::vector<bool> &is_stretched, std::vector<double> &most_negative) const;
     void find_blocks();
+    void find_patches();
     void add_block(std::vector<unsigned int> &&rows, const unsigned int phase);
     /// After blocks were added or dropped.
     void collect_rows();
@@ -60,9 +61,11 @@ namespace Signorini
     std::vector<Block> blocks;
     /// Blocks of each phase of the schedule.
     std::vector<std::vector<unsigned int>> phases;
-    /// The block of each owned row, or -1; its place in the block.
-    std::vector<int>          block_of_row;
-    std::vector<unsigned int> place_in_block, block_rows;
+    /// Of each owned row; blocks may overlap.
+    std::vector<std::vector<unsigned int>> blocks_of_row;
+    /// Of each owned row in the block at hand, or -1.
+    std::vector<int>          place_in_block;
+    std::vector<unsigned int> block_rows;
   };
 } // namespace Signorini
 
