@@ -181,6 +181,10 @@ namespace Signorini
           journal.note("cycle " + std::to_string(cycle) + ": " + report.note + ".");
         if (report.safety_net.after > 0)
           journal.note("cycle " + std::to_string(cycle) + ": " + describe(report.safety_net));
+        if (report.needed_patches && report.before_patches > 0)
+          journal.note("cycle " + std::to_string(cycle) + ": the iteration was slow, and after " +
+                       std::to_string(report.before_patches) +
+                       " of them went on to smooth patches of nodes; so do the next meshes.");
         store(result, d, last.solution);
         compare_with_exact(result, model, d, last.solution.displacement, parameters.exact_displacements);
         if (is_adaptive)

@@ -35,27 +35,53 @@ namespace Signorini
 
 
 
-  bool SafetyNet::uses_factors() const
+  double SafetyNet::n_unknowns() const
   {
-    return dim * hierarchy.level(level).matrix.partition().n_global() <= rule.largest_for_factors;
+    return static_cast<double>(dim * hierarchy.level(level).matrix.partition().n_global());
   }
 
 
 
-  bool SafetyNet::is_due(const ConvergenceReport &report, const ObstacleProblem &problem) const
+  bool SafetyNet::uses_factors() const
+  {
+    return n_unknowns() <= static_cast<double>(rule.largest_for_factors);
+  }
+
+
+
+  SafetyNet::Remedy SafetyNet::due(const ConvergenceReport &report, const ObstacleProblem &problem) const
   {
     if (report.converged || problem.semidefinite || level + 1 != hierarchy.n_levels() ||
         report.history.size() <= rule.n_watched || report.iterations < not_before || report.scale <= 0.)
-      return false;
-    const bool would_gain = uses_factors() || n_conjugate + rule.fewest_searched <= rule.n_watched;
-    return would_gain && iterations_left(report, parameters) > rule.most_left;
+      return Remedy::none;
+    const double left = iterations_left(report, parameters);
+    if (uses_factors())
+      return left > rule.left_with_factors + n_unknowns() / rule.unknowns_for_one_more ?
+               Remedy::active_set_steps :
+               Remedy::none;
+    if (left <= rule.left_without)
+      return Remedy::none;
+    if (!hierarchy.has_strong_smoothers())
+      return Remedy::patches;
+    return n_conjugate + rule.fewest_searched <= rule.n_watched ? Remedy::active_set_steps : Remedy::none;
   }
 
 
 
-  bool SafetyNet::take_over(Vector &v, const std::vector<unsigned char> &active,
-                            const ObstacleProblem &problem, ConvergenceReport &report,
-                            const ObstacleSolver::Monitor &monitor)
+  void SafetyNet::strengthen(ConvergenceReport &report)
+  {
+    report.needed_patches = !uses_factors();
+    report.before_patches = report.iterations;
+    if (report.needed_patches)
+      hierarchy.strengthen_smoothers();
+    not_before  = report.iterations + static_cast<unsigned int>(rule.n_watched) + 1;
+    n_conjugate = 0;
+  }
+
+
+
+  bool SafetyNet::take_over(Vector &v, const ObstacleProblem &problem, ContactState &contact,
+                            ConvergenceReport &report, const ObstacleSolver::Monitor &monitor)
   {
     SafetyNetReport &net = report.safety_net;
     if (!planes)
@@ -69,7 +95,9 @@ namespace Signorini
         net.linear_solver = planes->is_exact() ? "sparse factors" : "conjugate gradients with the V-cycle";
         steps             = std::make_unique<ActiveSetSolver>(hierarchy, parameters, level, *planes);
       }
-    const bool ended = steps->go_on(v, active, problem, report, monitor);
+    const bool ended = steps->go_on(v, contact.active(), problem, report, monitor);
+    for (std::size_t p = 0; p < contact.size(); ++p)
+      contact.set_active(p, steps->active()[p]);
     net.n_steps      = steps->n_steps();
     net.n_failed += ended ? 0 : 1;
     // Longer each time.

@@ -120,7 +120,10 @@ namespace Signorini
                                 parameters.starts_with_interface_sweeps);
     TruncatedCycle       cycle(hierarchy, level, parameters.smoothing, problem, contact);
     SubstepCheck         check(matrix(), problem, report, parameters.check_monotonicity);
+    const bool           catches = accelerates && parameters.safety_net;
     SafetyNet            net(hierarchy, parameters, level);
+    if (catches && parameters.starts_with_patches)
+      net.strengthen(report);
     Vector               residual;
     residual.reinit(v);
     matrix().symmetric_residual(residual, v, problem.rhs);
@@ -149,11 +152,13 @@ namespace Signorini
         book_iteration(report, norm, std::sqrt(std::max(square, 0.)), monitor);
 
         net.observe(step.is_conjugate);
-        if (!accelerates || !parameters.safety_net || !net.is_due(report, problem))
+        const auto remedy = catches ? net.due(report, problem) : SafetyNet::Remedy::none;
+        if (remedy == SafetyNet::Remedy::none)
           continue;
-        net.take_over(v, contact.active(), problem, report, monitor);
-        for (std::size_t p = 0; p < contact.size(); ++p)
-          contact.set_active(p, net.active()[p]);
+        if (remedy == SafetyNet::Remedy::patches)
+          net.strengthen(report);
+        else
+          net.take_over(v, problem, contact, report, monitor);
         matrix().symmetric_residual(residual, v, problem.rhs);
         conjugate.restart();
         phase = IterationPhase::searching;
