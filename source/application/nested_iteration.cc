@@ -76,8 +76,8 @@ namespace Signorini
     {
       std::ostringstream text;
       text << "the iteration was slow, after " << net.after << " of them each left " << std::setprecision(2)
-           << net.rate << " of the correction: went on with " << net.n_steps
-           << " active-set steps, by " << net.linear_solver << ".";
+           << net.rate << " of the correction: went on with " << net.n_steps << " active-set steps, by "
+           << net.linear_solver << ".";
       if (net.n_failed > 0)
         text << " They did not end " << net.n_failed << " times, and the iteration had its turn again.";
       return text.str();
@@ -150,8 +150,7 @@ namespace Signorini
       {
         const NodeRows rows = interpolation_rows(next->nodal(), space->nodal(), model.bodies().tetrahedra());
         start               = {next->interpolate(last.solution.displacement, *space, rows),
-                               last.solution.report.needed_interface_sweeps,
-                               last.solution.report.needed_patches};
+                               last.solution.report.needed_interface_sweeps, last.solution.report.needed_patches};
         for (Vector &displacement : earlier_displacements)
           displacement = next->interpolate(displacement, *space, rows);
         turned = last.discretization->turned;

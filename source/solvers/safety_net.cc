@@ -12,13 +12,12 @@ namespace Signorini
     /// Iterations to the tolerance, at the rate of the last ones.
     double iterations_left(const ConvergenceReport &report, const SolverParameters &parameters)
     {
-      const std::vector<double> &history = report.history;
-      const double               target  = parameters.absolute_tolerance > 0. ?
-                                             parameters.absolute_tolerance :
-                                             parameters.tolerance * report.scale;
-      const double decay = std::log(history[history.size() - 1 - rule.n_watched] / history.back()) /
+      const std::vector<double> &history  = report.history;
+      const double               relative = parameters.tolerance * report.scale;
+      const double target = parameters.absolute_tolerance > 0. ? parameters.absolute_tolerance : relative;
+      const double decay  = std::log(history[history.size() - 1 - rule.n_watched] / history.back()) /
                            static_cast<double>(rule.n_watched);
-      const double way   = std::log(history.back() / target);
+      const double way = std::log(history.back() / target);
       return decay > 0. ? way / decay : std::numeric_limits<double>::max();
     }
   } // namespace
@@ -56,9 +55,9 @@ namespace Signorini
       return Remedy::none;
     const double left = iterations_left(report, parameters);
     if (uses_factors())
-      return left > rule.left_with_factors + n_unknowns() / rule.unknowns_for_one_more ?
-               Remedy::active_set_steps :
-               Remedy::none;
+      return left > rule.left_with_factors + n_unknowns() / rule.unknowns_for_one_more
+                 ? Remedy::active_set_steps
+                 : Remedy::none;
     if (left <= rule.left_without)
       return Remedy::none;
     if (!hierarchy.has_strong_smoothers())
@@ -98,7 +97,7 @@ namespace Signorini
     const bool ended = steps->go_on(v, contact.active(), problem, report, monitor);
     for (std::size_t p = 0; p < contact.size(); ++p)
       contact.set_active(p, steps->active()[p]);
-    net.n_steps      = steps->n_steps();
+    net.n_steps = steps->n_steps();
     net.n_failed += ended ? 0 : 1;
     // Longer each time.
     not_before  = report.iterations + (static_cast<unsigned int>(rule.n_watched) << net.n_failed);

@@ -85,8 +85,7 @@ namespace Signorini
   void StagedSmoother::strengthen()
   {
     after_sweeps.clear();
-    after_sweeps.push_back(
-        std::make_unique<StrongBlocks>(matrix, sweeps, StrongBlocks::Choice::patches));
+    after_sweeps.push_back(std::make_unique<StrongBlocks>(matrix, sweeps, StrongBlocks::Choice::patches));
   }
 
 

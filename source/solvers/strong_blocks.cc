@@ -27,9 +27,9 @@ namespace Signorini
       std::size_t largest_block = 4000;
       /// Up to so many nodes factors are dense.
       std::size_t largest_dense = 24;
-      /// Nodes of a patch. Two slabs of aspect ratio 50, 22,000 unknowns of stretched tetrahedra: 290 iterations by
-      /// node, 23 with patches of 24 that overlap, 179 where they do not; a random pair of 12,510 unknowns 216,
-      /// 37, 86. Neighbours alone: 242 and 71.
+      /// Nodes of a patch. Two slabs of aspect ratio 50, 22,000 unknowns of stretched tetrahedra: 290
+      /// iterations by node, 23 with patches of 24 that overlap, 179 where they do not; a random pair of
+      /// 12,510 unknowns 216, 37, 86. Neighbours alone: 242 and 71.
       std::size_t patch_size = 24;
     };
     constexpr StrongBlocksRule rule;
@@ -110,9 +110,9 @@ namespace Signorini
 
   void StrongBlocks::find_blocks()
   {
-    const unsigned int        n = matrix.n_rows();
-    std::vector<double>       most_negative;
-    std::vector<bool>         is_stretched, visited(n, false);
+    const unsigned int              n = matrix.n_rows();
+    std::vector<double>             most_negative;
+    std::vector<bool>               is_stretched, visited(n, false);
     const std::vector<unsigned int> phase_of_row = phases_of_rows();
     find_stretched(is_stretched, most_negative);
     Vector zero;
@@ -154,10 +154,9 @@ namespace Signorini
     std::map<unsigned int, double> coupling_of = {{start, 0.}};
     while (rows.size() < rule.patch_size && !coupling_of.empty())
       {
-        const auto next =
-            std::max_element(coupling_of.begin(), coupling_of.end(),
-                             [](const auto &a, const auto &b) { return a.second < b.second; });
-        const unsigned int row = next->first;
+        const auto         is_less = [](const auto &a, const auto &b) { return a.second < b.second; };
+        const auto         next    = std::max_element(coupling_of.begin(), coupling_of.end(), is_less);
+        const unsigned int row     = next->first;
         coupling_of.erase(next);
         rows.push_back(row);
         for (const BlockRange &range : matrix.ranges(row))
@@ -289,7 +288,7 @@ namespace Signorini
               if (column >= matrix.n_rows() || place_in_block[column] < 0)
                 continue;
               const auto j = static_cast<std::size_t>(place_in_block[column]);
-              const auto        entry =
+              const auto entry =
                   restrict_to_planes(matrix.block(k), row_normal, contact.plane(column), row == column);
               for (unsigned int c = 0; c < dim; ++c)
                 for (unsigned int d = 0; d < dim; ++d)

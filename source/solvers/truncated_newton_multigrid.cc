@@ -124,7 +124,7 @@ namespace Signorini
     SafetyNet            net(hierarchy, parameters, level);
     if (catches && parameters.starts_with_patches)
       net.strengthen(report);
-    Vector               residual;
+    Vector residual;
     residual.reinit(v);
     matrix().symmetric_residual(residual, v, problem.rhs);
     conjugate.restart();

@@ -56,8 +56,8 @@ namespace Signorini
     /// What SolverParameters::check_monotonicity found: substeps, the largest rise of the energy (relative to
     /// the square of the energy norm) and the largest violation of a half-space (relative to the largest
     /// displacement of a contact node).
-    unsigned int checked_substeps    = 0;
-    double       largest_energy_rise = 0., largest_violation = 0.;
+    unsigned int    checked_substeps    = 0;
+    double          largest_energy_rise = 0., largest_violation = 0.;
     SafetyNetReport safety_net;
     /// Says why the solver stopped without having met the tolerance.
     std::string note;

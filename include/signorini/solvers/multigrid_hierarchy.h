@@ -185,7 +185,7 @@ namespace Signorini
     std::vector<std::unique_ptr<MultigridLevel>> levels;
     std::unique_ptr<CoarseSolver>                level_zero_solver;
     bool                                         level_zero_changed = false;
-    bool                                         was_expected = false, slow_interface = false, strong_smoothers = false;
+    bool was_expected = false, slow_interface = false, strong_smoothers = false;
   };
 
   /// Collective. Marks the active nodes of a good start (left as it is): projects it and sweeps once over the

@@ -10,11 +10,11 @@
 
 namespace Signorini
 {
-  /// What catches an iteration that stays slow. On small meshes active-set steps with sparse factors. On large
-  /// ones the smoothers take patches of nodes (Smoother::strengthen()), and where it is the active set that
-  /// does not come to rest, active-set steps with conjugate gradients and the truncated V-cycle. Between
-  /// active-set steps that do not end the slow iteration has its turn: it lowers the energy each time, so that
-  /// nothing goes round in a circle.
+  /// What catches an iteration that stays slow. On small meshes active-set steps with sparse factors. On
+  /// large ones the smoothers take patches of nodes (Smoother::strengthen()), and where it is the active set
+  /// that does not come to rest, active-set steps with conjugate gradients and the truncated V-cycle. Between
+  /// active-set steps that do not end the slow iteration has its turn: it lowers the energy each time, so
+  /// that nothing goes round in a circle.
   class SafetyNet
   {
   public:
@@ -58,14 +58,14 @@ namespace Signorini
     /// What is due after an iteration: the same on all ranks.
     Remedy due(const ConvergenceReport &report, const ObstacleProblem &problem) const;
 
-    /// Collective. Has the smoothers take patches, if that is not done yet and the mesh is too large for sparse
-    /// factors.
+    /// Collective. Has the smoothers take patches, if that is not done yet and the mesh is too large for
+    /// sparse factors.
     void strengthen(ConvergenceReport &report);
 
     /// Collective. Goes on from an admissible v and what is active there, and says what is active in the end:
     /// ActiveSetSolver::go_on().
-    bool take_over(Vector &v, const ObstacleProblem &problem, ContactState &contact, ConvergenceReport &report,
-                   const ObstacleSolver::Monitor &monitor);
+    bool take_over(Vector &v, const ObstacleProblem &problem, ContactState &contact,
+                   ConvergenceReport &report, const ObstacleSolver::Monitor &monitor);
 
   private:
     double n_unknowns() const;

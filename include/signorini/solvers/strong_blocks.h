@@ -16,11 +16,11 @@ namespace Signorini
   /// strongly, or patches all over the mesh. Sweeps node by node do not see motions that are constant along a
   /// line of flat cells.
   ///
-  /// Lines and planes are found in the matrix: the trace of a block is a multiple of the Laplacian's entry. On cubes no entry
-  /// beside the diagonal is positive; on stretched cells those along the long edges are (like a mass matrix).
-  /// From an aspect ratio of 5 to 7 on a node counts as stretched; its strong couplings are the most
-  /// negative ones to other such nodes. Blocks in which sweeps by node converge well are left out. Without
-  /// stretched cells there are no blocks and no costs.
+  /// Lines and planes are found in the matrix: the trace of a block is a multiple of the Laplacian's entry.
+  /// On cubes no entry beside the diagonal is positive; on stretched cells those along the long edges are
+  /// (like a mass matrix). From an aspect ratio of 5 to 7 on a node counts as stretched; its strong couplings
+  /// are the most negative ones to other such nodes. Blocks in which sweeps by node converge well are left
+  /// out. Without stretched cells there are no blocks and no costs.
   ///
   /// Patches grow along the strongest couplings and overlap. They see what lines and planes do not: thin
   /// slabs, stretched tetrahedra, Poisson's ratios near 1/2; a sweep costs some ten times one by node.
@@ -62,12 +62,12 @@ namespace Signorini
     void find_patches();
     /// The nodes of a patch, from one node on.
     std::vector<unsigned int> grow_patch(const unsigned int start, const std::vector<double> &diagonal) const;
-    /// The first one in which a row of a block is swept: with a node that other ranks see it waits for the turn
-    /// of this rank.
-    unsigned int phase_of(const std::vector<unsigned int> &rows,
-                          const std::vector<unsigned int> &phase_of_row) const;
+    /// The first one in which a row of a block is swept: with a node that other ranks see it waits for the
+    /// turn of this rank.
+    unsigned int              phase_of(const std::vector<unsigned int> &rows,
+                                       const std::vector<unsigned int> &phase_of_row) const;
     std::vector<unsigned int> phases_of_rows() const;
-    void add_block(std::vector<unsigned int> &&rows, const unsigned int phase);
+    void                      add_block(std::vector<unsigned int> &&rows, const unsigned int phase);
     /// After blocks were added or dropped.
     void collect_rows();
     void factorize(Block &block, const ContactState &contact);
