@@ -281,6 +281,7 @@ namespace Signorini
     SolverParameters solver_parameters = parameters.solver;
     // What was slow on one mesh is slow on the next.
     solver_parameters.starts_with_interface_sweeps = start != nullptr && start->needed_interface_sweeps;
+    solver_parameters.starts_with_patches          = start != nullptr && start->needed_patches;
     const auto active = solve(result.report, algebraic, model, d, solver_parameters, journal);
     solving.stop();
 

@@ -11,6 +11,7 @@
 #include <signorini/discretization/exact_error.h>
 #include <signorini/discretization/level_hierarchy.h>
 
+#include <iomanip>
 #include <sstream>
 
 namespace Signorini
@@ -69,6 +70,17 @@ namespace Signorini
       if (has_indicator)
         line << ", error indicator " << result.indicator;
       return line.str();
+    }
+
+    std::string describe(const SafetyNetReport &net)
+    {
+      std::ostringstream text;
+      text << "the iteration was slow, after " << net.after << " of them each left " << std::setprecision(2)
+           << net.rate << " of the correction: went on with " << net.n_steps << " active-set steps, by "
+           << net.linear_solver << ".";
+      if (net.n_failed > 0)
+        text << " They did not end " << net.n_failed << " times, and the iteration had its turn again.";
+      return text.str();
     }
 
     void store(CycleResult &result, const Discretization &d, const ContactSolution &solution)
@@ -148,7 +160,7 @@ namespace Signorini
       {
         const NodeRows rows = interpolation_rows(next->nodal(), space->nodal(), model.bodies().tetrahedra());
         start               = {next->interpolate(last.solution.displacement, *space, rows),
-                               last.solution.report.needed_interface_sweeps};
+                               last.solution.report.needed_interface_sweeps, last.solution.report.needed_patches};
         for (Vector &displacement : earlier_displacements)
           displacement = next->interpolate(displacement, *space, rows);
         turned = last.discretization->turned;
@@ -176,6 +188,12 @@ namespace Signorini
         last.results.converged          = last.results.converged && report.converged;
         if (!report.converged || report.stagnated)
           journal.note("cycle " + std::to_string(cycle) + ": " + report.note + ".");
+        if (report.safety_net.after > 0)
+          journal.note("cycle " + std::to_string(cycle) + ": " + describe(report.safety_net));
+        if (report.needed_patches && report.before_patches > 0)
+          journal.note("cycle " + std::to_string(cycle) + ": the iteration was slow, and after " +
+                       std::to_string(report.before_patches) +
+                       " of them went on to smooth patches of nodes; so do the next meshes.");
         store(result, d, last.solution);
         compare_with_exact(result, model, d, last.solution.displacement, parameters.exact_displacements);
         if (is_adaptive)

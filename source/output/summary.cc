@@ -22,6 +22,18 @@ namespace Signorini
       json.end(']');
       if (report.stagnated)
         json.text("stagnated", report.note);
+      if (report.needed_patches)
+        json.number("patches_after_iterations", report.before_patches);
+      if (report.safety_net.after > 0)
+        {
+          json.begin('{', "safety_net");
+          json.number("after_iterations", report.safety_net.after);
+          json.number("rate", report.safety_net.rate);
+          json.number("active_set_steps", report.safety_net.n_steps);
+          json.number("failed_attempts", report.safety_net.n_failed);
+          json.text("linear_solver", report.safety_net.linear_solver);
+          json.end('}');
+        }
       if (report.checked_substeps > 0)
         {
           json.begin('{', "monotonicity");

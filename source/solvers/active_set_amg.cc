@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Signorini authors
 
 #include <signorini/solvers/active_set_amg.h>
+#include <signorini/solvers/plane_solver.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -27,41 +28,6 @@ namespace Signorini
     for (std::size_t p = 0; p < half_spaces.size(); ++p)
       if (is_active[p])
         half_spaces.add_normal(x, p, -half_spaces.normal_part(p, x));
-  }
-
-
-
-  NodeBlockMatrix ActiveSetAmg::reduced_matrix(const HalfSpaces &half_spaces) const
-  {
-    NodeBlockMatrix      result    = hierarchy.finest().matrix;
-    const NodePartition &partition = result.partition();
-    Vector               planes;
-    partition.reinit(planes);
-    for (std::size_t p = 0; p < half_spaces.size(); ++p)
-      if (is_active[p])
-        half_spaces.add_normal(planes, p, 1.);
-    planes.update_ghost_values();
-    const auto plane = [&](const unsigned int node) {
-      Vector3 n;
-      for (unsigned int c = 0; c < dim; ++c)
-        n[c] = planes.local_element(dim * node + c);
-      return n;
-    };
-    for (unsigned int i = 0; i < result.n_rows(); ++i)
-      {
-        const Vector3 row_normal = plane(i);
-        for (const BlockRange &range : result.ranges(i))
-          for (std::size_t k = range.begin; k < range.end; ++k)
-            {
-              const Vector3 column_normal = plane(result.column(k));
-              if (row_normal.norm_square() == 0. && column_normal.norm_square() == 0.)
-                continue;
-              const Block block =
-                  restrict_to_planes(result.block(k), row_normal, column_normal, k == result.diagonal(i));
-              write_block(result.block(k), block);
-            }
-      }
-    return result;
   }
 
 
@@ -135,7 +101,7 @@ namespace Signorini
       {
         if (changed)
           {
-            linear.matrix                   = reduced_matrix(spaces);
+            linear.matrix                   = matrix_on_planes(matrix(), spaces, is_active);
             std::vector<Vector> near_kernel = problem.near_kernel;
             for (Vector &mode : near_kernel)
               remove_normal_parts(mode, spaces);

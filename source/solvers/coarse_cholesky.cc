@@ -5,6 +5,7 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <Eigen/CholmodSupport>
 #include <Eigen/SparseCholesky>
 
 namespace Signorini
@@ -13,10 +14,34 @@ namespace Signorini
 
   struct CoarseCholesky::Factorization
   {
-    Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver;
-    bool                                               analyzed = false;
-    std::size_t                                        n_blocks = 0;
-    MPI_Comm                                           communicator;
+    using Matrix = Eigen::SparseMatrix<double>;
+
+    Eigen::SimplicialLDLT<Matrix>                        simplicial;
+    std::unique_ptr<Eigen::CholmodSupernodalLLT<Matrix>> supernodal;
+    bool                                                 analyzed = false;
+    std::size_t                                          n_blocks = 0;
+    MPI_Comm                                             communicator;
+
+    template <typename Solver>
+    bool factorize(Solver &solver, const Matrix &lower, const std::size_t n)
+    {
+      if (!analyzed || n_blocks != n)
+        solver.analyzePattern(lower);
+      analyzed = true;
+      n_blocks = n;
+      solver.factorize(lower);
+      return solver.info() == Eigen::Success;
+    }
+
+    bool factorize(const Matrix &lower, const std::size_t n)
+    {
+      return supernodal ? factorize(*supernodal, lower, n) : factorize(simplicial, lower, n);
+    }
+
+    Eigen::VectorXd solve(const Eigen::Map<const Eigen::VectorXd> &b) const
+    {
+      return supernodal ? Eigen::VectorXd(supernodal->solve(b)) : Eigen::VectorXd(simplicial.solve(b));
+    }
   };
 
   namespace
@@ -66,9 +91,14 @@ namespace Signorini
 
 
 
-  CoarseCholesky::CoarseCholesky()
+  CoarseCholesky::CoarseCholesky(const Kind kind)
     : factorization(std::make_unique<Factorization>())
   {
+    if (kind == Kind::supernodal)
+      {
+        factorization->supernodal = std::make_unique<Eigen::CholmodSupernodalLLT<Factorization::Matrix>>();
+        factorization->supernodal->cholmod().print = 0;
+      }
   }
 
 
@@ -106,15 +136,10 @@ namespace Signorini
         lower.setFromTriplets(triplets.begin(), triplets.end());
         if (is_nearly_singular)
           make_definite(lower);
-        if (!factorization->analyzed || factorization->n_blocks != n_blocks)
-          factorization->solver.analyzePattern(lower);
-        factorization->analyzed = true;
-        factorization->n_blocks = n_blocks;
-        factorization->solver.factorize(lower);
-        ok = factorization->solver.info() == Eigen::Success;
+        ok = factorization->factorize(lower, n_blocks);
       }
     AssertThrow(Utilities::MPI::min(static_cast<int>(ok), comm) == 1,
-                ExcMessage("The factorization of the coarsest level failed: its matrix is singular."));
+                ExcMessage("The sparse factorization failed: the matrix is singular."));
   }
 
 
@@ -126,7 +151,7 @@ namespace Signorini
     if (Utilities::MPI::n_mpi_processes(comm) == 1)
       {
         const Eigen::Map<const Eigen::VectorXd> b(mine.data(), mine.size());
-        Eigen::Map<Eigen::VectorXd>(solution.begin(), mine.size()) = factorization->solver.solve(b);
+        Eigen::Map<Eigen::VectorXd>(solution.begin(), mine.size()) = factorization->solve(b);
         return;
       }
     const auto          pieces = Utilities::MPI::gather(comm, mine, 0);
@@ -136,7 +161,7 @@ namespace Signorini
         for (const auto &piece : pieces)
           all.insert(all.end(), piece.begin(), piece.end());
         const Eigen::VectorXd x =
-            factorization->solver.solve(Eigen::Map<Eigen::VectorXd>(all.data(), all.size()));
+            factorization->solve(Eigen::Map<const Eigen::VectorXd>(all.data(), all.size()));
         std::copy(x.data(), x.data() + x.size(), all.begin());
       }
     all                     = Utilities::MPI::broadcast(comm, all, 0);

@@ -1,5 +1,6 @@
 signorini_add_layer(solvers
   active_set_amg.cc
+  active_set_solver.cc
   coarse_cholesky.cc
   contact_state.cc
   contact_subspace.cc
@@ -15,8 +16,10 @@ signorini_add_layer(solvers
   multigrid_hierarchy.cc
   obstacle_problem.cc
   obstacle_solver.cc
+  plane_solver.cc
   projected_gauss_seidel.cc
   rounded_gauss_seidel.cc
+  safety_net.cc
   smoother.cc
   staged_smoother.cc
   strong_blocks.cc

@@ -9,7 +9,6 @@ namespace Signorini
 {
   namespace
   {
-<<<<<<< HEAD
     /// Ranges in which nothing changes: iterations on S1, a tetrahedral level 0 and ν = 0.49 (for algebraic
     /// multigrid), and on five problems of bodies that only contact holds.
     struct LevelZeroRule
@@ -30,19 +29,9 @@ namespace Signorini
       double no_load = 1e-6;
       /// What is added to the diagonal, as a part of it. 1e-12 to 1e-6; 1e-5 takes up to two iterations more,
       /// from 1e-4 on tall bodies many.
-      double regularization = 1e-6;
+      double regularization = 1e-9;
     };
     constexpr LevelZeroRule rule;
-=======
-    /// From here on the fill of the factors costs more than the cycles.
-    constexpr NodeIndex largest_for_cholesky = 500;
-    constexpr double    amg_tolerance        = 1e-3;
-    /// A motion whose energy is below this part of the largest diagonal entry; work below this part of the
-    /// largest load.
-    constexpr double       costs_nothing = 1e-9, no_load = 1e-6;
-    constexpr double       regularization = 1e-9;
-    constexpr unsigned int amg_iterations = 100;
->>>>>>> h-free
   } // namespace
 
 

@@ -190,6 +190,16 @@ namespace Signorini
 
 
 
+  void MultigridHierarchy::strengthen_smoothers()
+  {
+    if (!strong_smoothers)
+      for (unsigned int l = 1; l < n_levels(); ++l)
+        level(l).smoother->strengthen();
+    strong_smoothers = true;
+  }
+
+
+
   const CoarseSolver &MultigridHierarchy::coarse_solver()
   {
     if (level_zero_changed)

@@ -129,6 +129,9 @@ namespace Signorini
     prm.add_parameter("Maximal iterations", max_iterations,
                       "Applications of the V-cycle (of a symmetric sweep, for projected gauss seidel).",
                       Patterns::Integer(1));
+    prm.add_parameter("Safety net", safety_net,
+                      "Whether accelerated goes on with active-set steps where it stays slow, with sparse "
+                      "factors while the mesh is small. A note says when.");
     prm.add_parameter("Check monotonicity", check_monotonicity,
                       "Measure after every step of the solver on the finest level whether the energy has "
                       "fallen and the iterate is admissible, and report it (costs a product with the matrix "

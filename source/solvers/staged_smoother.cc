@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/solvers/interface_correction.h>
 #include <signorini/solvers/staged_smoother.h>
+#include <signorini/solvers/strong_blocks.h>
 #include <signorini/solvers/sweep_rate.h>
 
 namespace Signorini
@@ -76,6 +78,14 @@ namespace Signorini
     for (const Stages *stages : {&after_sweeps, &at_interface})
       for (const auto &stage : *stages)
         stage->update(rows);
+  }
+
+
+
+  void StagedSmoother::strengthen()
+  {
+    after_sweeps.clear();
+    after_sweeps.push_back(std::make_unique<StrongBlocks>(matrix, sweeps, StrongBlocks::Choice::patches));
   }
 
 

@@ -27,6 +27,10 @@ namespace Signorini
       std::size_t largest_block = 4000;
       /// Up to so many nodes factors are dense.
       std::size_t largest_dense = 24;
+      /// Nodes of a patch. Two slabs of aspect ratio 50, 22,000 unknowns of stretched tetrahedra: 290
+      /// iterations by node, 23 with patches of 24 that overlap, 179 where they do not; a random pair of
+      /// 12,510 unknowns 216, 37, 86. Neighbours alone: 242 and 71.
+      std::size_t patch_size = 24;
     };
     constexpr StrongBlocksRule rule;
 
@@ -54,14 +58,18 @@ namespace Signorini
 
 
 
-  StrongBlocks::StrongBlocks(const NodeBlockMatrix &matrix, const ProjectedGaussSeidel &sweeps)
+  StrongBlocks::StrongBlocks(const NodeBlockMatrix &matrix, const ProjectedGaussSeidel &sweeps,
+                             const Choice choice)
     : SmoothingStage(matrix)
     , sweeps(sweeps)
     , phases(sweeps.schedule().phases().size())
-    , block_of_row(matrix.n_rows(), -1)
-    , place_in_block(matrix.n_rows(), 0)
+    , blocks_of_row(matrix.n_rows())
+    , place_in_block(matrix.n_rows(), -1)
   {
-    find_blocks();
+    if (choice == Choice::patches)
+      find_patches();
+    else
+      find_blocks();
     collect_rows();
   }
 
@@ -102,14 +110,11 @@ namespace Signorini
 
   void StrongBlocks::find_blocks()
   {
-    const unsigned int        n = matrix.n_rows();
-    std::vector<double>       most_negative;
-    std::vector<bool>         is_stretched, visited(n, false);
-    std::vector<unsigned int> phase_of_row(n, 0);
+    const unsigned int              n = matrix.n_rows();
+    std::vector<double>             most_negative;
+    std::vector<bool>               is_stretched, visited(n, false);
+    const std::vector<unsigned int> phase_of_row = phases_of_rows();
     find_stretched(is_stretched, most_negative);
-    for (unsigned int phase = 0; phase < phases.size(); ++phase)
-      for (const unsigned int row : sweeps.schedule().phases()[phase])
-        phase_of_row[row] = phase;
     Vector zero;
     matrix.partition().reinit(zero);
     for (unsigned int start = 0; start < n; ++start)
@@ -132,10 +137,7 @@ namespace Signorini
           if (rows.size() < 2)
             continue;
           std::sort(rows.begin(), rows.end());
-          // With a node that other ranks see the block waits for the turn of this rank.
-          unsigned int phase = static_cast<unsigned int>(phases.size()) - 1;
-          for (const unsigned int row : rows)
-            phase = std::min(phase, phase_of_row[row]);
+          const unsigned int phase = phase_of(rows, phase_of_row);
           // Pieces of blocks that go on at another rank look better than they are.
           if (phase + 1 < phases.size() ||
               sweep_rate(matrix, sweeps, rows, slow_in_blocks, zero) >= slow_in_blocks.slow)
@@ -145,14 +147,79 @@ namespace Signorini
 
 
 
+  std::vector<unsigned int> StrongBlocks::grow_patch(const unsigned int         start,
+                                                     const std::vector<double> &diagonal) const
+  {
+    std::vector<unsigned int>      rows;
+    std::map<unsigned int, double> coupling_of = {{start, 0.}};
+    while (rows.size() < rule.patch_size && !coupling_of.empty())
+      {
+        const auto         is_less = [](const auto &a, const auto &b) { return a.second < b.second; };
+        const auto         next    = std::max_element(coupling_of.begin(), coupling_of.end(), is_less);
+        const unsigned int row     = next->first;
+        coupling_of.erase(next);
+        rows.push_back(row);
+        for (const BlockRange &range : matrix.ranges(row))
+          for (std::size_t k = range.begin; k < range.end; ++k)
+            if (const unsigned int j = matrix.column(k);
+                j < matrix.n_rows() && std::find(rows.begin(), rows.end(), j) == rows.end())
+              coupling_of[j] -= trace_of(matrix.block(k)) / std::sqrt(diagonal[row] * diagonal[j]);
+      }
+    return rows;
+  }
+
+
+
+  void StrongBlocks::find_patches()
+  {
+    const unsigned int              n            = matrix.n_rows();
+    const std::vector<unsigned int> phase_of_row = phases_of_rows();
+    std::vector<double>             diagonal(n);
+    std::vector<bool>               is_inside(n, false);
+    for (unsigned int i = 0; i < n; ++i)
+      diagonal[i] = trace_of(matrix.block(matrix.diagonal(i)));
+    for (unsigned int start = 0; start < n; ++start)
+      if (!is_inside[start])
+        {
+          std::vector<unsigned int> rows = grow_patch(start, diagonal);
+          // The nodes that came last are at the border, and in the middle of another patch.
+          for (std::size_t k = 0; k < std::max<std::size_t>(1, rows.size() / 2); ++k)
+            is_inside[rows[k]] = true;
+          std::sort(rows.begin(), rows.end());
+          const unsigned int phase = phase_of(rows, phase_of_row);
+          add_block(std::move(rows), phase);
+        }
+  }
+
+
+
+  std::vector<unsigned int> StrongBlocks::phases_of_rows() const
+  {
+    std::vector<unsigned int> result(matrix.n_rows(), 0);
+    for (unsigned int phase = 0; phase < phases.size(); ++phase)
+      for (const unsigned int row : sweeps.schedule().phases()[phase])
+        result[row] = phase;
+    return result;
+  }
+
+
+
+  unsigned int StrongBlocks::phase_of(const std::vector<unsigned int> &rows,
+                                      const std::vector<unsigned int> &phase_of_row) const
+  {
+    unsigned int phase = static_cast<unsigned int>(phases.size()) - 1;
+    for (const unsigned int row : rows)
+      phase = std::min(phase, phase_of_row[row]);
+    return phase;
+  }
+
+
+
   void StrongBlocks::add_block(std::vector<unsigned int> &&rows, const unsigned int phase)
   {
     phases[phase].push_back(static_cast<unsigned int>(blocks.size()));
-    for (unsigned int i = 0; i < rows.size(); ++i)
-      {
-        block_of_row[rows[i]]   = static_cast<int>(blocks.size());
-        place_in_block[rows[i]] = i;
-      }
+    for (const unsigned int row : rows)
+      blocks_of_row[row].push_back(static_cast<unsigned int>(blocks.size()));
     blocks.emplace_back();
     blocks.back().rows = std::move(rows);
   }
@@ -163,7 +230,7 @@ namespace Signorini
   {
     block_rows.clear();
     for (unsigned int row = 0; row < matrix.n_rows(); ++row)
-      if (block_of_row[row] >= 0)
+      if (!blocks_of_row[row].empty())
         block_rows.push_back(row);
     is_empty =
         Utilities::MPI::max(static_cast<int>(!block_rows.empty()), matrix.partition().communicator()) == 0;
@@ -180,7 +247,7 @@ namespace Signorini
                                     [&](const unsigned int row) { return nodes[row]; });
         if (is_dropped[b])
           for (const unsigned int row : blocks[b].rows)
-            block_of_row[row] = -1;
+            blocks_of_row[row].erase(std::find(blocks_of_row[row].begin(), blocks_of_row[row].end(), b));
       }
     for (auto &phase : phases)
       phase.erase(
@@ -194,8 +261,8 @@ namespace Signorini
   void StrongBlocks::update(const std::vector<unsigned int> &rows)
   {
     for (const unsigned int row : rows)
-      if (block_of_row[row] >= 0)
-        blocks[block_of_row[row]].is_current = false;
+      for (const unsigned int b : blocks_of_row[row])
+        blocks[b].is_current = false;
   }
 
 
@@ -208,7 +275,8 @@ namespace Signorini
     std::vector<Eigen::Triplet<double>> entries;
     if (is_dense)
       full = Eigen::MatrixXd::Zero(size, size);
-    const int index = block_of_row[block.rows[0]];
+    for (std::size_t i = 0; i < block.rows.size(); ++i)
+      place_in_block[block.rows[i]] = static_cast<int>(i);
     for (std::size_t i = 0; i < block.rows.size(); ++i)
       {
         const unsigned int row        = block.rows[i];
@@ -217,10 +285,10 @@ namespace Signorini
           for (std::size_t k = range.begin; k < range.end; ++k)
             {
               const unsigned int column = matrix.column(k);
-              if (column >= matrix.n_rows() || block_of_row[column] != index)
+              if (column >= matrix.n_rows() || place_in_block[column] < 0)
                 continue;
-              const std::size_t j = place_in_block[column];
-              const auto        entry =
+              const auto j = static_cast<std::size_t>(place_in_block[column]);
+              const auto entry =
                   restrict_to_planes(matrix.block(k), row_normal, contact.plane(column), row == column);
               for (unsigned int c = 0; c < dim; ++c)
                 for (unsigned int d = 0; d < dim; ++d)
@@ -230,6 +298,8 @@ namespace Signorini
                     entries.emplace_back(dim * i + c, dim * j + d, entry[c][d]);
             }
       }
+    for (const unsigned int row : block.rows)
+      place_in_block[row] = -1;
     if (is_dense)
       {
         block.dense.compute(full);

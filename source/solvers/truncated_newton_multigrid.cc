@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Signorini authors
 
 #include <signorini/solvers/interface_sweep_policy.h>
+#include <signorini/solvers/safety_net.h>
 #include <signorini/solvers/truncated_newton_multigrid.h>
 
 #include <deal.II/base/mpi.h>
@@ -119,7 +120,11 @@ namespace Signorini
                                 parameters.starts_with_interface_sweeps);
     TruncatedCycle       cycle(hierarchy, level, parameters.smoothing, problem, contact);
     SubstepCheck         check(matrix(), problem, report, parameters.check_monotonicity);
-    Vector               residual;
+    const bool           catches = accelerates && parameters.safety_net;
+    SafetyNet            net(hierarchy, parameters, level);
+    if (catches && parameters.starts_with_patches)
+      net.strengthen(report);
+    Vector residual;
     residual.reinit(v);
     matrix().symmetric_residual(residual, v, problem.rhs);
     conjugate.restart();
@@ -145,6 +150,18 @@ namespace Signorini
           conjugate.restart();
         const double square = v * problem.rhs - v * residual;
         book_iteration(report, norm, std::sqrt(std::max(square, 0.)), monitor);
+
+        net.observe(step.is_conjugate);
+        const auto remedy = catches ? net.due(report, problem) : SafetyNet::Remedy::none;
+        if (remedy == SafetyNet::Remedy::none)
+          continue;
+        if (remedy == SafetyNet::Remedy::patches)
+          net.strengthen(report);
+        else
+          net.take_over(v, problem, contact, report, monitor);
+        matrix().symmetric_residual(residual, v, problem.rhs);
+        conjugate.restart();
+        phase = IterationPhase::searching;
       }
     close(report, v, problem, residual);
     report.hierarchy_updates       = cycle.n_updates;

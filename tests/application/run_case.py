@@ -13,6 +13,7 @@ import tempfile
 
 import finished_mesh_cases
 import geometry_cases
+import random_pair_cases
 import true_gap_cases
 import verification_cases
 from harness import FAILURES, TOP, Program, certificate, check, constant_pressure, iterations, near
@@ -276,6 +277,36 @@ def stretched(p):
     bounded_iterations(p, 'flat cells', bound, 'Body upper/Upper corner=1, 1, 0.05', 'Body lower/Young modulus=7e3', 'Refinement/Global cycles=2')
     bounded_iterations(p, 'long cells', bound, 'Body upper/Divisions=1, 20, 20', 'Body lower/Divisions=1, 15, 15', 'Body lower/Young modulus=7e3',
                        'Refinement/Global cycles=1')
+
+
+def thin_slabs(p):
+    """Slabs of one layer of cells of aspect ratio 50, three meshes: what sweeps by node do not see, and bending that coarse meshes of such cells do not have."""
+    upper = ('Body upper/Upper corner=1, 1, 0.005', 'Body upper/Divisions=4, 4, 1')
+    lower = ('Body lower/Lower corner=0, 0, -0.006', 'Body lower/Divisions=3, 3, 1')
+    on_block = ('Body upper/Dirichlet=left: (0, 0, 0)', 'Body upper/Tractions=top: (0, 0, -1e-3)')
+    bending = (*lower, 'Body upper/Dirichlet=left: (0, 0, 0)', 'Body lower/Dirichlet=left: (0, 0, 0); right: (0, 0, 0)', 'Body upper/Tractions=top: (0, 0, -1e-5)',
+               'Body lower/Divisions=4, 4, 1')
+    bulged = (*lower, 'Body upper/Dirichlet=left: (0, 0, 0); right: (0, 0, 0)', 'Body lower/Dirichlet=bottom: (0, 0, 0)', 'Body upper/Tractions=top: (0, 0, -1e-4)',
+              'Pair interface/Initial gap=1e-4*(x-0.5)^2')
+    two = ('Refinement/Global cycles=2', 'Solver/Compare linear multigrid=false')
+    for tetrahedra in ('false', 'true'):
+        kind = [f'Body {b}/Convert to tetrahedra={tetrahedra}' for b in ('upper', 'lower')]
+        for text, settings in (('slab on a block', on_block), ('two slabs that bend', bending), ('bulged slab', bulged)):
+            s = bounded_iterations(p, f'{text}, tetrahedra {tetrahedra}', 35, *upper, *settings, *kind, *two, prm='patch_test/patch_test.prm')
+            other = [o for o in s['certificate']['objections'] if 'refine the contact surfaces' not in o]
+            check(len(s['cycles']) == 3 and not other, f'{text}: {len(s["cycles"])} meshes, {other}')
+            nets = [c['nonlinear']['safety_net'] for c in s['cycles'] if 'safety_net' in c['nonlinear']]
+            check(all(n['failed_attempts'] == 0 and n['linear_solver'] == 'sparse factors' for n in nets), f'{text}: {nets}')
+            patches = sum(c['nonlinear'].get('patches_after_iterations', 0) > 0 for c in s['cycles'])
+            check(len(nets) + patches == sum('the iteration was slow' in n for n in s['notes']), f'{text}: notes of the safety net: {s["notes"]}')
+
+
+def slow_and_large(p):
+    """What is slow and too large for sparse factors: patches of nodes."""
+    s = bounded_iterations(p, 'slab of stretched tetrahedra', 60, 'Body upper/Upper corner=1, 1, 0.005', 'Body upper/Divisions=4, 4, 1', 'Body upper/Convert to tetrahedra=true',
+                           'Body upper/Dirichlet=left: (0, 0, 0)', 'Body upper/Tractions=top: (0, 0, -1e-3)', 'Body lower/Divisions=5, 5, 5', 'Refinement/Global cycles=2',
+                           'Solver/Compare linear multigrid=false', prm='patch_test/patch_test.prm')
+    check(s['cycles'][-1]['nonlinear'].get('patches_after_iterations', 0) > 0, 'no patches')
 
 
 def stiff_nonmortar(p):
@@ -630,7 +661,7 @@ def surface_map(p):
 
 
 if __name__ == '__main__':
-    case = next(getattr(m, sys.argv[2]) for m in (sys.modules[__name__], geometry_cases, finished_mesh_cases, verification_cases, true_gap_cases) if hasattr(m, sys.argv[2]))
+    case = next(getattr(m, sys.argv[2]) for m in (sys.modules[__name__], geometry_cases, finished_mesh_cases, random_pair_cases, verification_cases, true_gap_cases) if hasattr(m, sys.argv[2]))
     case(Program(sys.argv[1], int(sys.argv[3])))
     for failure in FAILURES:
         print('FAILED:', failure)

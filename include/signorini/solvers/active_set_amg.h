@@ -35,10 +35,7 @@ namespace Signorini
     }
 
   private:
-    /// The matrix without the normal parts at active nodes (their diagonal entry stays), and the motions of
-    /// little energy likewise.
-    NodeBlockMatrix reduced_matrix(const HalfSpaces &half_spaces) const;
-    void            remove_normal_parts(Vector &x, const HalfSpaces &half_spaces) const;
+    void remove_normal_parts(Vector &x, const HalfSpaces &half_spaces) const;
 
     /// The linear problem on an active set.
     struct LinearProblem;

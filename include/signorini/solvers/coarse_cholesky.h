@@ -10,12 +10,20 @@
 
 namespace Signorini
 {
-  /// Direct solver of level 0: sparse LDLᵀ (Eigen) on rank 0, where the small matrix is gathered.
+  /// Direct solver of level 0: sparse factors on rank 0, where the small matrix is gathered.
   class CoarseCholesky
   {
   public:
+    enum class Kind
+    {
+      /// LDLᵀ of Eigen, for levels of a few hundred nodes.
+      simplicial,
+      /// LLᵀ of CHOLMOD, ordered and in dense blocks, for thousands.
+      supernodal
+    };
+
     /// Factorizes nothing yet.
-    CoarseCholesky();
+    explicit CoarseCholesky(const Kind kind = Kind::simplicial);
     CoarseCholesky(CoarseCholesky &&) noexcept;
     ~CoarseCholesky();
 

@@ -10,6 +10,18 @@
 
 namespace Signorini
 {
+  /// What caught an iteration that stayed slow (SafetyNet).
+  struct SafetyNetReport
+  {
+    /// Iterations before; 0 if nothing was caught. What they left of the correction, each.
+    unsigned int after = 0;
+    double       rate  = std::numeric_limits<double>::quiet_NaN();
+    /// Steps of the active set; how often they did not end, and the slow iteration had its turn again.
+    unsigned int n_steps = 0, n_failed = 0;
+    /// What solved their linear problems.
+    std::string linear_solver;
+  };
+
   /// What a solver returns. Numbers start as NaN, so that a forgotten one is loud.
   struct ConvergenceReport
   {
@@ -38,11 +50,15 @@ namespace Signorini
     /// Whether an iteration at rest left so much of the correction that accelerated needs interface sweeps on
     /// the finest level.
     bool needed_interface_sweeps = false;
+    /// Whether it was so slow that patches of nodes were smoothed at once; after how many iterations.
+    bool         needed_patches = false;
+    unsigned int before_patches = 0;
     /// What SolverParameters::check_monotonicity found: substeps, the largest rise of the energy (relative to
     /// the square of the energy norm) and the largest violation of a half-space (relative to the largest
     /// displacement of a contact node).
-    unsigned int checked_substeps    = 0;
-    double       largest_energy_rise = 0., largest_violation = 0.;
+    unsigned int    checked_substeps    = 0;
+    double          largest_energy_rise = 0., largest_violation = 0.;
+    SafetyNetReport safety_net;
     /// Says why the solver stopped without having met the tolerance.
     std::string note;
   };

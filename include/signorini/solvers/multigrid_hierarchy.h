@@ -145,6 +145,15 @@ namespace Signorini
     bool truncate(const unsigned int level, const HalfSpaces &half_spaces,
                   const std::vector<unsigned char> &active);
 
+    /// Collective. Smoother::strengthen() on all levels that are smoothed, once.
+    void strengthen_smoothers();
+
+    /// Whether that was done.
+    bool has_strong_smoothers() const
+    {
+      return strong_smoothers;
+    }
+
     /// Level 0 is the coarsest.
     unsigned int n_levels() const
     {
@@ -191,7 +200,7 @@ namespace Signorini
     std::vector<std::unique_ptr<MultigridLevel>> levels;
     std::unique_ptr<CoarseSolver>                level_zero_solver;
     bool                                         level_zero_changed = false;
-    bool                                         was_expected = false, slow_interface = false;
+    bool was_expected = false, slow_interface = false, strong_smoothers = false;
   };
 
   /// Collective. Marks the active nodes of a good start (left as it is): projects it and sweeps once over the

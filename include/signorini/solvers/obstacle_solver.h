@@ -45,6 +45,10 @@ namespace Signorini
     unsigned int max_iterations     = 1000;
     /// Not to wait until accelerated converges slowly before it takes interface sweeps on the finest level.
     bool starts_with_interface_sweeps = false;
+    /// Not to wait likewise before it smooths patches of nodes at once.
+    bool starts_with_patches = false;
+    /// Whether accelerated goes on with active-set steps where it stays slow.
+    bool safety_net = true;
     /// Measure energy and admissibility after every substep.
     bool check_monotonicity = false;
 

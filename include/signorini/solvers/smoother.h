@@ -53,6 +53,11 @@ namespace Signorini
     {
     }
 
+    /// Collective. From now on smooths patches of nodes at once, because the cycle is slow.
+    virtual void strengthen()
+    {
+    }
+
     /// Whether sweeps over the contact nodes alone would be slow, so that they must not be spared.
     virtual bool is_slow_at_interface() const
     {

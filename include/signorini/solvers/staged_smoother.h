@@ -4,9 +4,11 @@
 #ifndef signorini_solvers_staged_smoother_h
 #define signorini_solvers_staged_smoother_h
 
-#include <signorini/solvers/interface_correction.h>
+#include <signorini/solvers/projected_gauss_seidel.h>
 #include <signorini/solvers/rounded_gauss_seidel.h>
-#include <signorini/solvers/strong_blocks.h>
+#include <signorini/solvers/smoother.h>
+
+#include <memory>
 
 namespace Signorini
 {
@@ -74,6 +76,8 @@ namespace Signorini
                             const SmoothingParameters &parameters, Vector *const residual) override;
 
     void update(const std::vector<unsigned int> &rows) override;
+
+    void strengthen() override;
 
     bool is_slow_at_interface() const override
     {

@@ -12,19 +12,30 @@
 
 namespace Signorini
 {
-  /// Lines and planes of nodes that stretched cells couple strongly, for a block Gauss-Seidel sweep over
-  /// them: sweeps node by node do not see motions that are constant along a line of flat cells.
+  /// Blocks of nodes for a block Gauss-Seidel sweep: lines and planes of nodes that stretched cells couple
+  /// strongly, or patches all over the mesh. Sweeps node by node do not see motions that are constant along a
+  /// line of flat cells.
   ///
-  /// Found in the matrix: the trace of a block is a multiple of the Laplacian's entry. On cubes no entry
-  /// beside the diagonal is positive; on stretched cells those along the long edges are (like a mass matrix).
-  /// From an aspect ratio of 5 to 7 on a node counts as stretched; its strong couplings are the most
-  /// negative ones to other such nodes. Blocks in which sweeps by node converge well are left out. Without
-  /// stretched cells there are no blocks and no costs.
+  /// Lines and planes are found in the matrix: the trace of a block is a multiple of the Laplacian's entry.
+  /// On cubes no entry beside the diagonal is positive; on stretched cells those along the long edges are
+  /// (like a mass matrix). From an aspect ratio of 5 to 7 on a node counts as stretched; its strong couplings
+  /// are the most negative ones to other such nodes. Blocks in which sweeps by node converge well are left
+  /// out. Without stretched cells there are no blocks and no costs.
+  ///
+  /// Patches grow along the strongest couplings and overlap. They see what lines and planes do not: thin
+  /// slabs, stretched tetrahedra, Poisson's ratios near 1/2; a sweep costs some ten times one by node.
   class StrongBlocks : public SmoothingStage
   {
   public:
+    enum class Choice
+    {
+      stretched_cells,
+      patches
+    };
+
     /// Collective. Matrix and sweeps must outlive the object.
-    StrongBlocks(const NodeBlockMatrix &matrix, const ProjectedGaussSeidel &sweeps);
+    StrongBlocks(const NodeBlockMatrix &matrix, const ProjectedGaussSeidel &sweeps,
+                 const Choice choice = Choice::stretched_cells);
     ~StrongBlocks() override;
 
     /// Collective. Drops the blocks that have none but the given local nodes: something else solves those at
@@ -48,7 +59,15 @@ namespace Signorini
 
     void find_stretched(std::vector<bool> &is_stretched, std::vector<double> &most_negative) const;
     void find_blocks();
-    void add_block(std::vector<unsigned int> &&rows, const unsigned int phase);
+    void find_patches();
+    /// The nodes of a patch, from one node on.
+    std::vector<unsigned int> grow_patch(const unsigned int start, const std::vector<double> &diagonal) const;
+    /// The first one in which a row of a block is swept: with a node that other ranks see it waits for the
+    /// turn of this rank.
+    unsigned int              phase_of(const std::vector<unsigned int> &rows,
+                                       const std::vector<unsigned int> &phase_of_row) const;
+    std::vector<unsigned int> phases_of_rows() const;
+    void                      add_block(std::vector<unsigned int> &&rows, const unsigned int phase);
     /// After blocks were added or dropped.
     void collect_rows();
     void factorize(Block &block, const ContactState &contact);
@@ -60,9 +79,11 @@ namespace Signorini
     std::vector<Block> blocks;
     /// Blocks of each phase of the schedule.
     std::vector<std::vector<unsigned int>> phases;
-    /// The block of each owned row, or -1; its place in the block.
-    std::vector<int>          block_of_row;
-    std::vector<unsigned int> place_in_block, block_rows;
+    /// Of each owned row; blocks may overlap.
+    std::vector<std::vector<unsigned int>> blocks_of_row;
+    /// Of each owned row in the block at hand, or -1.
+    std::vector<int>          place_in_block;
+    std::vector<unsigned int> block_rows;
   };
 } // namespace Signorini
 

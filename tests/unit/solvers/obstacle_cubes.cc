@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/solvers/interface_correction.h>
 #include <signorini/solvers/obstacle_solver.h>
 
 #include <gtest/gtest.h>

@@ -4,7 +4,7 @@
 // Small random obstacle problems, solved by all solvers and by a dense method that has nothing in common with
 // them: the dual problem by principal pivoting.
 
-#include <signorini/solvers/obstacle_solver.h>
+#include <signorini/solvers/active_set_solver.h>
 
 #include <gtest/gtest.h>
 
@@ -87,6 +87,37 @@ namespace
       }
     return factors.solve(d.rhs - d.normals.transpose() * lambda);
   }
+
+  double energy(const Dense &d, const Eigen::VectorXd &v)
+  {
+    return .5 * v.dot(d.matrix * v) - d.rhs.dot(v);
+  }
+
+  /// Whether active-set steps from the projection of zero end; if so, at the solution, and if not, without
+  /// having raised the energy or left the half-spaces.
+  bool check_active_set_steps(MultigridHierarchy &hierarchy, PlaneSolver &planes,
+                              const ObstacleProblem &problem, const Dense &d, const Eigen::VectorXd &solution,
+                              const std::string &name)
+  {
+    const auto values = [](const Vector &v) {
+      return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(v.begin(), v.locally_owned_size()));
+    };
+    Vector v;
+    v.reinit(problem.rhs);
+    ContactState(hierarchy.finest().matrix, problem.half_spaces).project(v);
+    const double    start = energy(d, values(v)), scale = std::sqrt(solution.dot(d.matrix * solution));
+    ActiveSetSolver solver(hierarchy, SolverParameters(), hierarchy.n_levels() - 1, planes);
+    const auto      report = solver.solve(v, problem);
+    EXPECT_LE((d.normals * values(v) - d.bounds).maxCoeff(), 1e-13) << name;
+    if (report.converged)
+      {
+        const Eigen::VectorXd difference = values(v) - solution;
+        EXPECT_LE(std::sqrt(difference.dot(d.matrix * difference)), 1e-9 * scale) << name;
+      }
+    else
+      EXPECT_LE(energy(d, values(v)), start + 1e-13 * scale * scale) << name;
+    return report.converged;
+  }
 } // namespace
 
 
@@ -107,6 +138,7 @@ TEST(RandomProblems, AllSolversGiveTheDenseSolution)
       {SolverMethod::monotone_multigrid, "monotone multigrid"},
       {SolverMethod::active_set_amg, "active set amg"},
       {SolverMethod::projected_gauss_seidel, "projected gauss seidel"}};
+  std::array<unsigned int, 2> n_ended = {{0, 0}};
   for (unsigned int i = 0; i < n; ++i)
     {
       // One to three levels; flat or bent; loads that press, pull or do anything; bounds of both signs.
@@ -174,6 +206,16 @@ TEST(RandomProblems, AllSolversGiveTheDenseSolution)
           parameters.max_iterations     = method == SolverMethod::projected_gauss_seidel ? 5000 : 60;
           check(hierarchy, parameters, name, start);
         }
+      FactoredPlanes    factored(hierarchy.finest().matrix);
+      CycledPlanes      cycled(hierarchy, hierarchy.n_levels() - 1, SmoothingParameters());
+      const std::string here = "problem " + std::to_string(i);
+      n_ended[0] += check_active_set_steps(hierarchy, factored, problem, d, solution, here + ", factors");
+      n_ended[1] += check_active_set_steps(hierarchy, cycled, problem, d, solution, here + ", V-cycles");
+      hierarchy.strengthen_smoothers();
+      SolverParameters with_patches;
+      with_patches.check_monotonicity = true;
+      with_patches.max_iterations     = 60;
+      check(hierarchy, with_patches, "patches of nodes", start);
       // From good starts, and from some that only claim to be.
       const double distance = std::pow(10., uniform(-6., 0.));
       for (const NodeIndex p : grid.owned)
@@ -188,4 +230,7 @@ TEST(RandomProblems, AllSolversGiveTheDenseSolution)
       MultigridHierarchy expecting = CubeProblem::hierarchy(size, normals, &problem, &start);
       check(expecting, parameters, "accelerated from a start at " + std::to_string(distance), start);
     }
+  // Active sets may go round in a circle, but hardly do.
+  for (const unsigned int ended : n_ended)
+    EXPECT_GE(ended, .95 * n);
 }

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_solvers_safety_net_h
+#define signorini_solvers_safety_net_h
+
+#include <signorini/solvers/active_set_solver.h>
+
+#include <memory>
+
+namespace Signorini
+{
+  /// What catches an iteration that stays slow. On small meshes active-set steps with sparse factors. On
+  /// large ones the smoothers take patches of nodes (Smoother::strengthen()), and where it is the active set
+  /// that does not come to rest, active-set steps with conjugate gradients and the truncated V-cycle. Between
+  /// active-set steps that do not end the slow iteration has its turn: it lowers the energy each time, so
+  /// that nothing goes round in a circle.
+  class SafetyNet
+  {
+  public:
+    /// When an iteration is slow, and what takes over (doc/measurements.md, random pairs).
+    struct Rule
+    {
+      /// The rate is the geometric mean over so many iterations.
+      std::size_t n_watched = 8;
+      /// With sparse factors: so many iterations to go at this rate, and one more for this many unknowns, are
+      /// slow. A factorization of 5,000 unknowns takes as long as 50 iterations (0.1 s), of 13,000 as 125
+      /// (0.5 s): it is taken earlier than its time alone would suggest, because rates get worse more often
+      /// than better.
+      double left_with_factors = 12., unknowns_for_one_more = 2000.;
+      /// Without: patches cost some ten times a sweep by node.
+      double left_without = 40.;
+      /// Unknowns up to which sparse factors are taken: above this they are slow and large.
+      dealii::types::global_dof_index largest_for_factors = 30000;
+      /// Of the iterations watched, those that conjugate gradients did not take: with fewer it is the linear
+      /// problem that is slow, and active-set steps with the same V-cycles would gain nothing.
+      unsigned int fewest_searched = 3;
+    };
+
+    enum class Remedy
+    {
+      none,
+      patches,
+      active_set_steps
+    };
+
+    /// All must outlive the object.
+    /// @param level the finest one of the problem
+    SafetyNet(MultigridHierarchy &hierarchy, const SolverParameters &parameters, const unsigned int level);
+
+    /// After an iteration.
+    /// @param is_conjugate whether it took a step of conjugate gradients
+    void observe(const bool is_conjugate)
+    {
+      n_conjugate = is_conjugate ? n_conjugate + 1 : 0;
+    }
+
+    /// What is due after an iteration: the same on all ranks.
+    Remedy due(const ConvergenceReport &report, const ObstacleProblem &problem) const;
+
+    /// Collective. Has the smoothers take patches, if that is not done yet and the mesh is too large for
+    /// sparse factors.
+    void strengthen(ConvergenceReport &report);
+
+    /// Collective. Goes on from an admissible v and what is active there, and says what is active in the end:
+    /// ActiveSetSolver::go_on().
+    bool take_over(Vector &v, const ObstacleProblem &problem, ContactState &contact,
+                   ConvergenceReport &report, const ObstacleSolver::Monitor &monitor);
+
+  private:
+    double n_unknowns() const;
+    bool   uses_factors() const;
+
+    MultigridHierarchy              &hierarchy;
+    const SolverParameters           parameters;
+    const unsigned int               level;
+    std::unique_ptr<PlaneSolver>     planes;
+    std::unique_ptr<ActiveSetSolver> steps;
+    /// Steps of conjugate gradients in a row; the iteration before which it does not take over (again).
+    unsigned int n_conjugate = 0, not_before = 0;
+  };
+} // namespace Signorini
+
+#endif

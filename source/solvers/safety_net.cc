@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/solvers/safety_net.h>
+
+namespace Signorini
+{
+  namespace
+  {
+    constexpr SafetyNet::Rule rule;
+
+    /// Iterations to the tolerance, at the rate of the last ones.
+    double iterations_left(const ConvergenceReport &report, const SolverParameters &parameters)
+    {
+      const std::vector<double> &history  = report.history;
+      const double               relative = parameters.tolerance * report.scale;
+      const double target = parameters.absolute_tolerance > 0. ? parameters.absolute_tolerance : relative;
+      const double decay  = std::log(history[history.size() - 1 - rule.n_watched] / history.back()) /
+                           static_cast<double>(rule.n_watched);
+      const double way = std::log(history.back() / target);
+      return decay > 0. ? way / decay : std::numeric_limits<double>::max();
+    }
+  } // namespace
+
+
+
+  SafetyNet::SafetyNet(MultigridHierarchy &hierarchy, const SolverParameters &parameters,
+                       const unsigned int level)
+    : hierarchy(hierarchy)
+    , parameters(parameters)
+    , level(level)
+  {
+  }
+
+
+
+  double SafetyNet::n_unknowns() const
+  {
+    return static_cast<double>(dim * hierarchy.level(level).matrix.partition().n_global());
+  }
+
+
+
+  bool SafetyNet::uses_factors() const
+  {
+    return n_unknowns() <= static_cast<double>(rule.largest_for_factors);
+  }
+
+
+
+  SafetyNet::Remedy SafetyNet::due(const ConvergenceReport &report, const ObstacleProblem &problem) const
+  {
+    if (report.converged || problem.semidefinite || level + 1 != hierarchy.n_levels() ||
+        report.history.size() <= rule.n_watched || report.iterations < not_before || report.scale <= 0.)
+      return Remedy::none;
+    const double left = iterations_left(report, parameters);
+    if (uses_factors())
+      return left > rule.left_with_factors + n_unknowns() / rule.unknowns_for_one_more
+                 ? Remedy::active_set_steps
+                 : Remedy::none;
+    if (left <= rule.left_without)
+      return Remedy::none;
+    if (!hierarchy.has_strong_smoothers())
+      return Remedy::patches;
+    return n_conjugate + rule.fewest_searched <= rule.n_watched ? Remedy::active_set_steps : Remedy::none;
+  }
+
+
+
+  void SafetyNet::strengthen(ConvergenceReport &report)
+  {
+    report.needed_patches = !uses_factors();
+    report.before_patches = report.iterations;
+    if (report.needed_patches)
+      hierarchy.strengthen_smoothers();
+    not_before  = report.iterations + static_cast<unsigned int>(rule.n_watched) + 1;
+    n_conjugate = 0;
+  }
+
+
+
+  bool SafetyNet::take_over(Vector &v, const ObstacleProblem &problem, ContactState &contact,
+                            ConvergenceReport &report, const ObstacleSolver::Monitor &monitor)
+  {
+    SafetyNetReport &net = report.safety_net;
+    if (!planes)
+      {
+        net.after = report.iterations;
+        net.rate  = convergence_rate(report.history);
+        if (uses_factors())
+          planes = std::make_unique<FactoredPlanes>(hierarchy.level(level).matrix);
+        else
+          planes = std::make_unique<CycledPlanes>(hierarchy, level, parameters.smoothing);
+        net.linear_solver = planes->is_exact() ? "sparse factors" : "conjugate gradients with the V-cycle";
+        steps             = std::make_unique<ActiveSetSolver>(hierarchy, parameters, level, *planes);
+      }
+    const bool ended = steps->go_on(v, contact.active(), problem, report, monitor);
+    for (std::size_t p = 0; p < contact.size(); ++p)
+      contact.set_active(p, steps->active()[p]);
+    net.n_steps = steps->n_steps();
+    net.n_failed += ended ? 0 : 1;
+    // Longer each time.
+    not_before  = report.iterations + (static_cast<unsigned int>(rule.n_watched) << net.n_failed);
+    n_conjugate = 0;
+    return ended;
+  }
+} // namespace Signorini
