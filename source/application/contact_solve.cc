@@ -97,9 +97,9 @@ namespace Signorini
                                   const Vector &residual, const HalfSpaces &half_spaces,
                                   const std::vector<unsigned char> &active)
     {
-      const auto                forces    = replicate_values(partition, residual, d.coupling.rows);
-      const auto                values    = replicate_values(partition, v, d.coupling.rows);
-      const std::vector<double> bounds    = d.transformation->reduce_gaps(d.gaps);
+      const auto                forces = replicate_values(partition, residual, d.coupling.rows);
+      const auto                values = replicate_values(partition, v, d.coupling.rows);
+      const std::vector<double> bounds = d.transformation->reduce_gaps(d.gaps);
       // The active set is what the projection of the solver wrote.
       Vector flags;
       flags.reinit(v);
@@ -130,8 +130,8 @@ namespace Signorini
       Vector residual;
     };
 
-    /// Solves for what is left when the rigid motions of a start are taken out of it: these can be longer than
-    /// the deformation by many orders of magnitude, and products of A with them are rounding.
+    /// Solves for what is left when the rigid motions of a start are taken out of it: these can be longer
+    /// than the deformation by many orders of magnitude, and products of A with them are rounding.
     class DeformationOnly
     {
     public:
@@ -211,10 +211,11 @@ namespace Signorini
                      ": frictionless contact does not hold it. The mean of the displacement in it is set to "
                      "zero.");
       for (const std::vector<double> &motion : loose.hardly_held)
-        journal.note("warning: " + describe_motion(d.free_motions(), motion, model.bodies()) +
-                     ": frictionless contact does not hold it but for the facets of the surfaces. How far the "
-                     "body moves that way, and what depends on it, is no property of the true bodies; "
-                     "prescribe a displacement there.");
+        journal.note(
+            "warning: " + describe_motion(d.free_motions(), motion, model.bodies()) +
+            ": frictionless contact does not hold it but for the facets of the surfaces. How far the "
+            "body moves that way, and what depends on it, is no property of the true bodies; "
+            "prescribe a displacement there.");
     }
 
     /// Solves; returns the active half-spaces.
@@ -228,7 +229,7 @@ namespace Signorini
       if (parameters.method == SolverMethod::active_set_amg)
         problem.near_kernel = rigid_motions(node_places(model.bodies(), d.nodal()).positions, partition,
                                             hierarchy.finest().fixed, d.coupling, d.projections);
-      const auto solver = make_solver(hierarchy, parameters);
+      const auto      solver = make_solver(hierarchy, parameters);
       DeformationOnly deformation(algebraic);
       report = solver->solve(algebraic.v, problem, make_monitor(parameters.tolerance, journal));
       partition.reinit(algebraic.residual);
@@ -236,7 +237,7 @@ namespace Signorini
       deformation.restore();
       if (!d.free_motions().empty())
         {
-          const auto         fields = motions_of_unknowns(model, *d.constrained, partition, *d.transformation);
+          const auto fields = motions_of_unknowns(model, *d.constrained, partition, *d.transformation);
           const LooseMotions loose =
               find_loose_motions(d.free_motions(), fields, problem.half_spaces, solver->active());
           note_loose_motions(loose, model, d, journal);

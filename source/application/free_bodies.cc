@@ -19,7 +19,7 @@ namespace Signorini
     {
       /// The mean square of the normal parts of a motion at active nodes, relative to that of the motion that
       /// is opposed most: zero to rounding; what facets of round surfaces give.
-      double not_opposed = 1e-9, hardly_opposed = 1e-4;
+      double not_opposed = 1e-10, hardly_opposed = 1e-4;
     };
   } // namespace
 

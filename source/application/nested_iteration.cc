@@ -124,7 +124,8 @@ namespace Signorini
       }
 
     private:
-      /// Finer meshes are no use where a coarser one could not be solved, and an indicator means nothing there.
+      /// Finer meshes are no use where a coarser one could not be solved, and an indicator means nothing
+      /// there.
       bool goes_on(const unsigned int cycle)
       {
         if (cycle == 0 || last.results.converged)

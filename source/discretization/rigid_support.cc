@@ -251,8 +251,8 @@ namespace Signorini
 
   namespace
   {
-    /// Splits the span of the columns of a matrix: what some functions (rows) vanish on, which is taken out of
-    /// it, is returned.
+    /// Splits the span of the columns of a matrix: what some functions (rows) vanish on, which is taken out
+    /// of it, is returned.
     Eigen::MatrixXd take_kernel(Eigen::MatrixXd &columns, const Eigen::MatrixXd &functions)
     {
       const Eigen::Index n = columns.cols();
@@ -348,9 +348,9 @@ namespace Signorini
     if (rotation.norm() <= 1e-3 * translation.norm())
       return name + "translation " + print_direction(translation);
     // Where the points of the axis are.
-    const double   square = rotation.norm_square();
-    const Vector3  along  = (rotation * translation) / square * rotation;
-    const Point<3> point(centre + length / square * cross_product_3d(rotation, translation));
+    const double      square = rotation.norm_square();
+    const Vector3     along  = (rotation * translation) / square * rotation;
+    const Point<3>    point(centre + length / square * cross_product_3d(rotation, translation));
     const std::string turning = "rotation about the axis through " + print_vector(point, 1e-6 * length) +
                                 " along " + print_direction(rotation);
     return name + (along.norm() > 1e-3 * rotation.norm()

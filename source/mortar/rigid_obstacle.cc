@@ -16,8 +16,8 @@ namespace Signorini
   {
     struct FacingRule
     {
-      /// The gap along a normal grows like 1 / cosine; the weighted gaps of nodes beside faces across which it
-      /// grows many times over are negative by multiples of the size of the body. Vertices of a cube that
+      /// The gap along a normal grows like 1 / cosine; the weighted gaps of nodes beside faces across which
+      /// it grows many times over are negative by multiples of the size of the body. Vertices of a cube that
       /// stands on a plane have .58.
       double cosine = .5;
     };

@@ -59,10 +59,10 @@ namespace Signorini
     const bool changes = !motions.empty() && (!active || *active != contact.active());
     if (Utilities::MPI::max(static_cast<int>(changes), matrix.partition().communicator()) == 0)
       return;
-    active                    = contact.active();
-    const auto          n     = static_cast<Eigen::Index>(motions.size());
-    const HalfSpaces   &spaces = contact.half_spaces();
-    Eigen::MatrixXd     energies(n, n);
+    active                   = contact.active();
+    const auto        n      = static_cast<Eigen::Index>(motions.size());
+    const HalfSpaces &spaces = contact.half_spaces();
+    Eigen::MatrixXd   energies(n, n);
     for (Eigen::Index i = 0; i < n; ++i)
       {
         tangential[i] = motions[i];
@@ -70,7 +70,7 @@ namespace Signorini
         for (std::size_t p = 0; p < spaces.size(); ++p)
           if ((*active)[p])
             {
-              const double  length = spaces.normal_part(p, motions[i]);
+              const double  length      = spaces.normal_part(p, motions[i]);
               const Vector3 normal_part = length * spaces.normals[p];
               spaces.add_normal(tangential[i], p, -length);
               subtract_change(products[i].begin(), matrix, spaces.nodes[p], &normal_part[0]);

@@ -180,8 +180,8 @@ namespace Signorini
             const auto column = static_cast<int>(dim * blocks.columns[k] + d);
             if (row < column)
               continue;
-            const int *const begin = rows + truncated.outerIndexPtr()[column];
-            const int *const end   = rows + truncated.outerIndexPtr()[column + 1];
+            const int *const begin              = rows + truncated.outerIndexPtr()[column];
+            const int *const end                = rows + truncated.outerIndexPtr()[column + 1];
             places[dim * dim * k + dim * c + d] = std::lower_bound(begin, end, row) - rows;
           }
   }
@@ -196,10 +196,9 @@ namespace Signorini
         const std::size_t row = blocks.rows[k], column = blocks.columns[k];
         if (row < column)
           continue;
-        const Block block =
-            restrict_to_planes(blocks.values.data() + dim * dim * k,
-                               factorized[row] ? states[row].normal : Vector3(),
-                               factorized[column] ? states[column].normal : Vector3(), row == column);
+        const Block block = restrict_to_planes(
+            blocks.values.data() + dim * dim * k, factorized[row] ? states[row].normal : Vector3(),
+            factorized[column] ? states[column].normal : Vector3(), row == column);
         for (unsigned int c = 0; c < dim; ++c)
           for (unsigned int d = 0; d < dim; ++d)
             if (const std::ptrdiff_t place = places[dim * dim * k + dim * c + d]; place >= 0)
@@ -284,9 +283,8 @@ namespace Signorini
 
 
 
-  bool GatheredObstacleProblem::Factors::search_along(Eigen::VectorXd       &step,
-                                                      const Eigen::VectorXd &direction, const States &states,
-                                                      const Eigen::VectorXd &load) const
+  bool GatheredObstacleProblem::Factors::search_along(Eigen::VectorXd &step, const Eigen::VectorXd &direction,
+                                                      const States &states, const Eigen::VectorXd &load) const
   {
     const double    start = energy(step, load);
     double          best = start, length = 1.;
@@ -317,9 +315,9 @@ namespace Signorini
       {
         Eigen::VectorXd residual = load - matrix * step, direction = Eigen::VectorXd::Zero(load.size());
         for (std::size_t i = 0; i < states.size(); ++i)
-          active[i] = states[i].room >= 0. && normal_part(residual, i, states[i].normal) >= 0. &&
-                      normal_part(step, i, states[i].normal) >=
-                          states[i].room - 1e-14 * std::abs(states[i].room);
+          active[i] =
+              states[i].room >= 0. && normal_part(residual, i, states[i].normal) >= 0. &&
+              normal_part(step, i, states[i].normal) >= states[i].room - 1e-14 * std::abs(states[i].room);
         if (!add_tangential_minimizer(direction, residual, states, active))
           break;
         if (!search_along(step, direction, states, load))
@@ -409,10 +407,9 @@ namespace Signorini
     result = Utilities::MPI::broadcast(communicator, result, 0);
     std::vector<NodeStep> all;
     append_from_numbers(all, result);
-    const auto  counts = Utilities::MPI::all_gather(communicator, mine.size());
-    const auto  begin  = std::accumulate(counts.begin(),
-                                        counts.begin() + Utilities::MPI::this_mpi_process(communicator),
-                                        std::size_t(0));
+    const auto counts = Utilities::MPI::all_gather(communicator, mine.size());
+    const auto begin  = std::accumulate(
+         counts.begin(), counts.begin() + Utilities::MPI::this_mpi_process(communicator), std::size_t(0));
     return {all.begin() + begin, all.begin() + begin + mine.size()};
   }
 } // namespace Signorini

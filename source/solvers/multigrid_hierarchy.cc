@@ -127,10 +127,10 @@ namespace Signorini
   void MultigridHierarchy::make_smoother(MultigridLevel &level, const LevelInterface &interface,
                                          const HierarchyParts &parts)
   {
-    level.smoother = parts.make_smoother ? parts.make_smoother(level.matrix, interface)
-                                         : std::make_unique<StagedSmoother>(level.matrix, interface);
+    level.smoother      = parts.make_smoother ? parts.make_smoother(level.matrix, interface)
+                                              : std::make_unique<StagedSmoother>(level.matrix, interface);
     level.contact_nodes = interface.contact_nodes;
-    slow_interface = slow_interface || level.smoother->is_slow_at_interface();
+    slow_interface      = slow_interface || level.smoother->is_slow_at_interface();
   }
 
 

@@ -119,7 +119,7 @@ namespace Signorini
         // A V-cycle is at most the inverse of A: the slope is at least the curvature.
         square                = std::max(new_residual * step, 0.);
         const double decrease = (length - .5 * length * length) * square;
-        const Vector whole = step;
+        const Vector whole    = step;
         contact.project_correction(step, correction);
         if (const LineSearch projected = search(); projected.decrease >= decrease)
           {

@@ -80,8 +80,8 @@ namespace Signorini
   std::vector<std::vector<double>> separate_motions(const std::vector<FreeMotion>          &motions,
                                                     const std::vector<std::vector<double>> &basis);
 
-  /// A motion in words: "body cube, translation (0, 0, -1)", "body lug, rotation about the axis through (0, 0,
-  /// 0) along (0, 0, 1)".
+  /// A motion in words: "body cube, translation (0, 0, -1)", "body lug, rotation about the axis through (0,
+  /// 0, 0) along (0, 0, 1)".
   std::string describe_motion(const std::vector<FreeMotion> &motions, const std::vector<double> &coefficients,
                               const Bodies &bodies);
 } // namespace Signorini

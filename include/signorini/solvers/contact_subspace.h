@@ -4,20 +4,21 @@
 #ifndef signorini_solvers_contact_subspace_h
 #define signorini_solvers_contact_subspace_h
 
-#include <signorini/solvers/gathered_obstacle_problem.h>
 #include <signorini/solvers/free_motion_correction.h>
+#include <signorini/solvers/gathered_obstacle_problem.h>
 #include <signorini/solvers/multigrid_hierarchy.h>
 
 namespace Signorini
 {
   /// Minimizes over the contact nodes of both sides and the functions of a coarse level at once, in all
-  /// half-spaces. Rigid motions of bodies that only contact holds have no stiffness but that of the nodes that
-  /// touch: coarse corrections that do not see the half-spaces run into the next node, are shortened, and one
-  /// node more is active after each iteration. Here the body moves, bends and is indented at the same time.
+  /// half-spaces. Rigid motions of bodies that only contact holds have no stiffness but that of the nodes
+  /// that touch: coarse corrections that do not see the half-spaces run into the next node, are shortened,
+  /// and one node more is active after each iteration. Here the body moves, bends and is indented at the same
+  /// time.
   ///
-  /// The space is that of the coarse functions, set to zero at the contact nodes, and of all motions of those:
-  /// nested products of transfers, in which contact nodes are nodes of every level. Its matrix does not
-  /// depend on the active set.
+  /// The space is that of the coarse functions, set to zero at the contact nodes, and of all motions of
+  /// those: nested products of transfers, in which contact nodes are nodes of every level. Its matrix does
+  /// not depend on the active set.
   class ContactSubspace
   {
   public:

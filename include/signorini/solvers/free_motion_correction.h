@@ -15,9 +15,9 @@ namespace Signorini
   /// their rotations only approximately: an error along a rotation would not go away. Each motion m has A m =
   /// 0, so products are those of its normal parts at active nodes alone.
   ///
-  /// Motions that nothing opposes and on which the loads do no work are idle: what a correction has of them is
-  /// rounding over rounding. It can be many times longer than the deformation, and then its own rounding hides
-  /// that. They are taken out.
+  /// Motions that nothing opposes and on which the loads do no work are idle: what a correction has of them
+  /// is rounding over rounding. It can be many times longer than the deformation, and then its own rounding
+  /// hides that. They are taken out.
   class FreeMotionCorrection
   {
   public:
@@ -25,7 +25,7 @@ namespace Signorini
     struct Rule
     {
       /// Its energy relative to that of the motion that is opposed most: rounding.
-      double costs_nothing = 1e-9;
+      double costs_nothing = 1e-14;
       /// The work of the loads on it, relative to what it is made up of, and to the work on all motions.
       double rounding = 1e-10, no_work = 1e-7;
     };

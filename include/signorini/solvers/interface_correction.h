@@ -51,7 +51,7 @@ namespace Signorini
     std::vector<NodeIndex>    nodes;
     std::vector<unsigned int> owned;
     /// Whether a local node is one of the contact nodes.
-    std::vector<bool> is_contact;
+    std::vector<bool>       is_contact;
     GatheredObstacleProblem problem;
   };
 } // namespace Signorini

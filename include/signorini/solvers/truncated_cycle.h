@@ -66,8 +66,8 @@ namespace Signorini
   private:
     bool all_ranks(const bool condition) const;
 
-    /// Collective. step = the coarse correction on the finest level, tangential at active nodes, with the free
-    /// motions before and after it.
+    /// Collective. step = the coarse correction on the finest level, tangential at active nodes, with the
+    /// free motions before and after it.
     void find_step();
 
     /// Adds the truncated V-cycle of the residual to the correction: by add_better() if `searched` is set or
@@ -90,7 +90,7 @@ namespace Signorini
     /// For bodies that only contact holds.
     std::optional<ContactSubspace> subspace;
     FreeMotionCorrection           motions;
-    Vector                 coarse_defect, coarse_correction;
+    Vector                         coarse_defect, coarse_correction;
     /// b - A (v + z); a coarse correction on the finest level.
     Vector new_residual, step, tangential;
     /// Whether the coarse correction was searched; whether the active set is that from before the run.
