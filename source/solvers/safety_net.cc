@@ -9,16 +9,21 @@ namespace Signorini
   {
     constexpr SafetyNet::Rule rule;
 
+    /// Logarithm of what an iteration has taken off the correction, in the mean over those watched.
+    double decay_of(const std::vector<double> &history)
+    {
+      return std::log(history[history.size() - 1 - rule.n_watched] / history.back()) /
+             static_cast<double>(rule.n_watched);
+    }
+
     /// Iterations to the tolerance, at the rate of the last ones.
     double iterations_left(const ConvergenceReport &report, const SolverParameters &parameters)
     {
-      const std::vector<double> &history  = report.history;
-      const double               relative = parameters.tolerance * report.scale;
-      const double target = parameters.absolute_tolerance > 0. ? parameters.absolute_tolerance : relative;
-      const double decay  = std::log(history[history.size() - 1 - rule.n_watched] / history.back()) /
-                           static_cast<double>(rule.n_watched);
-      const double way = std::log(history.back() / target);
-      return decay > 0. ? way / decay : std::numeric_limits<double>::max();
+      const double relative = parameters.tolerance * report.scale;
+      const double target   = parameters.absolute_tolerance > 0. ? parameters.absolute_tolerance : relative;
+      const double decay    = decay_of(report.history);
+      return decay > 0. ? std::log(report.history.back() / target) / decay
+                        : std::numeric_limits<double>::max();
     }
   } // namespace
 
@@ -86,7 +91,7 @@ namespace Signorini
     if (!planes)
       {
         net.after = report.iterations;
-        net.rate  = convergence_rate(report.history);
+        net.rate  = std::exp(-decay_of(report.history));
         if (uses_factors())
           planes = std::make_unique<FactoredPlanes>(hierarchy.level(level).matrix);
         else
