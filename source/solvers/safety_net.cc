@@ -3,8 +3,12 @@
 
 #include <signorini/solvers/safety_net.h>
 
+#include <deal.II/base/mpi.h>
+
 namespace Signorini
 {
+  using namespace dealii;
+
   namespace
   {
     constexpr SafetyNet::Rule rule;
@@ -65,7 +69,9 @@ namespace Signorini
                  : Remedy::none;
     if (left <= rule.left_without)
       return Remedy::none;
-    if (!hierarchy.has_strong_smoothers())
+    const unsigned int n_ranks =
+        Utilities::MPI::n_mpi_processes(hierarchy.level(level).matrix.partition().communicator());
+    if (!hierarchy.has_strong_smoothers() && n_unknowns() <= rule.largest_for_patches * n_ranks)
       return Remedy::patches;
     return n_conjugate + rule.fewest_searched <= rule.n_watched ? Remedy::active_set_steps : Remedy::none;
   }

@@ -32,6 +32,8 @@ namespace Signorini
       double left_without = 40.;
       /// Unknowns up to which sparse factors are taken: above this they are slow and large.
       dealii::types::global_dof_index largest_for_factors = 30000;
+      /// Unknowns of a rank up to which the smoothers take patches: 4 kB each.
+      double largest_for_patches = 500000.;
       /// Of the iterations watched, those that conjugate gradients did not take: with fewer it is the linear
       /// problem that is slow, and active-set steps with the same V-cycles would gain nothing.
       unsigned int fewest_searched = 3;
