@@ -2,7 +2,7 @@
 refinement at random, 300 to 30,000 unknowns. By hand, a line for each problem and the distribution:
 
   SIGNORINI_RANDOM_BLOCKS=1000 SIGNORINI_RANDOM_SEED=1 run_case.py PROGRAM random_pairs RANKS
-  random_pair_cases.py PROGRAM RANKS SEED...                            (single problems; --keep FOLDER --print for their settings)
+  random_pair_cases.py PROGRAM RANKS SEED... [SECTION/NAME=VALUE...]      (single problems; "example" is that of a soft block of stretched tetrahedra)
 """
 import json
 import math
