@@ -3,22 +3,31 @@
 
 #include <signorini/solvers/safety_net.h>
 
+#include <deal.II/base/mpi.h>
+
 namespace Signorini
 {
+  using namespace dealii;
+
   namespace
   {
     constexpr SafetyNet::Rule rule;
 
+    /// Logarithm of what an iteration has taken off the correction, in the mean over those watched.
+    double decay_of(const std::vector<double> &history)
+    {
+      return std::log(history[history.size() - 1 - rule.n_watched] / history.back()) /
+             static_cast<double>(rule.n_watched);
+    }
+
     /// Iterations to the tolerance, at the rate of the last ones.
     double iterations_left(const ConvergenceReport &report, const SolverParameters &parameters)
     {
-      const std::vector<double> &history  = report.history;
-      const double               relative = parameters.tolerance * report.scale;
-      const double target = parameters.absolute_tolerance > 0. ? parameters.absolute_tolerance : relative;
-      const double decay  = std::log(history[history.size() - 1 - rule.n_watched] / history.back()) /
-                           static_cast<double>(rule.n_watched);
-      const double way = std::log(history.back() / target);
-      return decay > 0. ? way / decay : std::numeric_limits<double>::max();
+      const double relative = parameters.tolerance * report.scale;
+      const double target   = parameters.absolute_tolerance > 0. ? parameters.absolute_tolerance : relative;
+      const double decay    = decay_of(report.history);
+      return decay > 0. ? std::log(report.history.back() / target) / decay
+                        : std::numeric_limits<double>::max();
     }
   } // namespace
 
@@ -60,7 +69,9 @@ namespace Signorini
                  : Remedy::none;
     if (left <= rule.left_without)
       return Remedy::none;
-    if (!hierarchy.has_strong_smoothers())
+    const unsigned int n_ranks =
+        Utilities::MPI::n_mpi_processes(hierarchy.level(level).matrix.partition().communicator());
+    if (!hierarchy.has_strong_smoothers() && n_unknowns() <= rule.largest_for_patches * n_ranks)
       return Remedy::patches;
     return n_conjugate + rule.fewest_searched <= rule.n_watched ? Remedy::active_set_steps : Remedy::none;
   }
@@ -86,7 +97,7 @@ namespace Signorini
     if (!planes)
       {
         net.after = report.iterations;
-        net.rate  = convergence_rate(report.history);
+        net.rate  = std::exp(-decay_of(report.history));
         if (uses_factors())
           planes = std::make_unique<FactoredPlanes>(hierarchy.level(level).matrix);
         else

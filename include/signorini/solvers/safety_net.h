@@ -25,13 +25,15 @@ namespace Signorini
       std::size_t n_watched = 8;
       /// With sparse factors: so many iterations to go at this rate, and one more for this many unknowns, are
       /// slow. A factorization of 5,000 unknowns takes as long as 50 iterations (0.1 s), of 13,000 as 125
-      /// (0.5 s): it is taken earlier than its time alone would suggest, because rates get worse more often
-      /// than better.
+      /// (0.5 s): they are taken earlier than time alone would suggest, for a bound on the iterations (random
+      /// pairs: at most 32).
       double left_with_factors = 12., unknowns_for_one_more = 2000.;
       /// Without: patches cost some ten times a sweep by node.
       double left_without = 40.;
       /// Unknowns up to which sparse factors are taken: above this they are slow and large.
       dealii::types::global_dof_index largest_for_factors = 30000;
+      /// Unknowns of a rank up to which the smoothers take patches: 4 kB each.
+      double largest_for_patches = 500000.;
       /// Of the iterations watched, those that conjugate gradients did not take: with fewer it is the linear
       /// problem that is slow, and active-set steps with the same V-cycles would gain nothing.
       unsigned int fewest_searched = 3;
