@@ -45,7 +45,7 @@ namespace Signorini
     /// Physical, on the partition of the next space (ConstrainedSpace::interpolate()).
     Vector displacement;
     /// What was slow there will be slow here (ConvergenceReport).
-    bool   needed_interface_sweeps = false, needed_patches = false;
+    bool needed_interface_sweeps = false, needed_patches = false;
   };
 
   /// The multipliers, per row of the joined coupling: contact stress and its normal part, the pressure (force
