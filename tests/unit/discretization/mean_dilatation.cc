@@ -180,8 +180,10 @@ TEST(MeanDilatation, PatchTest)
   const double largest = forces.linfty_norm();
   for (unsigned int i = 0; i < ball.partition.n_owned(); ++i)
     if (ball.space.position(ball.partition.to_global(i)).norm() < .99)
-      for (unsigned int c = 0; c < dim; ++c)
-        EXPECT_LT(std::abs(forces.local_element(3 * i + c)), 1e-13 * largest);
+      {
+        for (unsigned int c = 0; c < dim; ++c)
+          EXPECT_LT(std::abs(forces.local_element(3 * i + c)), 1e-13 * largest);
+      }
   EXPECT_GT(largest, 0.);
 
   const auto total = [&](const Vector &v) {
