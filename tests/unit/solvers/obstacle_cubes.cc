@@ -290,6 +290,27 @@ TEST(MultigridHierarchy, TruncationIsUndone)
 
 
 
+// Truncation at normals that are nearly the same leaves hardly any stiffness to a coarse function along their
+// mean: too little for sweeps in single precision.
+TEST(MultigridHierarchy, FillsDirectionsWithHardlyAnyStiffness)
+{
+  NodeBlockMatrix matrix = CubeProblem::stiffness(CubeProblem::Grid(2));
+  const Vector3   normal = Vector3({.5, -.6, .7}) / std::sqrt(1.1);
+  const auto      fill   = [&](const double weak) {
+    Block block = 7. * dealii::unit_symmetric_tensor<3>();
+    block -= 7. * (1. - weak) * outer_product(normal, normal);
+    write_block(matrix.block(matrix.diagonal(0)), block);
+    eliminate_fixed_components(matrix, std::vector<FixedMask>(matrix.partition().n_local(), 0), {0}, 7.);
+    return normal * (read_block(matrix.block(matrix.diagonal(0))) * normal) / 7.;
+  };
+  for (const double weak : {0., 1e-13, 1e-10, 1e-7})
+    EXPECT_NEAR(fill(weak), 1., 1e-6) << weak;
+  for (const double weak : {1e-5, 1e-3, 1.})
+    EXPECT_NEAR(fill(weak), weak, 1e-12) << weak;
+}
+
+
+
 // Built truncated or truncated afterwards: the same coarse matrices, and nothing left to do for the solver,
 // which has the solution as its start.
 TEST(MultigridHierarchy, IsBuiltTruncatedAtTheExpectedActiveSet)
