@@ -248,18 +248,20 @@ def write_bowl(name, n):
 
 
 def bowl(p):
-    """S2 of the solver problems: normals that vary, a mesh file that is level 0. Its gaps are those of the facets."""
+    """S2 of the solver problems: normals that vary, a mesh file that is level 0. Its gaps are those of the facets.
+    With level 0 solved to three digits, and with background levels, whose correction is not exact."""
     with tempfile.TemporaryDirectory() as folder:
         for n, active, energy in S2[:3 if p.command[0] != 'mpirun' else 2]:
             mesh = os.path.join(folder, f'{n}.msh')
             write_bowl(mesh, n)
-            for method in ('accelerated', 'monotone multigrid'):
-                s = p.solve('obstacle/paraboloid.prm', f'Body cube/Mesh={mesh}', 'Refinement/Global cycles=0', 'Pair bottom/Obstacle=plane: (0, 0, 0.05), (0, 0, 1)', 'Pair bottom/Surface=faceted',
+            for method, levels, bound in (('accelerated', 'none', 10), ('monotone multigrid', 'none', 10), ('accelerated', 'background', 12),
+                                          ('monotone multigrid', 'background', 15)):
+                s = p.solve('obstacle/paraboloid.prm', f'Body cube/Mesh={mesh}', f'Solver/Coarse levels={levels}', 'Refinement/Global cycles=0', 'Pair bottom/Obstacle=plane: (0, 0, 0.05), (0, 0, 1)', 'Pair bottom/Surface=faceted',
                             f'Solver/Method={method}')
                 last = s['cycles'][-1]
                 near(last['energy'], energy, 1e-10, f'S2, {n}, {method}: energy')
                 check(last['active_nodes'] == active, f'S2, {n}, {method}: {last["active_nodes"]} active nodes')
-                check(last['nonlinear']['iterations'] <= 10, f'S2, {n}, {method}: {last["nonlinear"]["iterations"]} iterations')
+                check(last['nonlinear']['iterations'] <= bound, f'S2, {n}, {method}, {levels}: {last["nonlinear"]["iterations"]} iterations')
 
 
 def bounded_iterations(p, text, bound, *settings, prm='cubes/cubes.prm', nonmortar='auto'):

@@ -33,19 +33,23 @@ namespace Signorini
   /// Sets of nodes that are connected with each other, such as those of a cell, one after the other.
   struct NodeGroups
   {
-    std::vector<std::size_t>  start = {0};
+    /// Set k has the nodes from place start[k] on, up to start[k + 1].
+    std::vector<std::size_t> start = {0};
+    /// By number.
     std::vector<unsigned int> nodes;
   };
 
   /// A mesh as it is seen from the levels below it.
   struct ConnectedNodes
   {
+    /// Of the nodes (length).
     std::vector<dealii::Point<3>> positions;
     /// Mesh sizes at the nodes (length).
     std::vector<double> sizes;
     /// The parts (Bodies::part()) of the nodes.
     std::vector<unsigned int> parts;
-    NodeGroups                cells;
+    /// What is connected.
+    NodeGroups cells;
   };
 
   /// A level of trilinear functions on an octree, under a mesh or another such level: one node for each
@@ -53,9 +57,11 @@ namespace Signorini
   struct BackgroundLevel
   {
     /// One row per node of the finer level: nonnegative weights of sum 1 that reproduce linear functions.
-    NodeRows                      rows;
+    NodeRows rows;
+    /// Of the nodes of the level (length).
     std::vector<dealii::Point<3>> positions;
-    std::vector<unsigned int>     parts;
+    /// The parts that they belong to.
+    std::vector<unsigned int> parts;
   };
 
   /// The levels under a mesh, the finest first; each has cells twice as large as the one above or more. Every
@@ -68,12 +74,14 @@ namespace Signorini
   /// A background level, distributed: every node has the owner of the finer node that depends on it most.
   struct DistributedBackgroundLevel
   {
+    /// The nodes of this rank.
     dealii::IndexSet owned;
     /// One row per owned node of the finer level; empty where all of its components are fixed.
     NodeRows rows;
-    /// Of the owned nodes.
+    /// Of the owned nodes (length).
     std::vector<dealii::Point<3>> positions;
-    std::vector<unsigned int>     parts;
+    /// The parts that they belong to.
+    std::vector<unsigned int> parts;
   };
 
   /// Collective. The levels under a mesh, the finest first. Every rank makes all of them, from the whole

@@ -39,6 +39,7 @@ namespace Signorini
   /// Owned nodes of a level.
   struct NodePlaces
   {
+    /// (length)
     std::vector<dealii::Point<3>> positions;
     /// Bodies::part(), or -1 at nodes of no owned cell.
     std::vector<int> parts;

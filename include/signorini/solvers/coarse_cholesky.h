@@ -14,6 +14,7 @@ namespace Signorini
   class CoarseCholesky
   {
   public:
+    /// Which factors.
     enum class Kind
     {
       /// LDLᵀ of Eigen, for levels of a few hundred nodes.
@@ -29,8 +30,7 @@ namespace Signorini
 
     /// Collective. Factorizes; the ordering is reused while the structure stays the same.
     /// @param is_nearly_singular whether functions of the level may depend on each other: the factors are
-    /// those
-    ///   of a definite matrix beside it
+    ///   those of a definite matrix beside it
     void factorize(const NodeBlockMatrix &matrix, const bool is_nearly_singular = false);
 
     /// Collective. solution = A^-1 rhs.

@@ -61,8 +61,10 @@ namespace Signorini
       }
     };
 
+    /// To be followed by set_matrix().
     GatheredObstacleProblem();
     ~GatheredObstacleProblem();
+    /// Moves the factors.
     GatheredObstacleProblem(GatheredObstacleProblem &&) noexcept;
 
     /// Collective. The matrix, from the rows that each rank owns; the structure stays the same from the first

@@ -39,6 +39,7 @@ namespace Signorini
       unsigned int fewest_searched = 3;
     };
 
+    /// What goes on in place of an iteration that is slow.
     enum class Remedy
     {
       none,

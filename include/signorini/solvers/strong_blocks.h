@@ -27,6 +27,7 @@ namespace Signorini
   class StrongBlocks : public SmoothingStage
   {
   public:
+    /// Which nodes make up a block.
     enum class Choice
     {
       stretched_cells,
