@@ -10,6 +10,7 @@ signorini_add_layer(discretization
   hexahedron.cc
   interpolation_exchange.cc
   level_hierarchy.cc
+  level_spaces.cc
   rigid_support.cc
   transformed_rows.cc
   vertex_expansion.cc

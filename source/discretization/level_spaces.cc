@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/discretization/boundary_conditions.h>
+#include <signorini/discretization/hexahedron.h>
+#include <signorini/discretization/interpolation_exchange.h>
+#include <signorini/discretization/level_spaces.h>
+#include <signorini/solvers/level_zero_solver.h>
+
+namespace Signorini
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Weights of a vertex of a child cell on the vertices of its parent, [child][vertex][parent vertex].
+    const std::array<std::array<std::array<double, 8>, 8>, 8> &child_weights()
+    {
+      static const auto weights = [] {
+        std::array<std::array<std::array<double, 8>, 8>, 8> w;
+        for (unsigned int child = 0; child < 8; ++child)
+          for (unsigned int v = 0; v < 8; ++v)
+            {
+              Point<3> p;
+              for (unsigned int c = 0; c < 3; ++c)
+                p[c] = .5 * (((child >> c) & 1u) + ((v >> c) & 1u));
+              w[child][v] = Hexahedron::shape_values(p);
+            }
+        return w;
+      }();
+      return weights;
+    }
+
+
+
+    /// The row of one fine node: parent vertex weights times the expansions of the parent's vertices.
+    void combine(std::vector<std::pair<NodeIndex, double>> &row, const CellInterpolation &parent,
+                 const std::array<double, 8> &weights)
+    {
+      row.clear();
+      for (unsigned int v = 0; v < 8; ++v)
+        if (weights[v] != 0.)
+          for (std::size_t k = parent.start[v]; k < parent.start[v + 1]; ++k)
+            {
+              const auto   it = std::find_if(row.begin(), row.end(),
+                                             [&](const auto &e) { return e.first == parent.nodes[k]; });
+              const double w  = weights[v] * parent.weights[k];
+              if (it == row.end())
+                row.emplace_back(parent.nodes[k], w);
+              else
+                it->second += w;
+            }
+      std::sort(row.begin(), row.end());
+    }
+
+
+
+    /// The row of a vertex of a forest: itself in the coarse mesh, or the mean of the rows of the ends of the
+    /// edge it was made on.
+    void forest_row(std::vector<std::pair<NodeIndex, double>> &row, const TetrahedralForest *const forest,
+                    const unsigned int vertex, const std::vector<NodeIndex> &coarse_nodes)
+    {
+      row.clear();
+      std::vector<std::pair<unsigned int, double>> open = {{vertex, 1.}};
+      while (!open.empty())
+        {
+          const auto [v, weight] = open.back();
+          open.pop_back();
+          if (v < coarse_nodes.size())
+            {
+              const NodeIndex node = coarse_nodes[v];
+              const auto      it =
+                  std::find_if(row.begin(), row.end(), [&](const auto &e) { return e.first == node; });
+              if (it == row.end())
+                row.emplace_back(node, weight);
+              else
+                it->second += weight;
+            }
+          else
+            for (const unsigned int parent : forest->parents(v))
+              open.emplace_back(parent, .5 * weight);
+        }
+      std::sort(row.begin(), row.end());
+    }
+  } // namespace
+
+
+
+  NodeRows interpolation_rows(const NodalSpace &fine, const NodalSpace &coarse,
+                              const TetrahedralForest *const forest)
+  {
+    const ParentLookup                        parents(fine, coarse);
+    const NodeIndex                           n_owned = fine.owned().n_elements();
+    const NodeIndex                           begin   = n_owned > 0 ? fine.owned().nth_index_in_set(0) : 0;
+    std::vector<bool>                         done(n_owned, false);
+    std::vector<std::size_t>                  first(n_owned, 0), last(n_owned, 0);
+    std::vector<std::pair<NodeIndex, double>> entries, row;
+    std::array<double, 8>                     weights;
+    for (const NodalSpace::Cell &cell : fine.cells())
+      if (cell.is_owned && cell.n_vertices == CellShape::hexahedron)
+        {
+          const auto               nodes  = fine.nodes(cell);
+          const CellInterpolation *parent = nullptr;
+          int                      child  = -1;
+          for (unsigned int v = 0; v < 8; ++v)
+            {
+              const NodeIndex i = nodes[v] - begin;
+              if (nodes[v] < begin || i >= n_owned || done[i])
+                continue;
+              done[i] = true;
+              if (fine.hanging_nodes().is_constrained(nodes[v]))
+                continue;
+              if (parent == nullptr)
+                std::tie(parent, child) = parents.find(cell);
+              if (child < 0)
+                {
+                  weights.fill(0.);
+                  weights[v] = 1.;
+                }
+              else
+                weights = child_weights()[child][v];
+              combine(row, *parent, weights);
+              first[i] = entries.size();
+              entries.insert(entries.end(), row.begin(), row.end());
+              last[i] = entries.size();
+            }
+        }
+    const NodeIndex n_before = n_owned - fine.n_owned_forest_nodes();
+    for (NodeIndex i = n_before; i < n_owned; ++i)
+      {
+        forest_row(row, forest, fine.owned_forest_vertices()[i - n_before], coarse.forest_nodes());
+        first[i] = entries.size();
+        entries.insert(entries.end(), row.begin(), row.end());
+        last[i] = entries.size();
+      }
+    NodeRows result;
+    result.columns.reserve(entries.size());
+    result.weights.reserve(entries.size());
+    for (NodeIndex i = 0; i < n_owned; ++i)
+      {
+        for (std::size_t k = first[i]; k < last[i]; ++k)
+          result.add(entries[k].first, entries[k].second);
+        result.finish_row();
+      }
+    return result;
+  }
+
+
+
+  namespace
+  {
+    /// Fixed masks of the owned nodes; hanging ones are fixed.
+    std::vector<FixedMask> fixed_masks(const NodalSpace &space, const Loads &loads)
+    {
+      const DirichletData    dirichlet = evaluate_dirichlet(space, loads, false);
+      std::vector<FixedMask> masks;
+      for (const NodeIndex node : space.owned())
+        masks.push_back(space.hanging_nodes().is_constrained(node)
+                            ? all_fixed
+                            : dirichlet.mask[space.relevant().index_within_set(node)]);
+      return masks;
+    }
+  } // namespace
+
+
+
+  LevelSpaces::LevelSpaces(const NodalSpace &finest, std::vector<std::shared_ptr<const NodalSpace>> coarser,
+                           const Bodies &bodies, const Loads &loads, const CoarseLevels coarse_levels)
+  {
+    const NodalSpace *below = nullptr;
+    const auto        add   = [&](const NodalSpace &space) {
+      std::vector<FixedMask> fixed = fixed_masks(space, loads);
+      if (below != nullptr)
+        rows.push_back(interpolation_rows(space, *below, bodies.tetrahedra()));
+      else if (coarse_levels == CoarseLevels::background ||
+               (coarse_levels == CoarseLevels::automatic && LevelZero().uses_amg(space.n_conforming_nodes())))
+        add_background(background_levels(space, fixed, bodies));
+      if (owned_nodes.empty())
+        places = node_places(bodies, space);
+      owned_nodes.push_back(space.owned());
+      masks.push_back(std::move(fixed));
+      below = &space;
+    };
+    for (const auto &space : coarser)
+      add(*space);
+    add(finest);
+  }
+
+
+
+  void LevelSpaces::add_background(std::vector<DistributedBackgroundLevel> &&levels)
+  {
+    std::reverse(levels.begin(), levels.end());
+    n_background = static_cast<unsigned int>(levels.size());
+    for (DistributedBackgroundLevel &level : levels)
+      {
+        if (owned_nodes.empty())
+          {
+            places.positions = std::move(level.positions);
+            places.parts.assign(level.parts.begin(), level.parts.end());
+          }
+        masks.emplace_back(level.owned.n_elements(), 0);
+        owned_nodes.push_back(std::move(level.owned));
+        rows.push_back(std::move(level.rows));
+      }
+  }
+} // namespace Signorini
