@@ -34,11 +34,35 @@ namespace Signorini
 
 
   SafetyNet::SafetyNet(MultigridHierarchy &hierarchy, const SolverParameters &parameters,
-                       const unsigned int level)
+                       const unsigned int level, ConvergenceReport &report)
     : hierarchy(hierarchy)
     , parameters(parameters)
     , level(level)
   {
+    if (is_wanted() && parameters.starts_with_patches)
+      strengthen(report);
+  }
+
+
+
+  bool SafetyNet::is_wanted() const
+  {
+    return parameters.safety_net && parameters.method == SolverMethod::accelerated;
+  }
+
+
+
+  bool SafetyNet::acts(const bool is_conjugate, Vector &v, const ObstacleProblem &problem,
+                       ContactState &contact, ConvergenceReport &report,
+                       const ObstacleSolver::Monitor &monitor)
+  {
+    n_conjugate         = is_conjugate ? n_conjugate + 1 : 0;
+    const Remedy remedy = due(report, problem);
+    if (remedy == Remedy::patches)
+      strengthen(report);
+    else if (remedy == Remedy::active_set_steps)
+      take_over(v, problem, contact, report, monitor);
+    return remedy != Remedy::none;
   }
 
 
@@ -59,7 +83,7 @@ namespace Signorini
 
   SafetyNet::Remedy SafetyNet::due(const ConvergenceReport &report, const ObstacleProblem &problem) const
   {
-    if (report.converged || problem.semidefinite || level + 1 != hierarchy.n_levels() ||
+    if (!is_wanted() || report.converged || problem.semidefinite || level + 1 != hierarchy.n_levels() ||
         report.history.size() <= rule.n_watched || report.iterations < not_before || report.scale <= 0.)
       return Remedy::none;
     const double left = iterations_left(report, parameters);
@@ -90,7 +114,7 @@ namespace Signorini
 
 
 
-  bool SafetyNet::take_over(Vector &v, const ObstacleProblem &problem, ContactState &contact,
+  void SafetyNet::take_over(Vector &v, const ObstacleProblem &problem, ContactState &contact,
                             ConvergenceReport &report, const ObstacleSolver::Monitor &monitor)
   {
     SafetyNetReport &net = report.safety_net;
@@ -113,6 +137,5 @@ namespace Signorini
     // Longer each time.
     not_before  = report.iterations + (static_cast<unsigned int>(rule.n_watched) << net.n_failed);
     n_conjugate = 0;
-    return ended;
   }
 } // namespace Signorini

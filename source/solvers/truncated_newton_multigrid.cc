@@ -110,6 +110,16 @@ namespace Signorini
 
 
 
+  IterationPhase TruncatedNewtonMultigrid::begin_from(const Vector &v, Vector &residual,
+                                                      const ObstacleProblem &problem)
+  {
+    matrix().symmetric_residual(residual, v, problem.rhs);
+    conjugate.restart();
+    return IterationPhase::searching;
+  }
+
+
+
   ConvergenceReport TruncatedNewtonMultigrid::solve(Vector &v, const ObstacleProblem &problem,
                                                     const Monitor &monitor)
   {
@@ -120,15 +130,10 @@ namespace Signorini
                                 parameters.starts_with_interface_sweeps);
     TruncatedCycle       cycle(hierarchy, level, parameters.smoothing, problem, contact);
     SubstepCheck         check(matrix(), problem, report, parameters.check_monotonicity);
-    const bool           catches = accelerates && parameters.safety_net;
-    SafetyNet            net(hierarchy, parameters, level);
-    if (catches && parameters.starts_with_patches)
-      net.strengthen(report);
-    Vector residual;
+    SafetyNet            net(hierarchy, parameters, level, report);
+    Vector               residual;
     residual.reinit(v);
-    matrix().symmetric_residual(residual, v, problem.rhs);
-    conjugate.restart();
-    IterationPhase phase = IterationPhase::searching;
+    IterationPhase phase = begin_from(v, residual, problem);
     while (goes_on(report))
       {
         cycle.run(v, residual, {sweeps.choose(phase), phase, trusts_set}, check);
@@ -150,18 +155,8 @@ namespace Signorini
           conjugate.restart();
         const double square = v * problem.rhs - v * residual;
         book_iteration(report, norm, std::sqrt(std::max(square, 0.)), monitor);
-
-        net.observe(step.is_conjugate);
-        const auto remedy = catches ? net.due(report, problem) : SafetyNet::Remedy::none;
-        if (remedy == SafetyNet::Remedy::none)
-          continue;
-        if (remedy == SafetyNet::Remedy::patches)
-          net.strengthen(report);
-        else
-          net.take_over(v, problem, contact, report, monitor);
-        matrix().symmetric_residual(residual, v, problem.rhs);
-        conjugate.restart();
-        phase = IterationPhase::searching;
+        if (net.acts(step.is_conjugate, v, problem, contact, report, monitor))
+          phase = begin_from(v, residual, problem);
       }
     close(report, v, problem, residual);
     report.hierarchy_updates       = cycle.n_updates;

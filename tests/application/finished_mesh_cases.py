@@ -32,6 +32,8 @@ def finished_mesh(p):
         print(f'{text}: {count(s)} iterations, linear {s["cycles"][0]["linear"]["iterations"]}, with CG '
               f'{s["cycles"][0]["linear_cg"]["iterations"]}', *(f', with its own hierarchy {count(o)}' for o in own))
         certificate(s)
+        # Level 0 solved nearly exactly would take fewer iterations yet.
+        check(s['cycles'][0]['levels'] >= 3, f'{text}: {s["cycles"][0]["levels"]} levels')
         check(count(s) <= 18, f'{text}: {count(s)} iterations')
         check(count(s) <= 1.2 * s['cycles'][0]['linear_cg']['iterations'] + 1, f'{text}: {count(s)} iterations')
         for o in own:

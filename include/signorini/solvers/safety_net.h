@@ -39,6 +39,19 @@ namespace Signorini
       unsigned int fewest_searched = 3;
     };
 
+    /// Collective. All must outlive the object. Where the parameters say so the smoothers take patches from
+    /// the beginning.
+    /// @param level the finest one of the problem
+    SafetyNet(MultigridHierarchy &hierarchy, const SolverParameters &parameters, const unsigned int level,
+              ConvergenceReport &report);
+
+    /// Collective. After an iteration, with its admissible v and what is active there: does what is due, and
+    /// says whether it has done anything.
+    /// @param is_conjugate whether the iteration took a step of conjugate gradients
+    bool acts(const bool is_conjugate, Vector &v, const ObstacleProblem &problem, ContactState &contact,
+              ConvergenceReport &report, const ObstacleSolver::Monitor &monitor);
+
+  private:
     /// What goes on in place of an iteration that is slow.
     enum class Remedy
     {
@@ -47,30 +60,18 @@ namespace Signorini
       active_set_steps
     };
 
-    /// All must outlive the object.
-    /// @param level the finest one of the problem
-    SafetyNet(MultigridHierarchy &hierarchy, const SolverParameters &parameters, const unsigned int level);
+    bool is_wanted() const;
 
-    /// After an iteration.
-    /// @param is_conjugate whether it took a step of conjugate gradients
-    void observe(const bool is_conjugate)
-    {
-      n_conjugate = is_conjugate ? n_conjugate + 1 : 0;
-    }
-
-    /// What is due after an iteration: the same on all ranks.
+    /// The same on all ranks.
     Remedy due(const ConvergenceReport &report, const ObstacleProblem &problem) const;
 
-    /// Collective. Has the smoothers take patches, if that is not done yet and the mesh is too large for
-    /// sparse factors.
+    /// Has the smoothers take patches, if that is not done yet and the mesh is too large for sparse factors.
     void strengthen(ConvergenceReport &report);
 
-    /// Collective. Goes on from an admissible v and what is active there, and says what is active in the end:
     /// ActiveSetSolver::go_on().
-    bool take_over(Vector &v, const ObstacleProblem &problem, ContactState &contact,
+    void take_over(Vector &v, const ObstacleProblem &problem, ContactState &contact,
                    ConvergenceReport &report, const ObstacleSolver::Monitor &monitor);
 
-  private:
     double n_unknowns() const;
     bool   uses_factors() const;
 

@@ -59,6 +59,9 @@ namespace Signorini
     /// whether it was taken. Updates the residual of v by it.
     bool accelerate(const Vector &v, Vector &residual, TruncatedCycle &cycle, const ObstacleProblem &problem);
 
+    /// Collective. The iteration begins, or begins anew, at v: residual = rhs - A v, no old directions.
+    IterationPhase begin_from(const Vector &v, Vector &residual, const ObstacleProblem &problem);
+
     ConjugateGradients conjugate;
   };
 } // namespace Signorini
