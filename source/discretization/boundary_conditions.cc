@@ -60,9 +60,17 @@ namespace Signorini
   {
     const std::string section = "Body " + bodies.body_name(body) + "/";
     for (const LoadDefinition::Displacement &condition : definition.displacements)
-      dirichlet.push_back({body, condition.boundary,
-                           bodies.boundary_ids(body, condition.boundary, section + "Dirichlet"),
-                           condition.components});
+      {
+        const unsigned int           node_set = bodies.has_boundary(body, condition.boundary)
+                                                    ? StartNodes::none
+                                                    : bodies.node_set(body, condition.boundary);
+        std::set<types::boundary_id> ids;
+        if (node_set == StartNodes::none)
+          ids = bodies.boundary_ids(body, condition.boundary, section + "Dirichlet");
+        dirichlet.push_back({body, condition.boundary, ids, condition.components, node_set});
+      }
+    for (const LoadDefinition::NodalForce &force : definition.nodal_forces)
+      nodal_forces[bodies.start_vertex(body, force.vertex)] += force.force;
     for (const LoadDefinition::SurfaceForce &force : definition.surface_forces)
       tractions.push_back(
           {bodies.boundary_ids(body, force.boundary, section + (force.traction ? "Tractions" : "Pressures")),
@@ -105,6 +113,23 @@ namespace Signorini
             }
         }
     }
+
+    /// Entries of the conditions on sets of nodes, at the nodes of this rank.
+    void collect_from_sets(DirichletData &data, const NodalSpace &space, const Loads &loads)
+    {
+      for (int condition = 0; condition < static_cast<int>(loads.dirichlet.size()); ++condition)
+        if (loads.dirichlet[condition].node_set != StartNodes::none)
+          for (const NodeIndex node : space.node_sets()[loads.dirichlet[condition].node_set])
+            {
+              const std::size_t i = space.relevant().index_within_set(node);
+              for (unsigned int c = 0; c < dim; ++c)
+                if (loads.dirichlet[condition].components[c])
+                  {
+                    data.mask[i] |= 1u << c;
+                    data.condition[i][c] = std::max(data.condition[i][c], condition);
+                  }
+            }
+    }
   } // namespace
 
 
@@ -129,6 +154,7 @@ namespace Signorini
     data.value.assign(n, Vector3());
     data.condition.assign(n, {{-1, -1, -1}});
     collect_from_faces(data, space, loads);
+    collect_from_sets(data, space, loads);
 
     // A rank sees all faces at its own nodes, but not all at its ghost nodes: ask the owners.
     if (Utilities::MPI::n_mpi_processes(space.communicator()) > 1)

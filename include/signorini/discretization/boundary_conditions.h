@@ -11,6 +11,7 @@
 #include <deal.II/base/parameter_handler.h>
 
 #include <array>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -20,10 +21,10 @@ namespace Signorini
   /// What acts on a body. Boundaries are those that its mesh names.
   struct LoadDefinition
   {
-    /// Prescribed on a boundary (length).
+    /// Prescribed on a boundary or at a set of nodes (length).
     struct Displacement
     {
-      /// A boundary that the mesh names.
+      /// A boundary, or else a set of nodes, that the mesh names.
       std::string boundary;
       /// Free components are empty.
       std::array<ScalarField, 3> components;
@@ -39,9 +40,19 @@ namespace Signorini
       ScalarField pressure;
     };
 
+    /// Acts at a node of the start mesh.
+    struct NodalForce
+    {
+      /// Of BodyDefinition::mesh.
+      unsigned int vertex;
+      /// Several at a node add up.
+      Vector3 force;
+    };
+
     /// Where conditions overlap, the later one counts.
     std::vector<Displacement> displacements;
     std::vector<SurfaceForce> surface_forces;
+    std::vector<NodalForce>   nodal_forces;
     /// Force per volume; empty for none.
     VectorField volume_force;
   };
@@ -68,6 +79,8 @@ namespace Signorini
     std::string                          boundary;
     std::set<dealii::types::boundary_id> ids;
     std::array<ScalarField, 3>           components;
+    /// Number of the set of nodes (NodalSpace::node_sets()) that it holds instead of a boundary.
+    unsigned int node_set = StartNodes::none;
   };
 
   /// Force per area on a boundary: a vector, a pressure against the outward normal, or both.
@@ -88,6 +101,8 @@ namespace Signorini
     /// The conditions, in the order of the parameter file.
     std::vector<DirichletCondition> dirichlet;
     std::vector<Traction>           tractions;
+    /// Forces at vertices of the start meshes (NodalSpace::start_vertices()).
+    std::map<unsigned int, Vector3> nodal_forces;
     /// Force per volume of each body; an entry for all of them is needed, so add() every body.
     std::vector<VectorField> volume_forces;
 
