@@ -30,6 +30,17 @@ namespace Signorini
     : source(file)
   {
     read_keywords();
+    for (const auto &[keyword, instance] : element_keywords)
+      {
+        if (instance != none && instances[instance].end_element == 0)
+          {
+            instances[instance].element_offset = largest_element;
+            instances[instance].first_element  = static_cast<unsigned int>(element_list.size());
+          }
+        read_elements(*keyword, instance);
+        if (instance != none)
+          instances[instance].end_element = static_cast<unsigned int>(element_list.size());
+      }
     resolve_sets();
     resolve_surfaces();
   }
@@ -60,13 +71,10 @@ namespace Signorini
               Instance instance;
               instance.name           = keywords[i].get("NAME");
               instance.node_offset    = largest_node;
-              instance.element_offset = largest_element;
-              instance.first_element  = static_cast<unsigned int>(element_list.size());
               instances.push_back(instance);
               instance_index[deck_upper(instance.name)] = static_cast<unsigned int>(instances.size() - 1);
               for (std::size_t k = begin; k < end; ++k)
                 read_keyword(keywords[k], static_cast<unsigned int>(instances.size() - 1));
-              instances.back().end_element = static_cast<unsigned int>(element_list.size());
             }
           i = end - 1;
         }
@@ -123,8 +131,6 @@ namespace Signorini
     Instance           instance;
     instance.name           = keyword.get("NAME");
     instance.node_offset    = largest_node;
-    instance.element_offset = largest_element;
-    instance.first_element  = static_cast<unsigned int>(element_list.size());
     set_placement(instance, keyword);
     const auto number = static_cast<unsigned int>(instances.size());
     if (!instance_index.insert({deck_upper(instance.name), number}).second)
@@ -134,7 +140,6 @@ namespace Signorini
       add_part(keyword.get("PART"), keyword.place, number);
     for (std::size_t k = begin + 1; k < end; ++k)
       read_keyword(source.keywords()[k], number);
-    instances[number].end_element = static_cast<unsigned int>(element_list.size());
   }
 
 
@@ -169,7 +174,12 @@ namespace Signorini
     if (name == "NODE")
       read_nodes(keyword, instance);
     else if (name == "ELEMENT")
-      read_elements(keyword, instance);
+      {
+        // Nodes may come behind the elements.
+        if (keyword.has("ELSET"))
+          raw_set(raw_element_sets, keyword.get("ELSET"), instance);
+        element_keywords.push_back({&keyword, instance});
+      }
     else if (name == "NSET")
       read_set(raw_node_sets, keyword, "NSET", instance);
     else if (name == "ELSET")

@@ -99,12 +99,12 @@ def deck_elements(d):
         exact(*d.solve(text), [upper, lower])
     text, upper, lower = two_blocks('C3D20', (2, 2, 1), (3, 3, 1), other='C3D10')
     exact(*d.solve(text), [upper, lower])
-    # Wedges on hexahedra in one body.
+    # Wedges beside hexahedra in one body.
     text, upper, lower = two_blocks('C3D8', (2, 2, 1), (3, 3, 2))
     cut = ''
     for line in lower.text_elements('Lower').splitlines()[1:]:
         label, *n = [int(w) for w in line.split(',')]
-        if label % 2:
+        if (label - 1) // 2 % 2:
             cut += f'*ELEMENT, TYPE=C3D6, ELSET=Lower\n{label}, {n[0]}, {n[1]}, {n[2]}, {n[4]}, {n[5]}, {n[6]}\n'
             cut += f'{label + 5000}, {n[0]}, {n[2]}, {n[3]}, {n[4]}, {n[6]}, {n[7]}\n'
         else:
@@ -402,7 +402,7 @@ def deck_calculix(d):
         return
     penalty = INTERACTION.replace('OVERCLOSURE=HARD\n', 'OVERCLOSURE=LINEAR\n1e7,\n')
     for kind, n_upper, n_lower in (('C3D8', (4, 4, 4), (5, 5, 4)), ('C3D8I', (4, 4, 4), (5, 5, 4)), ('C3D20', (2, 2, 2), (3, 3, 2)),
-                                   ('C3D20R', (2, 2, 2), (3, 3, 2)), ('C3D10', (2, 2, 2), (3, 3, 2)), ('C3D6', (4, 4, 4), (5, 5, 4))):
+                                   ('C3D20R', (2, 2, 2), (3, 3, 2)), ('C3D10', (3, 3, 3), (4, 4, 4)), ('C3D6', (6, 6, 6), (7, 7, 6))):
         # The upper block is narrower, the top is pushed down.
         upper = Block(kind, (0, 0, 0), (.5, .5, .5), n_upper)
         lower = Block(kind, (0, 0, -1), (1, 1, 0), tuple(2 * k for k in n_lower[:2]) + (n_lower[2],), 10000, 10000)

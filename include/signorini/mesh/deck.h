@@ -229,6 +229,7 @@ namespace Signorini
     std::vector<DeckSurface>                        surface_list;
     std::vector<unsigned int>                       surface_instance;
     std::vector<const DeckKeyword *>                surface_keywords;
+    std::vector<Other>                              element_keywords;
     std::map<std::string, unsigned int>             surface_index;
     std::vector<Other>                              other_list;
     std::vector<std::string>                        remark_list;
