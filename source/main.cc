@@ -151,7 +151,7 @@ namespace
                                            : run_nested_iteration(model, parameters, journal);
     if (file.deck() != nullptr && !line.mesh_only)
       judge_linear_kinematics(*file.deck(), model, nested, journal);
-    nested.results.notes  = journal.notes();
+    nested.results.notes = journal.notes();
     if (!line.mesh_only)
       nested.results.wall_time = time.wall_time();
     write_results(nested, model, file, *folder, line.mesh_only);

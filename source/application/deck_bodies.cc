@@ -24,8 +24,8 @@ namespace Signorini
 
   namespace
   {
-    /// The name of the smallest set that contains all elements, if it has no others; else that of the smallest
-    /// one that contains them; else empty.
+    /// The name of the smallest set that contains all elements, if it has no others; else that of the
+    /// smallest one that contains them; else empty.
     std::string smallest_set(const Deck &deck, const std::vector<unsigned int> &elements)
     {
       const DeckSet *best = nullptr;

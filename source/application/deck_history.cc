@@ -20,8 +20,8 @@ namespace Signorini
     if (!definition.empty() && definition != "TABULAR")
       fail(keyword.place, "amplitudes are tables, DEFINITION=" + definition + " is not supported.");
     Amplitude amplitude;
-    amplitude.is_total = deck_upper(keyword.get("TIME")) == "TOTALTIME" ||
-                         deck_upper(keyword.get("TIME")) == "TOTAL TIME";
+    amplitude.is_total =
+        deck_upper(keyword.get("TIME")) == "TOTALTIME" || deck_upper(keyword.get("TIME")) == "TOTAL TIME";
     for (const DeckLine &line : keyword.lines)
       {
         const Words words = deck_words(line.text);
@@ -115,10 +115,10 @@ namespace Signorini
         if (words.size() < 2)
           fail(line.place, "TIE needs two surfaces: the dependent one, then the independent one.");
         DeckPair pair;
-        pair.slave   = &deck.surface(words[0], line.place, instance);
-        pair.master  = &deck.surface(words[1], line.place, instance);
-        pair.name    = keyword.get("NAME").empty() ? pair.slave->name + "-" + pair.master->name :
-                                                     keyword.get("NAME");
+        pair.slave  = &deck.surface(words[0], line.place, instance);
+        pair.master = &deck.surface(words[1], line.place, instance);
+        pair.name =
+            keyword.get("NAME").empty() ? pair.slave->name + "-" + pair.master->name : keyword.get("NAME");
         pair.is_tied = true;
         pair.place   = line.place;
         contact.emplace_back(pair, "");
@@ -227,7 +227,8 @@ namespace Signorini
 
 
 
-  void DeckModelReader::add_boundary(const Keyword &keyword, const DeckLine &line, const unsigned int instance)
+  void DeckModelReader::add_boundary(const Keyword &keyword, const DeckLine &line,
+                                     const unsigned int instance)
   {
     const Words words = deck_words(line.text);
     if (words.size() < 2)
@@ -245,7 +246,8 @@ namespace Signorini
     else
       {
         const long first = deck.text().label(words[1], line.place);
-        const long last  = words.size() > 2 && !words[2].empty() ? deck.text().label(words[2], line.place) : first;
+        const long last =
+            words.size() > 2 && !words[2].empty() ? deck.text().label(words[2], line.place) : first;
         const double value =
             words.size() > 3 && !words[3].empty() ? number(words, 3, line) * factor(keyword) : 0.;
         if (first < 1 || last > 6)
@@ -319,7 +321,8 @@ namespace Signorini
         const long direction = deck.text().label(words[1], line.place);
         if (direction < 1 || direction > 3)
           {
-            model.refuse(line.place, "CLOAD", "nodes of solid elements take forces in the directions 1 to 3.");
+            model.refuse(line.place, "CLOAD",
+                         "nodes of solid elements take forces in the directions 1 to 3.");
             continue;
           }
         const double value = number(words, 2, line) * factor(keyword);
@@ -352,7 +355,7 @@ namespace Signorini
       }
     else
       {
-        load.is_acceleration     = false;
+        load.is_acceleration      = false;
         load.value[kind[1] - 'X'] = size;
       }
     // The same load of an earlier step is replaced.
@@ -392,7 +395,8 @@ namespace Signorini
               set_load(state.pressures[{e, side}], number(words, 2, line) * factor(keyword));
             }
         else
-          model.refuse(line.place, "DLOAD", "loads are P1, P2, ... (pressure), GRAV, BX, BY, BZ, not " + kind + ".");
+          model.refuse(line.place, "DLOAD",
+                       "loads are P1, P2, ... (pressure), GRAV, BX, BY, BZ, not " + kind + ".");
       }
   }
 
@@ -410,9 +414,9 @@ namespace Signorini
           fail(line.place, "DSLOAD needs a surface, the kind of the load and its size.");
         const std::string kind = deck_upper(words[1]);
         DeckSurfaceLoad   load;
-        load.surface = &deck.surface(words[0], line.place, instance);
-        load.step    = step;
-        load.place   = line.place;
+        load.surface      = &deck.surface(words[0], line.place, instance);
+        load.step         = step;
+        load.place        = line.place;
         const double size = number(words, 2, line) * factor(keyword);
         if (kind == "P")
           load.pressure = size;

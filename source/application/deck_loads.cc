@@ -119,12 +119,11 @@ namespace Signorini
           {
             Values values = condition.values;
             if (frame != Deck::none && !to_global(values, condition.values, model.frames()[frame]))
-              deck.text().fail(condition.place,
-                               "directions of a TRANSFORM that are oblique (" +
-                                   deck.text().where(model.frames()[frame].place) +
-                                   ") need all three directions to be prescribed.");
-            std::string name = condition.set.empty() ? "nodes of line " + std::to_string(condition.place.line) :
-                                                       condition.set;
+              deck.text().fail(condition.place, "directions of a TRANSFORM that are oblique (" +
+                                                    deck.text().where(model.frames()[frame].place) +
+                                                    ") need all three directions to be prescribed.");
+            std::string name = condition.set.empty() ? "nodes of line " + std::to_string(condition.place.line)
+                                                     : condition.set;
             for (DeckBody &body : bodies)
               is_anywhere = add_condition(body, name, nodes, values) || is_anywhere;
           }
@@ -180,8 +179,7 @@ namespace Signorini
             if (frame == model.frame_of_node().end())
               force[component] = load.value;
             else
-              force = load.value *
-                      axes_at(model.frames()[frame->second], deck.positions()[node])[component];
+              force = load.value * axes_at(model.frames()[frame->second], deck.positions()[node])[component];
             bool is_anywhere = load.value == 0.;
             for (DeckBody &body : bodies)
               if (const unsigned int vertex = body.cells->vertex(node); vertex != VolumeMesh::no_vertex)
@@ -313,7 +311,7 @@ namespace Signorini
         std::map<unsigned int, Vector3> force_of;
         for (std::size_t i = 0; i < forces.size(); ++i)
           force_of[body.elements[i]] = forces[i];
-        const VolumeMesh                &mesh = body.cells->mesh;
+        const VolumeMesh               &mesh = body.cells->mesh;
         std::map<unsigned int, Vector3> nodal;
         for (std::size_t c = 0; c < mesh.cells.size(); ++c)
           if (const Vector3 &force = force_of[body.cells->element_of_cell()[c]]; force.norm() > 0.)
@@ -336,8 +334,7 @@ namespace Signorini
           result.emplace_back(cell.vertices[v], 0.);
         if (cell.n_vertices == CellShape::tetrahedron)
           {
-            const double volume =
-                std::abs(cross_product_3d(x[1] - x[0], x[2] - x[0]) * (x[3] - x[0])) / 6.;
+            const double volume = std::abs(cross_product_3d(x[1] - x[0], x[2] - x[0]) * (x[3] - x[0])) / 6.;
             for (auto &entry : result)
               entry.second = volume / 4.;
             return result;
@@ -368,18 +365,19 @@ namespace Signorini
         return result;
       }
 
-      std::vector<DeckBody>                                    &bodies;
-      const DeckModel                                          &model;
-      const Deck                                               &deck;
-      const DeckState                                          &state;
-      std::vector<std::string>                                 &remarks;
-      std::map<const DeckBody *, std::vector<Vector3>>          volume_forces;
+      std::vector<DeckBody>                           &bodies;
+      const DeckModel                                 &model;
+      const Deck                                      &deck;
+      const DeckState                                 &state;
+      std::vector<std::string>                        &remarks;
+      std::map<const DeckBody *, std::vector<Vector3>> volume_forces;
     };
   } // namespace
 
 
 
-  void add_deck_loads(std::vector<DeckBody> &bodies, const DeckModel &model, std::vector<std::string> &remarks)
+  void add_deck_loads(std::vector<DeckBody> &bodies, const DeckModel &model,
+                      std::vector<std::string> &remarks)
   {
     LoadsOfDeck(bodies, model, remarks).add();
   }

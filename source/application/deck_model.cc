@@ -28,8 +28,8 @@ namespace Signorini
   void DeckModel::refuse(const DeckPlace &place, const std::string &keyword, const std::string &text) const
   {
     if (the_options.ignore.count(keyword) == 0)
-      the_deck.text().fail(place, keyword + ": " + text + " To compute without it: --ignore \"" + keyword +
-                                      "\".");
+      the_deck.text().fail(place,
+                           keyword + ": " + text + " To compute without it: --ignore \"" + keyword + "\".");
   }
 
 
@@ -83,9 +83,9 @@ namespace Signorini
 
   const std::map<std::string, std::string> &DeckModelReader::refused()
   {
-    static const std::string procedure = "only STATIC steps are computed.", plastic =
-                                                                                "materials are linearly elastic.",
-                             structural = "only solid elements are computed.";
+    static const std::string procedure                    = "only STATIC steps are computed.",
+                             plastic                      = "materials are linearly elastic.",
+                             structural                   = "only solid elements are computed.";
     static const std::map<std::string, std::string> table = {
         {"PLASTIC", plastic},
         {"CYCLIC HARDENING", plastic},
@@ -146,14 +146,48 @@ namespace Signorini
 
   const std::set<std::string> &DeckModelReader::passed_over()
   {
-    static const std::set<std::string> names = {
-        "PREPRINT", "OUTPUT", "NODE OUTPUT", "ELEMENT OUTPUT", "CONTACT OUTPUT", "ENERGY OUTPUT", "NODE FILE",
-        "EL FILE", "NODE PRINT", "EL PRINT", "CONTACT FILE", "CONTACT PRINT", "FACE PRINT", "SECTION PRINT",
-        "FILE FORMAT", "FILE OUTPUT", "MONITOR", "CONTROLS", "SOLUTION TECHNIQUE", "TIME POINTS", "PRINT",
-        "CONTACT CONTROLS", "CONTACT STABILIZATION", "ORIENTATION", "DAMPING", "CONDUCTIVITY",
-        "SPECIFIC HEAT", "PHYSICAL CONSTANTS", "SECTION CONTROLS", "HOURGLASS STIFFNESS", "NO ANALYSIS",
-        "CONSTRAINT CONTROLS", "DIAGNOSTICS", "FILTER", "NODE RESPONSE", "SOLVER CONTROLS", "USER ELEMENT OUTPUT",
-        "INTEGRATED OUTPUT", "INTEGRATED OUTPUT SECTION", "SURFACE FLAW", "PARAMETER OUTPUT", "RESPONSE"};
+    static const std::set<std::string> names = {"PREPRINT",
+                                                "OUTPUT",
+                                                "NODE OUTPUT",
+                                                "ELEMENT OUTPUT",
+                                                "CONTACT OUTPUT",
+                                                "ENERGY OUTPUT",
+                                                "NODE FILE",
+                                                "EL FILE",
+                                                "NODE PRINT",
+                                                "EL PRINT",
+                                                "CONTACT FILE",
+                                                "CONTACT PRINT",
+                                                "FACE PRINT",
+                                                "SECTION PRINT",
+                                                "FILE FORMAT",
+                                                "FILE OUTPUT",
+                                                "MONITOR",
+                                                "CONTROLS",
+                                                "SOLUTION TECHNIQUE",
+                                                "TIME POINTS",
+                                                "PRINT",
+                                                "CONTACT CONTROLS",
+                                                "CONTACT STABILIZATION",
+                                                "ORIENTATION",
+                                                "DAMPING",
+                                                "CONDUCTIVITY",
+                                                "SPECIFIC HEAT",
+                                                "PHYSICAL CONSTANTS",
+                                                "SECTION CONTROLS",
+                                                "HOURGLASS STIFFNESS",
+                                                "NO ANALYSIS",
+                                                "CONSTRAINT CONTROLS",
+                                                "DIAGNOSTICS",
+                                                "FILTER",
+                                                "NODE RESPONSE",
+                                                "SOLVER CONTROLS",
+                                                "USER ELEMENT OUTPUT",
+                                                "INTEGRATED OUTPUT",
+                                                "INTEGRATED OUTPUT SECTION",
+                                                "SURFACE FLAW",
+                                                "PARAMETER OUTPUT",
+                                                "RESPONSE"};
     return names;
   }
 
@@ -200,8 +234,7 @@ namespace Signorini
         const auto it = interactions.find(deck_upper(name));
         if (!name.empty() && it == interactions.end())
           fail(pair.place, "there is no SURFACE INTERACTION \"" + name + "\".");
-        model.pair_list.back().is_tied =
-            pair.is_tied || (it != interactions.end() && it->second.is_tied);
+        model.pair_list.back().is_tied = pair.is_tied || (it != interactions.end() && it->second.is_tied);
       }
     if (model.steps().size() > 1)
       model.remark_list.push_back(
@@ -275,8 +308,8 @@ namespace Signorini
       model.refuse(keyword.place, "ELASTIC", "materials are isotropic, TYPE=" + type + " is not.");
     if (keyword.lines.empty())
       fail(keyword.place, "ELASTIC needs Young's modulus and Poisson's ratio.");
-    const DeckLine &line     = keyword.lines[0];
-    const Words     words    = deck_words(line.text);
+    const DeckLine &line      = keyword.lines[0];
+    const Words     words     = deck_words(line.text);
     material(keyword).elastic = IsotropicMaterial{number(words, 0, line), number(words, 1, line)};
     if (keyword.lines.size() > 1)
       model.differ(keyword.place, "ELASTIC depends on temperature; the first row is taken.");

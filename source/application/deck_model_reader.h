@@ -74,22 +74,22 @@ namespace Signorini
     void add_volume_load(const Keyword &keyword, const DeckLine &line, const Words &words,
                          const unsigned int instance);
     /// Adds in the same step, replaces that of an earlier one.
-    void   set_load(DeckLoad &load, const double value) const;
-    bool   is_new(const Keyword &keyword) const;
-    double factor(const Keyword &keyword) const;
-    double number(const Words &words, const std::size_t i, const DeckLine &line) const;
+    void              set_load(DeckLoad &load, const double value) const;
+    bool              is_new(const Keyword &keyword) const;
+    double            factor(const Keyword &keyword) const;
+    double            number(const Words &words, const std::size_t i, const DeckLine &line) const;
     [[noreturn]] void fail(const DeckPlace &place, const std::string &text) const;
     Vector3           direction(const Words &words, const std::size_t i, const DeckLine &line) const;
 
-    DeckModel                               &model;
-    const Deck                              &deck;
-    DeckState                                state;
-    bool                                     is_in_step = false;
-    unsigned int                             step       = 0;
-    double                                   period     = 1.;
-    std::map<std::string, Amplitude>         amplitudes;
-    std::map<std::string, Interaction>       interactions;
-    std::string                              interaction;
+    DeckModel                                    &model;
+    const Deck                                   &deck;
+    DeckState                                     state;
+    bool                                          is_in_step = false;
+    unsigned int                                  step       = 0;
+    double                                        period     = 1.;
+    std::map<std::string, Amplitude>              amplitudes;
+    std::map<std::string, Interaction>            interactions;
+    std::string                                   interaction;
     std::vector<std::pair<DeckPair, std::string>> contact;
     /// Keywords that were passed over, in the order of the file.
     std::vector<std::string> over;

@@ -68,8 +68,8 @@ namespace Signorini
         if (name_surface(bodies[b], deck, surface))
           result.push_back(b);
       if (result.empty())
-        deck.text().fail(place, "no face of the surface \"" + surface.name +
-                                    "\" is on the boundary of a body.");
+        deck.text().fail(place,
+                         "no face of the surface \"" + surface.name + "\" is on the boundary of a body.");
       return result;
     }
 
@@ -112,9 +112,9 @@ namespace Signorini
     {
       DeckProblem::BodyLabels result;
       for (unsigned int v = 0; v < body.cells->mesh.vertices.size(); ++v)
-        result.node_of_vertex.push_back(body.cells->support(v).size() == 1 ?
-                                            deck.node_labels()[body.cells->support(v)[0]] :
-                                            DeckProblem::no_label);
+        result.node_of_vertex.push_back(body.cells->support(v).size() == 1
+                                            ? deck.node_labels()[body.cells->support(v)[0]]
+                                            : DeckProblem::no_label);
       for (const unsigned int e : body.elements)
         {
           const DeckElement &element = deck.elements()[e];
@@ -127,11 +127,11 @@ namespace Signorini
 
     BodyProblem finish(DeckBody &body, const DeckModel &model)
     {
-      BodyProblem      result;
-      VolumeMesh      &mesh = body.cells->mesh;
-      BodyDefinition  &definition = result.body;
-      const BoundaryOfCells &boundary = body.boundary;
-      NamedFaces named;
+      BodyProblem            result;
+      VolumeMesh            &mesh       = body.cells->mesh;
+      BodyDefinition        &definition = result.body;
+      const BoundaryOfCells &boundary   = body.boundary;
+      NamedFaces             named;
       for (const auto &entry : body.named)
         if (!entry.second.empty())
           named.push_back(entry);
@@ -158,7 +158,7 @@ namespace Signorini
     result.remarks               = model.remarks();
     for (const long label : model.deck().node_labels())
       result.largest_node_label = std::max(result.largest_node_label, label);
-    result.nonlinear_geometry    = model.steps().back().nonlinear_geometry;
+    result.nonlinear_geometry = model.steps().back().nonlinear_geometry;
     for (const DeckPair &pair : model.pairs())
       add_pair(result.problem, bodies, model, pair);
     add_deck_loads(bodies, model, result.remarks);

@@ -21,8 +21,8 @@ namespace Signorini
 
   namespace
   {
-    /// An owned node: its number in the space, the vertex of the start mesh at it, and numbers at it (three of
-    /// the position, three of the displacement, six of the stress).
+    /// An owned node: its number in the space, the vertex of the start mesh at it, and numbers at it (three
+    /// of the position, three of the displacement, six of the stress).
     struct NodeRow
     {
       NodeIndex              node;
@@ -44,10 +44,9 @@ namespace Signorini
       for (const NodeIndex node : space.relevant())
         for (unsigned int c = 0; c < dim; ++c)
           u.push_back(solution.displacement.local_element(dim * d.partition().to_local(node) + c));
-      const auto stress =
-          nodal_stress(space, u, [&](const types::material_id id) -> const Material & {
-            return model.bodies().material(id);
-          });
+      const auto stress = nodal_stress(space, u, [&](const types::material_id id) -> const Material & {
+        return model.bodies().material(id);
+      });
       std::vector<NodeRow> rows;
       for (const NodeIndex node : space.owned())
         {
@@ -87,8 +86,9 @@ namespace Signorini
       long                                next = deck.largest_node_label;
       for (const NodeRow &row : rows)
         {
-          const auto it    = of_vertex.find(row.start_vertex);
-          labels[row.node] = it != of_vertex.end() && it->second != DeckProblem::no_label ? it->second : ++next;
+          const auto it = of_vertex.find(row.start_vertex);
+          labels[row.node] =
+              it != of_vertex.end() && it->second != DeckProblem::no_label ? it->second : ++next;
         }
       return labels;
     }
@@ -140,7 +140,8 @@ namespace Signorini
           mesh.positions.emplace_back(row.values[0], row.values[1], row.values[2]);
           displacement.labels.push_back(label);
           stress.labels.push_back(label);
-          displacement.values.insert(displacement.values.end(), row.values.begin() + 3, row.values.begin() + 6);
+          displacement.values.insert(displacement.values.end(), row.values.begin() + 3,
+                                     row.values.begin() + 6);
           stress.values.insert(stress.values.end(), row.values.begin() + 6, row.values.end());
         }
       if (!is_refined)
@@ -178,10 +179,11 @@ namespace Signorini
             for (unsigned int v = 0; v < nodes.size(); ++v)
               for (unsigned int c = 0; c < dim; ++c)
                 u[v][c] = solution.displacement.local_element(dim * d.partition().to_local(nodes[v]) + c);
-            const Block h = CellDisplacement(Element(d.nodal(), cell), model.bodies().material(cell.material), u)
-                                .gradient(Point<3>(.5, .5, .5));
-            const Vector3         turn({.5 * (h[2][1] - h[1][2]), .5 * (h[0][2] - h[2][0]),
-                                        .5 * (h[1][0] - h[0][1])});
+            const Block h =
+                CellDisplacement(Element(d.nodal(), cell), model.bodies().material(cell.material), u)
+                    .gradient(Point<3>(.5, .5, .5));
+            const Vector3 turn(
+                {.5 * (h[2][1] - h[1][2]), .5 * (h[0][2] - h[2][0]), .5 * (h[1][0] - h[0][1])});
             SymmetricTensor<2, 3> strain;
             for (unsigned int i = 0; i < 3; ++i)
               for (unsigned int j = i; j < 3; ++j)
@@ -235,7 +237,8 @@ namespace Signorini
          << " %; what linear kinematics leaves out is of the order of " << 50. * k.rotation * k.rotation
          << " % strain by rotation and " << 50. * k.strain << " % of the strains.";
     if (degrees > KinematicsRule::largest_rotation || k.strain > KinematicsRule::largest_strain)
-      nested.results.certificate.objections.push_back(text.str() + " That is too much for linear kinematics.");
+      nested.results.certificate.objections.push_back(text.str() +
+                                                      " That is too much for linear kinematics.");
     else
       journal.note(text.str());
   }

@@ -58,7 +58,7 @@ namespace Signorini
                  keywords[end].name != "ASSEMBLY")
             ++end;
           parts[deck_upper(keywords[i].get("NAME"))] = {i + 1, end};
-          i                                         = end - (end < keywords.size() && keywords[end].name == "END PART" ? 0 : 1);
+          i = end - (end < keywords.size() && keywords[end].name == "END PART" ? 0 : 1);
         }
     const bool has_instances = std::any_of(keywords.begin(), keywords.end(),
                                            [](const DeckKeyword &k) { return k.name == "INSTANCE"; });
@@ -69,8 +69,8 @@ namespace Signorini
           if (!has_instances)
             {
               Instance instance;
-              instance.name           = keywords[i].get("NAME");
-              instance.node_offset    = largest_node;
+              instance.name        = keywords[i].get("NAME");
+              instance.node_offset = largest_node;
               instances.push_back(instance);
               instance_index[deck_upper(instance.name)] = static_cast<unsigned int>(instances.size() - 1);
               for (std::size_t k = begin; k < end; ++k)
@@ -109,8 +109,9 @@ namespace Signorini
       return;
     instance.is_moved = true;
     if (rows.size() > 2 || rows[0].size() > 3 || (rows.size() == 2 && rows[1].size() != 7))
-      source.fail(keyword.place, "an INSTANCE has three numbers for its translation, and then two points of an "
-                                 "axis and an angle (seven numbers) for its rotation.");
+      source.fail(keyword.place,
+                  "an INSTANCE has three numbers for its translation, and then two points of an "
+                  "axis and an angle (seven numbers) for its rotation.");
     for (unsigned int c = 0; c < rows[0].size(); ++c)
       instance.translation[c] = rows[0][c];
     if (rows.size() < 2)
@@ -129,8 +130,8 @@ namespace Signorini
   {
     const DeckKeyword &keyword = source.keywords()[begin];
     Instance           instance;
-    instance.name           = keyword.get("NAME");
-    instance.node_offset    = largest_node;
+    instance.name        = keyword.get("NAME");
+    instance.node_offset = largest_node;
     set_placement(instance, keyword);
     const auto number = static_cast<unsigned int>(instances.size());
     if (!instance_index.insert({deck_upper(instance.name), number}).second)
@@ -386,7 +387,8 @@ namespace Signorini
     surface.place = keyword.place;
     if (keyword.get("NAME").empty())
       source.fail(keyword.place, "SURFACE needs a name: *SURFACE, NAME=NAME.");
-    if (!surface_index.insert({deck_upper(surface.name), static_cast<unsigned int>(surface_list.size())}).second)
+    if (!surface_index.insert({deck_upper(surface.name), static_cast<unsigned int>(surface_list.size())})
+             .second)
       source.fail(keyword.place, "there are two surfaces \"" + surface.name + "\".");
     surface_list.push_back(surface);
     surface_instance.push_back(instance);

@@ -15,20 +15,23 @@ namespace Signorini
     using Shape = DeckElementType::Shape;
     using Lists = std::vector<std::vector<unsigned int>>;
 
-    constexpr DeckElementType tetrahedron4 = {Shape::tetrahedron, 4, 4}, tetrahedron10 = {Shape::tetrahedron, 10, 4},
-                              wedge6 = {Shape::wedge, 6, 6}, wedge15 = {Shape::wedge, 15, 6},
-                              hexahedron8 = {Shape::hexahedron, 8, 8}, hexahedron20 = {Shape::hexahedron, 20, 8},
-                              face3 = {Shape::face, 3, 3}, face4 = {Shape::face, 4, 4}, face6 = {Shape::face, 6, 3},
-                              face8 = {Shape::face, 8, 4}, line2 = {Shape::line, 2, 2}, line3 = {Shape::line, 3, 2};
+    constexpr DeckElementType tetrahedron4  = {Shape::tetrahedron, 4, 4},
+                              tetrahedron10 = {Shape::tetrahedron, 10, 4}, wedge6 = {Shape::wedge, 6, 6},
+                              wedge15 = {Shape::wedge, 15, 6}, hexahedron8 = {Shape::hexahedron, 8, 8},
+                              hexahedron20 = {Shape::hexahedron, 20, 8}, face3 = {Shape::face, 3, 3},
+                              face4 = {Shape::face, 4, 4}, face6 = {Shape::face, 6, 3},
+                              face8 = {Shape::face, 8, 4}, line2 = {Shape::line, 2, 2},
+                              line3 = {Shape::line, 3, 2};
 
     /// Edges with a node in their middle, in the order of these.
     const Lists &edges_of(const Shape shape, const unsigned int n_corners)
     {
       static const Lists tetrahedron = {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}};
-      static const Lists wedge       = {{0, 1}, {1, 2}, {0, 2}, {3, 4}, {4, 5}, {3, 5}, {0, 3}, {1, 4}, {2, 5}};
-      static const Lists hexahedron  = {{0, 1}, {1, 2}, {2, 3}, {0, 3}, {4, 5}, {5, 6},
-                                        {6, 7}, {4, 7}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
-      static const Lists triangle = {{0, 1}, {1, 2}, {0, 2}}, quadrilateral = {{0, 1}, {1, 2}, {2, 3}, {0, 3}};
+      static const Lists wedge = {{0, 1}, {1, 2}, {0, 2}, {3, 4}, {4, 5}, {3, 5}, {0, 3}, {1, 4}, {2, 5}};
+      static const Lists hexahedron    = {{0, 1}, {1, 2}, {2, 3}, {0, 3}, {4, 5}, {5, 6},
+                                          {6, 7}, {4, 7}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
+      static const Lists triangle      = {{0, 1}, {1, 2}, {0, 2}},
+                         quadrilateral = {{0, 1}, {1, 2}, {2, 3}, {0, 3}};
       switch (shape)
         {
           case Shape::tetrahedron:
@@ -123,8 +126,12 @@ namespace Signorini
   {
     // Variants (reduced integration, incompatible modes, hybrid, modified) have the same nodes.
     for (const auto &[begin, type] :
-         {std::pair<const char *, const DeckElementType *>{"C3D10", &tetrahedron10}, {"C3D15", &wedge15},
-          {"C3D20", &hexahedron20}, {"C3D4", &tetrahedron4}, {"C3D6", &wedge6}, {"C3D8", &hexahedron8}})
+         {std::pair<const char *, const DeckElementType *>{"C3D10", &tetrahedron10},
+          {"C3D15", &wedge15},
+          {"C3D20", &hexahedron20},
+          {"C3D4", &tetrahedron4},
+          {"C3D6", &wedge6},
+          {"C3D8", &hexahedron8}})
       if (begins_with(name, begin) &&
           name.find_first_not_of("RIHMT", std::string(begin).size()) == std::string::npos)
         return type;
@@ -148,12 +155,11 @@ namespace Signorini
     std::map<unsigned int, unsigned int> number;
     std::vector<unsigned int>            part;
     for (const DeckElement &element : deck.elements())
-      part.push_back(element.type->is_solid() ?
-                         number
-                             .insert({find_root(root, element.nodes[0]),
-                                      static_cast<unsigned int>(number.size())})
-                             .first->second :
-                         Deck::none);
+      part.push_back(
+          element.type->is_solid()
+              ? number.insert({find_root(root, element.nodes[0]), static_cast<unsigned int>(number.size())})
+                    .first->second
+              : Deck::none);
     return part;
   }
 
@@ -266,8 +272,8 @@ namespace Signorini
     // The wedge turned such that its smallest vertex comes first.
     static constexpr unsigned int turned[6][6] = {{0, 1, 2, 3, 4, 5}, {1, 2, 0, 4, 5, 3}, {2, 0, 1, 5, 3, 4},
                                                   {3, 5, 4, 0, 2, 1}, {4, 3, 5, 1, 0, 2}, {5, 4, 3, 2, 1, 0}};
-    const auto smallest = std::min_element(w.begin(), w.end()) - w.begin();
-    Corners    v;
+    const auto                    smallest     = std::min_element(w.begin(), w.end()) - w.begin();
+    Corners                       v;
     for (const unsigned int i : turned[smallest])
       v.push_back(w[i]);
     // The quadrilateral that does not contain it.
@@ -320,14 +326,13 @@ namespace Signorini
     const auto length = [&](const Diagonal &d) {
       return mesh.vertices[n[d.ends[0]]].distance_square(mesh.vertices[n[d.ends[1]]]);
     };
-    const Diagonal &d = *std::min_element(std::begin(diagonals), std::end(diagonals),
-                                          [&](const Diagonal &a, const Diagonal &b) {
-                                            return length(a) < .999 * length(b);
-                                          });
+    const Diagonal &d =
+        *std::min_element(std::begin(diagonals), std::end(diagonals),
+                          [&](const Diagonal &a, const Diagonal &b) { return length(a) < .999 * length(b); });
     for (unsigned int i = 0; i < 4; ++i)
       {
-        unsigned int  a = n[d.ring[i]], b = n[d.ring[(i + 1) % 4]];
-        const auto   &x      = mesh.vertices;
+        unsigned int       a = n[d.ring[i]], b = n[d.ring[(i + 1) % 4]];
+        const auto        &x = mesh.vertices;
         const unsigned int p = n[d.ends[0]], q = n[d.ends[1]];
         if (cross_product_3d(x[b] - x[a], x[p] - x[a]) * (x[q] - x[a]) < 0.)
           std::swap(a, b);
@@ -352,7 +357,7 @@ namespace Signorini
 
   unsigned int DeckCells::face_centre(const DeckElement &element, const unsigned int side)
   {
-    Corners       nodes = ring(element, side);
+    Corners       nodes  = ring(element, side);
     const Corners around = nodes;
     std::sort(nodes.begin(), nodes.begin() + 4);
     nodes.resize(4);
@@ -374,16 +379,16 @@ namespace Signorini
   {
     // Centres of the three quadrilaterals, between the mid nodes of the edges along the axis.
     const unsigned int c01 = face_centre(element, 2), c12 = face_centre(element, 3),
-                       c02      = face_centre(element, 4);
-    const Corners layers[3]     = {{n[0], n[1], n[2], n[6], n[7], n[8]},
-                                   {n[12], n[13], n[14], c01, c12, c02},
-                                   {n[3], n[4], n[5], n[9], n[10], n[11]}};
+                       c02                    = face_centre(element, 4);
+    const Corners                 layers[3]   = {{n[0], n[1], n[2], n[6], n[7], n[8]},
+                                                 {n[12], n[13], n[14], c01, c12, c02},
+                                                 {n[3], n[4], n[5], n[9], n[10], n[11]}};
     static constexpr unsigned int parts[4][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}};
     for (unsigned int l = 0; l < 2; ++l)
       for (const auto &[a, b, c] : parts)
-        add_cell({layers[l][a], layers[l][b], layers[l][c], layers[l + 1][a], layers[l + 1][b],
-                  layers[l + 1][c]},
-                 to_tetrahedra);
+        add_cell(
+            {layers[l][a], layers[l][b], layers[l][c], layers[l + 1][a], layers[l + 1][b], layers[l + 1][c]},
+            to_tetrahedra);
   }
 
 
@@ -401,7 +406,9 @@ namespace Signorini
     // A grid of 3 x 3 x 3: layers of corners and mid nodes.
     const unsigned int grid[3][3][3] = {
         {{n[0], n[8], n[1]}, {n[11], centres[0], n[9]}, {n[3], n[10], n[2]}},
-        {{n[16], centres[2], n[17]}, {centres[5], add_vertex(x, element.nodes), centres[3]}, {n[19], centres[4], n[18]}},
+        {{n[16], centres[2], n[17]},
+         {centres[5], add_vertex(x, element.nodes), centres[3]},
+         {n[19], centres[4], n[18]}},
         {{n[4], n[12], n[5]}, {n[15], centres[1], n[13]}, {n[7], n[14], n[6]}}};
     for (unsigned int k = 0; k < 2; ++k)
       for (unsigned int j = 0; j < 2; ++j)

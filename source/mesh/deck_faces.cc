@@ -105,9 +105,8 @@ namespace Signorini
       is_in[v] = true;
     std::set<VolumeMesh::Face> faces;
     for (const auto &[face, cell] : boundary)
-      if (std::all_of(face.begin(), face.end(), [&](const unsigned int v) {
-            return v == VolumeMesh::no_vertex || is_in[v];
-          }))
+      if (std::all_of(face.begin(), face.end(),
+                      [&](const unsigned int v) { return v == VolumeMesh::no_vertex || is_in[v]; }))
         faces.insert(face_key(face));
     return faces;
   }
@@ -119,9 +118,8 @@ namespace Signorini
     const std::set<unsigned int> set(nodes.begin(), nodes.end());
     std::vector<unsigned int>    vertices;
     for (unsigned int v = 0; v < cells.mesh.vertices.size(); ++v)
-      if (const auto &support = cells.support(v);
-          std::all_of(support.begin(), support.end(),
-                      [&](const unsigned int node) { return set.count(node) > 0; }))
+      if (const auto &support = cells.support(v); std::all_of(
+              support.begin(), support.end(), [&](const unsigned int node) { return set.count(node) > 0; }))
         vertices.push_back(v);
     return vertices;
   }
@@ -198,7 +196,8 @@ namespace Signorini
         mesh.faces.push_back({face, it->second});
       }
     for (unsigned int i = 0; i < named.size(); ++i)
-      if (members[i].size() > 1 || (members[i].size() == 1 && mesh.boundary_names[members[i][0]] != named[i].first))
+      if (members[i].size() > 1 ||
+          (members[i].size() == 1 && mesh.boundary_names[members[i][0]] != named[i].first))
         mesh.boundary_groups.emplace_back(named[i].first, members[i]);
   }
 } // namespace Signorini

@@ -71,9 +71,9 @@ namespace Signorini
       return;
     if (raw.state == working)
       source.fail(raw.entries[0].place, "the set \"" + raw.name + "\" contains itself.");
-    raw.state              = working;
-    std::size_t  n_missing = 0;
-    long         missing   = 0;
+    raw.state                           = working;
+    std::size_t               n_missing = 0;
+    long                      missing   = 0;
     std::vector<unsigned int> members;
     for (const Entry &entry : raw.entries)
       {
@@ -88,7 +88,8 @@ namespace Signorini
             continue;
           }
         for (long label = entry.first; label <= entry.last; label += entry.step)
-          if (const unsigned int member = member_with(label, entry.instance, number, of_nodes); member != none)
+          if (const unsigned int member = member_with(label, entry.instance, number, of_nodes);
+              member != none)
             members.push_back(member);
           else
             {
@@ -98,8 +99,8 @@ namespace Signorini
       }
     std::sort(members.begin(), members.end());
     members.erase(std::unique(members.begin(), members.end()), members.end());
-    const bool is_range = std::all_of(raw.entries.begin(), raw.entries.end(),
-                                      [](const Entry &e) { return e.last > e.first; });
+    const bool is_range =
+        std::all_of(raw.entries.begin(), raw.entries.end(), [](const Entry &e) { return e.last > e.first; });
     if (n_missing > 0 && !is_range)
       remark_list.push_back(source.where(raw.entries[0].place) + ": " + std::to_string(n_missing) +
                             " numbers in the set \"" + raw.name + "\" (" + std::to_string(missing) +

@@ -61,9 +61,8 @@ namespace Signorini
 
   bool is_deck_label(const std::string &word)
   {
-    return !word.empty() && std::all_of(word.begin(), word.end(), [](const unsigned char c) {
-      return std::isdigit(c) != 0;
-    });
+    return !word.empty() &&
+           std::all_of(word.begin(), word.end(), [](const unsigned char c) { return std::isdigit(c) != 0; });
   }
 
 
@@ -172,8 +171,7 @@ namespace Signorini
   {
     std::ifstream in(file);
     if (!in || std::filesystem::is_directory(file))
-      throw InputError((depth == 0 ? "The file \"" : "The included file \"") + file +
-                       "\" cannot be opened.");
+      throw InputError((depth == 0 ? "The file \"" : "The included file \"") + file + "\" cannot be opened.");
     const auto number = static_cast<unsigned int>(file_names.size());
     file_names.push_back(file);
     std::string  line;
@@ -237,10 +235,9 @@ namespace Signorini
     for (std::size_t i = 1; i < words.size(); ++i)
       {
         const auto equals = words[i].find('=');
-        keyword.options.emplace_back(keyword_name(words[i].substr(0, equals)),
-                                     equals == std::string::npos
-                                         ? ""
-                                         : unquoted(trimmed(words[i].substr(equals + 1))));
+        keyword.options.emplace_back(
+            keyword_name(words[i].substr(0, equals)),
+            equals == std::string::npos ? "" : unquoted(trimmed(words[i].substr(equals + 1))));
       }
     if (keyword.name == "INCLUDE")
       {

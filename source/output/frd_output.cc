@@ -37,10 +37,11 @@ namespace Signorini
     const std::vector<Component> &components_of(const std::string &field)
     {
       static const std::vector<Component> displacement = {{"D1", 2, 1, 0}, {"D2", 2, 2, 0}, {"D3", 2, 3, 0}},
-                                          stress       = {{"SXX", 4, 1, 1}, {"SYY", 4, 2, 2}, {"SZZ", 4, 3, 3},
-                                                          {"SXY", 4, 1, 2}, {"SYZ", 4, 2, 3}, {"SZX", 4, 3, 1}},
-                                          contact = {{"COPEN", 4, 1, 1},   {"CSLIP1", 4, 2, 2},  {"CSLIP2", 4, 3, 3},
-                                                     {"CPRESS", 4, 1, 2},  {"CSHEAR1", 4, 2, 3}, {"CSHEAR2", 4, 3, 1}};
+                                          stress  = {{"SXX", 4, 1, 1}, {"SYY", 4, 2, 2}, {"SZZ", 4, 3, 3},
+                                                     {"SXY", 4, 1, 2}, {"SYZ", 4, 2, 3}, {"SZX", 4, 3, 1}},
+                                          contact = {{"COPEN", 4, 1, 1},   {"CSLIP1", 4, 2, 2},
+                                                     {"CSLIP2", 4, 3, 3},  {"CPRESS", 4, 1, 2},
+                                                     {"CSHEAR1", 4, 2, 3}, {"CSHEAR2", 4, 3, 1}};
       AssertThrow(field == "DISP" || field == "STRESS" || field == "CONTACT", dealii::ExcInternalError());
       return field == "DISP" ? displacement : field == "STRESS" ? stress : contact;
     }
@@ -51,7 +52,7 @@ namespace Signorini
       // The viewer has the mid nodes of upright edges before those of the top.
       static const std::vector<unsigned int> hexahedron = {0,  1,  2,  3,  4,  5,  6,  7,  8,  9,
                                                            10, 11, 16, 17, 18, 19, 12, 13, 14, 15},
-                                             wedge = {0, 1, 2, 3, 4, 5, 6, 7, 8, 12, 13, 14, 9, 10, 11};
+                                             wedge      = {0, 1, 2, 3, 4, 5, 6, 7, 8, 12, 13, 14, 9, 10, 11};
       std::vector<unsigned int> order;
       for (unsigned int i = 0; i < n_nodes; ++i)
         order.push_back(i);

@@ -70,7 +70,7 @@ namespace Signorini
   struct DeckSurfaceLoad
   {
     /// The surface; pressure against the outward normal, or force per area.
-    const DeckSurface *surface = nullptr;
+    const DeckSurface *surface  = nullptr;
     double             pressure = 0.;
     Vector3            traction;
     unsigned int       step = 0;

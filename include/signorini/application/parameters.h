@@ -133,11 +133,11 @@ namespace Signorini
 
     void read_deck(const std::vector<std::string> &overrides);
 
-    std::string                 file, base_folder;
+    std::string                  file, base_folder;
     std::unique_ptr<DeckProblem> deck_problem;
     /// How a deck is taken.
-    bool        deck_strict = false;
-    std::string deck_ignore;
+    bool                        deck_strict = false;
+    std::string                 deck_ignore;
     TopLevel                    top_level;
     std::vector<BodySection>    bodies;
     std::vector<PairParameters> pairs;

@@ -38,8 +38,8 @@ namespace Signorini
   /// Faces of elements, or nodes.
   struct DeckSurface
   {
-    /// Elements and what of them belongs to it: S1, S2, ...; empty for all their faces that belong to no other
-    /// element; SPOS or SNEG for shells.
+    /// Elements and what of them belongs to it: S1, S2, ...; empty for all their faces that belong to no
+    /// other element; SPOS or SNEG for shells.
     struct Faces
     {
       std::vector<unsigned int> elements;
@@ -157,13 +157,13 @@ namespace Signorini
 
     struct Instance
     {
-      std::string            name;
-      long                   node_offset = 0, element_offset = 0;
-      dealii::Tensor<1, 3>   translation;
-      dealii::Tensor<2, 3>   rotation;
-      dealii::Point<3>       pivot;
-      bool                   is_moved      = false;
-      unsigned int           first_element = 0, end_element = 0;
+      std::string          name;
+      long                 node_offset = 0, element_offset = 0;
+      dealii::Tensor<1, 3> translation;
+      dealii::Tensor<2, 3> rotation;
+      dealii::Point<3>     pivot;
+      bool                 is_moved      = false;
+      unsigned int         first_element = 0, end_element = 0;
     };
 
     /// What a data line of a set says.
@@ -205,35 +205,35 @@ namespace Signorini
     RawSet      &raw_set(RawSets &sets, const std::string &name, const unsigned int instance);
     /// The key of a name that is used in an instance, or empty.
     template <typename Index>
-    std::string key_of(const Index &index, const std::string &name, const unsigned int instance) const;
-    std::string full_name(const std::string &name, const unsigned int instance) const;
-    void        resolve_sets();
-    void        resolve(RawSets &sets, const unsigned int s, std::vector<DeckSet> &result,
-                        const std::unordered_map<long, unsigned int> &number, const bool of_nodes);
-    void        resolve_surfaces();
+    std::string  key_of(const Index &index, const std::string &name, const unsigned int instance) const;
+    std::string  full_name(const std::string &name, const unsigned int instance) const;
+    void         resolve_sets();
+    void         resolve(RawSets &sets, const unsigned int s, std::vector<DeckSet> &result,
+                         const std::unordered_map<long, unsigned int> &number, const bool of_nodes);
+    void         resolve_surfaces();
     unsigned int member_with(const long label, const unsigned int instance,
                              const std::unordered_map<long, unsigned int> &number, const bool of_nodes) const;
-    long        offset(const unsigned int instance, const bool of_nodes) const;
+    long         offset(const unsigned int instance, const bool of_nodes) const;
 
-    const DeckText                                  source;
-    std::vector<dealii::Point<3>>                   points;
-    std::vector<long>                               labels;
-    std::vector<DeckElement>                        element_list;
-    std::unordered_map<long, unsigned int>          node_index, element_index;
-    std::vector<Instance>                           instances;
-    std::map<std::string, unsigned int>             instance_index;
+    const DeckText                         source;
+    std::vector<dealii::Point<3>>          points;
+    std::vector<long>                      labels;
+    std::vector<DeckElement>               element_list;
+    std::unordered_map<long, unsigned int> node_index, element_index;
+    std::vector<Instance>                  instances;
+    std::map<std::string, unsigned int>    instance_index;
     /// Keywords of the parts by name: first and end.
     std::map<std::string, std::pair<std::size_t, std::size_t>> parts;
-    RawSets                                         raw_node_sets, raw_element_sets;
-    std::vector<DeckSet>                            node_set_list, element_set_list;
-    std::vector<DeckSurface>                        surface_list;
-    std::vector<unsigned int>                       surface_instance;
-    std::vector<const DeckKeyword *>                surface_keywords;
-    std::vector<Other>                              element_keywords;
-    std::map<std::string, unsigned int>             surface_index;
-    std::vector<Other>                              other_list;
-    std::vector<std::string>                        remark_list;
-    long                                            largest_node = 0, largest_element = 0;
+    RawSets                                                    raw_node_sets, raw_element_sets;
+    std::vector<DeckSet>                                       node_set_list, element_set_list;
+    std::vector<DeckSurface>                                   surface_list;
+    std::vector<unsigned int>                                  surface_instance;
+    std::vector<const DeckKeyword *>                           surface_keywords;
+    std::vector<Other>                                         element_keywords;
+    std::map<std::string, unsigned int>                        surface_index;
+    std::vector<Other>                                         other_list;
+    std::vector<std::string>                                   remark_list;
+    long                                                       largest_node = 0, largest_element = 0;
     /// Of nodes that belong to the assembly itself.
     long assembly_offset = 0;
   };

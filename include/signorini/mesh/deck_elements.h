@@ -82,7 +82,8 @@ namespace Signorini
     /// The vertex at a node of the deck, or VolumeMesh::no_vertex.
     unsigned int vertex(const unsigned int node) const;
 
-    /// The nodes of the deck that a vertex belongs to: itself, or those of the face or cell whose centre it is.
+    /// The nodes of the deck that a vertex belongs to: itself, or those of the face or cell whose centre it
+    /// is.
     const std::vector<unsigned int> &support(const unsigned int vertex) const
     {
       return vertex_support[vertex];
@@ -104,16 +105,15 @@ namespace Signorini
   private:
     using Corners = std::vector<unsigned int>;
 
-    void         add_element(const unsigned int element, const unsigned int volume, const bool to_tetrahedra);
-    void         add_cell(const Corners &corners, const bool to_tetrahedra);
-    void         add_tetrahedron(const unsigned int a, const unsigned int b, const unsigned int c,
-                                 const unsigned int d);
-    void         cut_wedge(const Corners &wedge);
-    void         cut_hexahedron(const Corners &hexahedron);
-    void         add_quadratic_tetrahedron(const Corners &n, const bool to_tetrahedra);
-    void         add_quadratic_wedge(const DeckElement &element, const Corners &n, const bool to_tetrahedra);
-    void         add_quadratic_hexahedron(const DeckElement &element, const Corners &n,
-                                          const bool to_tetrahedra);
+    void add_element(const unsigned int element, const unsigned int volume, const bool to_tetrahedra);
+    void add_cell(const Corners &corners, const bool to_tetrahedra);
+    void add_tetrahedron(const unsigned int a, const unsigned int b, const unsigned int c,
+                         const unsigned int d);
+    void cut_wedge(const Corners &wedge);
+    void cut_hexahedron(const Corners &hexahedron);
+    void add_quadratic_tetrahedron(const Corners &n, const bool to_tetrahedra);
+    void add_quadratic_wedge(const DeckElement &element, const Corners &n, const bool to_tetrahedra);
+    void add_quadratic_hexahedron(const DeckElement &element, const Corners &n, const bool to_tetrahedra);
     unsigned int add_vertex(const dealii::Point<3> &position, const std::vector<unsigned int> &support);
     unsigned int vertex_at(const unsigned int node);
     unsigned int face_centre(const DeckElement &element, const unsigned int side);
@@ -123,10 +123,10 @@ namespace Signorini
     std::vector<VolumeMesh::Face> pieces(const Corners &nodes, const unsigned int n_corners,
                                          const bool is_cut) const;
 
-    const Deck                                   &deck;
-    std::vector<unsigned int>                     cell_element;
-    std::vector<unsigned int>                     vertex_of_node;
-    std::vector<std::vector<unsigned int>>        vertex_support;
+    const Deck                                       &deck;
+    std::vector<unsigned int>                         cell_element;
+    std::vector<unsigned int>                         vertex_of_node;
+    std::vector<std::vector<unsigned int>>            vertex_support;
     std::map<std::vector<unsigned int>, unsigned int> centre_of_face;
     /// By element: whether it became tetrahedra.
     std::map<unsigned int, bool> kept_as;

@@ -24,7 +24,8 @@ namespace Signorini
   {
     static constexpr unsigned int none = static_cast<unsigned int>(-1);
 
-    /// The vertices of the coarse hexahedra by NodalSpace::Cell::coarse_cell (in deal.II's order), and of the start mesh of the forest.
+    /// The vertices of the coarse hexahedra by NodalSpace::Cell::coarse_cell (in deal.II's order), and of the
+    /// start mesh of the forest.
     std::vector<std::array<unsigned int, 8>> hexahedra;
     std::vector<unsigned int>                forest;
     /// Sets of vertices; for each vertex the sets that it belongs to, ascending (empty without sets).

@@ -94,14 +94,15 @@ namespace
 TEST(Deck, ReadsWhatPeopleWrite)
 {
   const TemporaryFile more("3, 0.D0, 1.0d0, 0\r\n4, , , 1.,\r\n", ".txt");
-  const TemporaryFile file("** made by hand\r\n*Node , nset = \"All nodes\"\r\n1,0,0,0\r\n 2 , 1. ,0.,\r\n"
-                           "*include, input=" +
-                               more.path +
-                               "\n*Nset,nset=A,\n internal\n1,2,\n*NSET, NSET=range, GENERATE\n2,4,2\n"
-                               "*nset, nset=both\nlater, RANGE\n*nset, nset=Later\n1\n*nset, nset=later\n3\n"
-                               "*ELEMENT,TYPE=C3D4,elset=E\n1,1,2,\n3,4\n*material, name=\"my steel\"\n*elastic\n1,.3\n",
-                           ".inp");
-  const Deck          deck(file.path);
+  const TemporaryFile file(
+      "** made by hand\r\n*Node , nset = \"All nodes\"\r\n1,0,0,0\r\n 2 , 1. ,0.,\r\n"
+      "*include, input=" +
+          more.path +
+          "\n*Nset,nset=A,\n internal\n1,2,\n*NSET, NSET=range, GENERATE\n2,4,2\n"
+          "*nset, nset=both\nlater, RANGE\n*nset, nset=Later\n1\n*nset, nset=later\n3\n"
+          "*ELEMENT,TYPE=C3D4,elset=E\n1,1,2,\n3,4\n*material, name=\"my steel\"\n*elastic\n1,.3\n",
+      ".inp");
+  const Deck deck(file.path);
   ASSERT_EQ(deck.positions().size(), 4u);
   EXPECT_EQ(deck.positions()[3], Point<3>(0, 0, 1));
   EXPECT_EQ(deck.positions()[2], Point<3>(0, 1, 0));
@@ -121,14 +122,14 @@ TEST(Deck, ReadsWhatPeopleWrite)
 
 TEST(Deck, PutsPartsWhereTheirInstancesAre)
 {
-  const TemporaryFile file("*PART, NAME=P\n" + nodes_text({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}) +
-                               element_text("C3D4", 4) +
-                               "*NSET, NSET=S\n2\n*END PART\n*ASSEMBLY, NAME=A\n*INSTANCE, NAME=one, PART=p\n*END "
-                               "INSTANCE\n*INSTANCE, NAME=two, PART=P\n1., 0., 0.\n1., 0., 0., 1., 0., 1., 90.\n"
-                               "*END INSTANCE\n*NODE\n1, 7., 7., 7.\n*NSET, NSET=RP\n1\n*NSET, NSET=I, INSTANCE=two\n"
-                               "1\n*NSET, NSET=J\none.2, two.S\n*END ASSEMBLY\n",
-                           ".inp");
-  const Deck          deck(file.path);
+  const TemporaryFile file(
+      "*PART, NAME=P\n" + nodes_text({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}) + element_text("C3D4", 4) +
+          "*NSET, NSET=S\n2\n*END PART\n*ASSEMBLY, NAME=A\n*INSTANCE, NAME=one, PART=p\n*END "
+          "INSTANCE\n*INSTANCE, NAME=two, PART=P\n1., 0., 0.\n1., 0., 0., 1., 0., 1., 90.\n"
+          "*END INSTANCE\n*NODE\n1, 7., 7., 7.\n*NSET, NSET=RP\n1\n*NSET, NSET=I, INSTANCE=two\n"
+          "1\n*NSET, NSET=J\none.2, two.S\n*END ASSEMBLY\n",
+      ".inp");
+  const Deck deck(file.path);
   ASSERT_EQ(deck.positions().size(), 9u);
   // Moved by (1, 0, 0), then turned about the axis through (1, 0, 0) along z: x becomes y.
   EXPECT_LT(deck.positions()[5].distance(Point<3>(1, 1, 0)), 1e-15);
@@ -148,18 +149,18 @@ TEST(Deck, SaysWhereMistakesAre)
   const std::string good = nodes_text({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}) + element_text("C3D4", 4);
   EXPECT_EQ(error_of(good), "none");
   for (const auto &[text, words] : std::vector<std::pair<std::string, std::string>>{
-         {good + "*NSET, NSET=A\nB\n", "line 9: there is no set \"B\""},
-         {good + "*NSET, NSET=A\nB\n*NSET, NSET=B\nA\n", "contains itself"},
-         {good + "*SURFACE, NAME=S\nQ, S1\n", "line 9: there is no ELSET \"Q\""},
-         {good + "*SURFACE, NAME=S\n7, S1\n", "there is no element 7"},
-         {good + "*INSTANCE, NAME=I, PART=Q\n", "no END INSTANCE"},
-         {good + "*INSTANCE, NAME=I, PART=Q\n*END INSTANCE\n", "there is no PART \"Q\""},
-         {good + "*INCLUDE, INPUT=no.txt\n", "line 8: the included file"},
-         {good + "*ELEMENT, TYPE=C3D4\n2, 1, 2, 3\n", "too few nodes"},
-         {good + "*ELEMENT, TYPE=C3D4\n2, 1, 2, 3, 9\n", "node 9, which is missing"},
-         {good + "*ELEMENT, TYPE=SPRINGA\n2, 1, 2\n", "line 8: elements of type \"SPRINGA\""},
-         {good + "*NODE\n5, x, 0, 0\n", "line 9: \"x\" should be a number"},
-         {"1, 2, 3\n", "line 1"}})
+           {good + "*NSET, NSET=A\nB\n", "line 9: there is no set \"B\""},
+           {good + "*NSET, NSET=A\nB\n*NSET, NSET=B\nA\n", "contains itself"},
+           {good + "*SURFACE, NAME=S\nQ, S1\n", "line 9: there is no ELSET \"Q\""},
+           {good + "*SURFACE, NAME=S\n7, S1\n", "there is no element 7"},
+           {good + "*INSTANCE, NAME=I, PART=Q\n", "no END INSTANCE"},
+           {good + "*INSTANCE, NAME=I, PART=Q\n*END INSTANCE\n", "there is no PART \"Q\""},
+           {good + "*INCLUDE, INPUT=no.txt\n", "line 8: the included file"},
+           {good + "*ELEMENT, TYPE=C3D4\n2, 1, 2, 3\n", "too few nodes"},
+           {good + "*ELEMENT, TYPE=C3D4\n2, 1, 2, 3, 9\n", "node 9, which is missing"},
+           {good + "*ELEMENT, TYPE=SPRINGA\n2, 1, 2\n", "line 8: elements of type \"SPRINGA\""},
+           {good + "*NODE\n5, x, 0, 0\n", "line 9: \"x\" should be a number"},
+           {"1, 2, 3\n", "line 1"}})
     expect_in(error_of(text), words);
 }
 
@@ -168,7 +169,7 @@ TEST(Deck, SaysWhereMistakesAre)
 TEST(DeckElements, QuadraticElementsAreCutIntoEight)
 {
   const std::vector<Point<3>> tetrahedron = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
-                              wedge       = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}};
+                              wedge = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}};
   struct Kind
   {
     const char           *type;
@@ -202,8 +203,9 @@ TEST(DeckElements, CurvedSidesStayCurved)
   std::vector<Point<3>>  points = quadratic(corners, type, 0.);
   for (Point<3> &p : points)
     p[2] *= 1. + p[0] * (1. - p[0]) / 5.;
-  const TemporaryFile file(nodes_text(points) + element_text("C3D20", 20) + "*SURFACE, NAME=TOP\nE, S2\n", ".inp");
-  const VolumeMesh    mesh = read_volume_mesh(file.path, MPI_COMM_WORLD);
+  const TemporaryFile file(nodes_text(points) + element_text("C3D20", 20) + "*SURFACE, NAME=TOP\nE, S2\n",
+                           ".inp");
+  const VolumeMesh    mesh     = read_volume_mesh(file.path, MPI_COMM_WORLD);
   std::size_t         n_on_top = 0;
   for (const auto &face : mesh.faces)
     if (mesh.boundary_names[face.name] == "TOP")
@@ -221,7 +223,7 @@ TEST(DeckElements, CurvedSidesStayCurved)
 TEST(DeckElements, WedgesOfAnyNumberingFitTheirNeighbours)
 {
   // Two wedges that make a cube, with all numberings of the nodes of their common side: always conforming.
-  const unsigned int wedges[2][6] = {{0, 1, 2, 4, 5, 6}, {0, 2, 3, 4, 6, 7}};
+  const unsigned int        wedges[2][6] = {{0, 1, 2, 4, 5, 6}, {0, 2, 3, 4, 6, 7}};
   std::vector<unsigned int> order(8);
   std::iota(order.begin(), order.end(), 0u);
   unsigned int n = 0;
@@ -253,11 +255,12 @@ TEST(DeckElements, WedgesOfAnyNumberingFitTheirNeighbours)
 
 TEST(DeckElements, SurfacesAndSetsOverlap)
 {
-  const TemporaryFile file(nodes_text(corners) + element_text("C3D8", 8) +
-                               "*SURFACE, NAME=TOP\nE, S2\n*SURFACE, NAME=HULL\nE\n*NSET, NSET=HIGH\n5,6,7,8\n"
-                               "*NSET, NSET=EDGE\n1,2\n*ELEMENT, TYPE=S4, ELSET=FRONT\n2, 1, 2, 6, 5\n",
-                           ".inp");
-  const VolumeMesh mesh = read_volume_mesh(file.path, MPI_COMM_WORLD);
+  const TemporaryFile file(
+      nodes_text(corners) + element_text("C3D8", 8) +
+          "*SURFACE, NAME=TOP\nE, S2\n*SURFACE, NAME=HULL\nE\n*NSET, NSET=HIGH\n5,6,7,8\n"
+          "*NSET, NSET=EDGE\n1,2\n*ELEMENT, TYPE=S4, ELSET=FRONT\n2, 1, 2, 6, 5\n",
+      ".inp");
+  const VolumeMesh mesh    = read_volume_mesh(file.path, MPI_COMM_WORLD);
   const auto       n_faces = [&](const std::string &name) {
     std::set<unsigned int> members;
     for (const auto &[group, list] : mesh.boundary_groups)
