@@ -78,7 +78,7 @@ def exact(s, frd, blocks, pressure=5., energy=True):
     constant_pressure(s, pressure, 1e-8)
     certificate(s)
     if energy:
-        near(s['cycles'][-1]['energy'], -.5 * pressure * 2 * pressure / 1000, 1e-8, 'energy')
+        near(s['certificate']['potential_energy'], -.5 * pressure * 2 * pressure / 1000, 1e-8, 'energy')
     nodes, elements, fields = frd
     for block in blocks:
         for label, (x, _) in block.nodes.items():
