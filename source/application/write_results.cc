@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Signorini authors
 
 #include <signorini/algebra/input_error.h>
+#include <signorini/application/deck_results.h>
 #include <signorini/application/write_results.h>
 #include <signorini/mesh/surface_extraction.h>
 #include <signorini/mortar/contact_forces.h>
@@ -264,6 +265,8 @@ namespace Signorini
     output.surfaces              = output.surfaces || mesh_only;
     output.mapping               = output.mapping || mesh_only;
     write_fields(model, d, nested.solution, output, folder);
+    if (file.deck() != nullptr && !mesh_only)
+      write_deck_results(*file.deck(), model, d, nested.solution, folder.path());
     results.mappings = mapping_results(d);
 
     Utilities::System::MemoryStats memory;

@@ -176,15 +176,26 @@ namespace Signorini
     const std::string section = "Body " + bodies.body_name(body) + "/";
     for (const LoadDefinition::Displacement &condition : definition.displacements)
       {
-        const auto ids = bodies.boundary_ids(body, condition.boundary, section + "Dirichlet");
+        const unsigned int           node_set = bodies.has_boundary(body, condition.boundary)
+                                                    ? StartNodes::none
+                                                    : bodies.node_set(body, condition.boundary);
+        std::set<types::boundary_id> ids;
+        if (node_set == StartNodes::none)
+          ids = bodies.boundary_ids(body, condition.boundary, section + "Dirichlet");
+        else if (condition.frame.needs_normal())
+          throw InputError(section + "Dirichlet: \"" + condition.boundary +
+                           "\" is a set of nodes, which has no normals. Name a boundary or a direction.");
         if (condition.frame.needs_normal() && (condition.components[1] || condition.components[2]))
           throw InputError(
               section + "Dirichlet, boundary \"" + condition.boundary +
               "\": along a normal there is one component; tangents have no meaning of their own.");
-        dirichlet.push_back({body, condition.boundary, ids, condition.components, condition.frame, {}});
+        dirichlet.push_back(
+            {body, condition.boundary, ids, condition.components, condition.frame, {}, node_set});
         if (condition.frame.needs_normal())
           dirichlet.back().shapes = bodies.true_shapes(body, ids, false);
       }
+    for (const LoadDefinition::NodalForce &force : definition.nodal_forces)
+      nodal_forces[bodies.start_vertex(body, force.vertex)].push_back(force.force);
     for (const LoadDefinition::SurfaceForce &force : definition.surface_forces)
       tractions.push_back({bodies.boundary_ids(body, force.boundary, section + parameter_of(force)),
                            force.traction, force.pressure, force.total_force});
@@ -229,6 +240,10 @@ namespace Signorini
         for (const NodalSpace::BoundaryFace &face : space.boundary_faces())
           if (const auto it = conditions_of.find(face.id); it != conditions_of.end())
             add(face, it->second);
+        for (unsigned int i = 0; i < loads.dirichlet.size(); ++i)
+          if (loads.dirichlet[i].node_set != StartNodes::none)
+            for (const NodeIndex node : space.node_sets()[loads.dirichlet[i].node_set])
+              entry(node, i);
       }
 
       /// The latest condition of each component at the nodes whose conditions are all along the axes.
@@ -284,11 +299,15 @@ namespace Signorini
         for (const unsigned int v : CellShape::face(cell.n_vertices, face.face))
           if (const NodeIndex node = space.nodes(cell)[v]; !space.hanging_nodes().is_constrained(node))
             for (const int condition : conditions)
-              {
-                Node &entry = nodes[space.relevant().index_within_set(node)];
-                entry.conditions[condition].push_back({area, face.id});
-                entry.is_held = entry.is_held || !loads.dirichlet[condition].frame.is_cartesian();
-              }
+              entry(node, condition).push_back({area, face.id});
+      }
+
+      /// The faces of a condition at a node; none where it holds a set of nodes.
+      std::vector<Face> &entry(const NodeIndex node, const int condition)
+      {
+        Node &found   = nodes[space.relevant().index_within_set(node)];
+        found.is_held = found.is_held || !loads.dirichlet[condition].frame.is_cartesian();
+        return found.conditions[condition];
       }
 
       /// Of the conditions along normals: one direction for each smooth piece of boundary, with the latest of

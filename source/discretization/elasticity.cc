@@ -69,6 +69,7 @@ namespace Signorini
             loaded.push_back({face.cell, face.face, traction});
         std::stable_sort(loaded.begin(), loaded.end(),
                          [](const auto &a, const auto &b) { return a.cell < b.cell; });
+        find_nodal_forces();
       }
 
       void compute(CellData &data, const unsigned int index) const
@@ -99,9 +100,45 @@ namespace Signorini
                                      [](const LoadedFace &f, const unsigned int i) { return f.cell < i; });
         for (; face != loaded.end() && face->cell == index; ++face)
           add_traction(data, face->face, forces, face->traction);
+        for (auto node = std::lower_bound(
+                 nodal_forces.begin(), nodal_forces.end(), index,
+                 [](const NodalForce &force, const unsigned int i) { return force.cell < i; });
+             node != nodal_forces.end() && node->cell == index; ++node)
+          data.load[node->vertex] += node->force;
       }
 
     private:
+      /// Gives each force to one of the cells of this rank at its node, if the node belongs to this rank.
+      void find_nodal_forces()
+      {
+        if (loads.nodal_forces.empty())
+          return;
+        std::vector<bool> is_done(space.relevant().n_elements(), false);
+        for (unsigned int c = 0; c < space.cells().size(); ++c)
+          if (const Cell &cell = space.cells()[c]; cell.is_owned)
+            for (unsigned int v = 0; v < cell.n_vertices; ++v)
+              {
+                const NodeIndex node = space.nodes(cell)[v];
+                if (!space.owned().is_element(node))
+                  continue;
+                const std::size_t i = space.relevant().index_within_set(node);
+                if (is_done[i])
+                  continue;
+                is_done[i] = true;
+                if (const auto it = loads.nodal_forces.find(space.start_vertices()[i]);
+                    it != loads.nodal_forces.end())
+                  for (const VectorField &force : it->second)
+                    nodal_forces.push_back({c, v, force(space.position(node), loads.time)});
+              }
+      }
+
+      /// The force at the node of a vertex of a cell.
+      struct NodalForce
+      {
+        unsigned int cell, vertex;
+        Vector3      force;
+      };
+
       struct LoadedFace
       {
         unsigned int cell, face;
@@ -113,6 +150,7 @@ namespace Signorini
       const Loads            &loads;
       const SurfaceForces     forces;
       std::vector<LoadedFace> loaded;
+      std::vector<NodalForce> nodal_forces;
     };
 
 

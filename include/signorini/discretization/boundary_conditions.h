@@ -23,10 +23,10 @@ namespace Signorini
   /// What acts on a body. Boundaries are those that its mesh names.
   struct LoadDefinition
   {
-    /// Prescribed on a boundary (length).
+    /// Prescribed on a boundary or at a set of nodes (length).
     struct Displacement
     {
-      /// A boundary that the mesh names.
+      /// A boundary, or else a set of nodes, that the mesh names.
       std::string boundary;
       /// In the directions of the frame; free components are empty.
       std::array<ScalarField, 3> components;
@@ -45,9 +45,19 @@ namespace Signorini
       VectorField total_force = VectorField();
     };
 
+    /// Acts at a node of the start mesh.
+    struct NodalForce
+    {
+      /// Of BodyDefinition::mesh.
+      unsigned int vertex;
+      /// Several at a node add up.
+      VectorField force;
+    };
+
     /// Where conditions overlap, the later one counts.
     std::vector<Displacement> displacements;
     std::vector<SurfaceForce> surface_forces;
+    std::vector<NodalForce>   nodal_forces;
     /// Force per volume; empty for none.
     VectorField volume_force;
   };
@@ -78,6 +88,8 @@ namespace Signorini
     ConditionFrame             frame;
     /// What its normals are taken from, where there is one.
     std::map<dealii::types::boundary_id, BoundaryShapePointer> shapes;
+    /// Number of the set of nodes (NodalSpace::node_sets()) that it holds instead of a boundary.
+    unsigned int node_set = StartNodes::none;
   };
 
   /// Forces on a boundary, as LoadDefinition::SurfaceForce has them.
@@ -96,6 +108,8 @@ namespace Signorini
     /// The conditions, in the order of the parameter file.
     std::vector<DirichletCondition> dirichlet;
     std::vector<Traction>           tractions;
+    /// Forces at vertices of the start meshes (NodalSpace::start_vertices()).
+    std::map<unsigned int, std::vector<VectorField>> nodal_forces;
     /// Force per volume of each body; an entry for all of them is needed, so add() every body.
     std::vector<VectorField> volume_forces;
     /// The pseudo-time at which conditions and forces are evaluated.
