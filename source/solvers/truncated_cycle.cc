@@ -17,14 +17,13 @@ namespace Signorini
     , problem(problem)
     , contact(contact)
     , cycle(hierarchy, coarse_smoothing, level - 1)
+    , has_subspace(problem.semidefinite && ContactSubspace::exists(hierarchy, level))
     , motions(hierarchy.level(level).matrix, problem.free_motions, problem.rhs)
   {
     for (Vector *vector : {&coarse_defect, &coarse_correction})
       hierarchy.level(level - 1).matrix.partition().reinit(*vector);
     for (Vector *vector : {&correction, &product, &new_residual, &step, &tangential})
       hierarchy.level(level).matrix.partition().reinit(*vector);
-    if (problem.semidefinite && ContactSubspace::exists(hierarchy, level))
-      subspace.emplace(hierarchy, level);
   }
 
 
@@ -45,16 +44,19 @@ namespace Signorini
     check.begin_iteration();
     smoother.smooth_from_zero(correction, residual, contact, plan.smoothing, new_residual);
     check(v, correction);
-    if (subspace && plan.phase != IterationPhase::resting)
-      {
-        subspace->run(correction, new_residual, contact, motions);
-        check(v, correction);
-      }
 
     keeps_active = contact.active() == active;
     searched     = plan.trusts_kept_set ? plan.phase == IterationPhase::on_the_way || !all_ranks(keeps_active)
                                         : plan.phase != IterationPhase::resting;
     cut_off      = correct();
+    if (has_subspace && is_blocked && plan.phase != IterationPhase::resting)
+      {
+        check(v, correction);
+        minimize_in_subspace(residual);
+        check(v, correction);
+        keeps_active = contact.active() == active;
+        cut_off      = correct();
+      }
     if (searched)
       check(v, correction);
     else
@@ -65,6 +67,18 @@ namespace Signorini
     keeps_active = all_ranks(keeps_active && contact.active() == active);
     product      = residual;
     product -= new_residual;
+  }
+
+
+
+  void TruncatedCycle::minimize_in_subspace(const Vector &residual)
+  {
+    if (!subspace)
+      subspace.emplace(hierarchy, level);
+    hierarchy.level(level).matrix.vmult(product, correction);
+    new_residual = residual;
+    new_residual -= product;
+    subspace->run(correction, new_residual, contact, motions);
   }
 
 
@@ -95,6 +109,7 @@ namespace Signorini
     const double driven = motions.is_driven() ? std::sqrt(std::max(tangential * step, 0.)) : 0.;
     const double length = std::min(1., contact.longest_step(correction, step));
     searched            = searched || length < 1.;
+    is_blocked          = motions.is_driven();
     if (searched)
       {
         contact.restrict_to_tangents(new_residual);
@@ -113,24 +128,25 @@ namespace Signorini
       return search_along(matrix, step, new_residual, contact.longest_step(correction, step),
                                       problem.semidefinite);
     };
-    double square = 0.;
-    if (length < 1.)
+    if (length == 1.)
       {
-        // A V-cycle is at most the inverse of A: the slope is at least the curvature.
-        square                = std::max(new_residual * step, 0.);
-        const double decrease = (length - .5 * length * length) * square;
-        const Vector whole    = step;
-        contact.project_correction(step, correction);
-        if (const LineSearch projected = search(); projected.decrease >= decrease)
-          {
-            correction.add(projected.length, step);
-            return std::sqrt(square);
-          }
-        step = whole;
+        correction.add(search().length, step);
+        return 0.;
       }
-    if (length < 1.)
-      step *= length;
-    correction.add(search().length, step);
+    // A V-cycle is at most the inverse of A: the slope is at least the curvature.
+    const double square   = std::max(new_residual * step, 0.);
+    const double decrease = (length - .5 * length * length) * square;
+    const Vector whole    = step;
+    contact.project_correction(step, correction);
+    LineSearch best = search();
+    if (best.decrease < decrease)
+      {
+        step = whole;
+        step *= length;
+        best = search();
+      }
+    correction.add(best.length, step);
+    is_blocked = is_blocked || best.decrease < ContactSubspace::Rule().least_decrease * .5 * square;
     return std::sqrt(square);
   }
 
