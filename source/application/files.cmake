@@ -5,6 +5,12 @@ signorini_add_layer(application
   contact_evaluation.cc
   contact_model.cc
   contact_solve.cc
+  deck_bodies.cc
+  deck_history.cc
+  deck_loads.cc
+  deck_model.cc
+  deck_problem.cc
+  deck_results.cc
   discretization.cc
   error_estimate.cc
   free_bodies.cc

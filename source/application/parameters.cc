@@ -317,6 +317,11 @@ namespace Signorini
     : file(file_name)
     , base_folder(std::filesystem::path(file_name).parent_path().string())
   {
+    if (is_deck(file_name))
+      {
+        read_deck(overrides);
+        return;
+      }
     TopLevel         top;
     ParameterHandler first_pass;
     top.add_parameters(first_pass);
@@ -334,6 +339,29 @@ namespace Signorini
 
 
 
+  void ParameterFile::read_deck(const std::vector<std::string> &overrides)
+  {
+    declare({}, {});
+    prm.enter_subsection("Deck");
+    prm.add_parameter("Strict", deck_strict,
+                      "Refuse what is otherwise taken in another way than the deck says, with a note.");
+    prm.add_parameter("Ignore", deck_ignore,
+                      "Keywords, separated by commas, that are passed over although they change the result.");
+    prm.leave_subsection();
+    for (const std::string &text : overrides)
+      apply_override(prm, text, false);
+    DeckOptions options;
+    options.strict = deck_strict;
+    for (const std::string &name : Utilities::split_string_list(deck_ignore, ','))
+      if (!name.empty())
+        options.ignore.insert(deck_upper(name));
+    const DeckModel model(file, options);
+    deck_problem    = std::make_unique<DeckProblem>(make_deck_problem(model));
+    top_level.title = model.title();
+  }
+
+
+
   ParameterFile::ParameterFile(const std::vector<std::string> &body_names,
                                const std::vector<std::string> &pair_names)
   {
@@ -345,6 +373,13 @@ namespace Signorini
   ProblemDefinition ParameterFile::problem(const MPI_Comm communicator) const
   {
     ProblemDefinition result;
+    if (deck_problem)
+      {
+        result = deck_problem->problem;
+        for (const PairDefinition &pair : result.pairs)
+          check_method(pair, solver.method);
+        return result;
+      }
     for (const BodySection &section : bodies)
       result.bodies.push_back({section.body.definition(communicator, base_folder),
                                section.loads.definition("Body " + section.body.name + "/")});
@@ -363,6 +398,8 @@ namespace Signorini
     NestedParameters result;
     result.refinement = refinement;
     result.solve      = {solver, compare_linear, the_output.measure_sweeps, coarse_levels};
+    if (deck_problem)
+      result.exact_displacements.resize(deck_problem->problem.bodies.size());
     for (unsigned int b = 0; b < bodies.size(); ++b)
       {
         const std::string section = "Body " + bodies[b].body.name + "/";

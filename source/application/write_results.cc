@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Signorini authors
 
 #include <signorini/algebra/input_error.h>
+#include <signorini/application/deck_results.h>
 #include <signorini/application/write_results.h>
 #include <signorini/mesh/surface_extraction.h>
 #include <signorini/mortar/contact_forces.h>
@@ -146,8 +147,16 @@ namespace Signorini
     void write_file(const std::string &path, const F &writer)
     {
       std::ofstream out(path);
-      writer(out);
-      out.close();
+      try
+        {
+          writer(out);
+          out.close();
+        }
+      catch (const ExceptionBase &)
+        {
+          // deal.II looks at the stream, too.
+          out.setstate(std::ios::failbit);
+        }
       if (!out)
         throw InputError("the file \"" + path + "\" cannot be written: is the disk full?");
     }
@@ -256,6 +265,8 @@ namespace Signorini
     output.surfaces              = output.surfaces || mesh_only;
     output.mapping               = output.mapping || mesh_only;
     write_fields(model, d, nested.solution, output, folder);
+    if (file.deck() != nullptr && !mesh_only)
+      write_deck_results(*file.deck(), model, d, nested.solution, folder.path());
     results.mappings = mapping_results(d);
 
     Utilities::System::MemoryStats memory;

@@ -8,6 +8,11 @@ signorini_add_layer(mesh
   body_shapes.cc
   boundary_shape.cc
   coarser_meshes.cc
+  deck.cc
+  deck_elements.cc
+  deck_faces.cc
+  deck_sets.cc
+  deck_text.cc
   expression.cc
   generated_mesh.cc
   gmsh_file.cc
@@ -16,6 +21,7 @@ signorini_add_layer(mesh
   nodal_space.cc
   node_movement.cc
   refinement.cc
+  start_nodes.cc
   surface_extraction.cc
   surface_file.cc
   surface_normals.cc

@@ -4,12 +4,14 @@
 #ifndef signorini_application_parameters_h
 #define signorini_application_parameters_h
 
+#include <signorini/application/deck_problem.h>
 #include <signorini/application/nested_iteration.h>
 #include <signorini/mesh/body_parameters.h>
 
 #include <deal.II/base/parameter_handler.h>
 
 #include <iosfwd>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -58,13 +60,20 @@ namespace Signorini
   class ParameterFile
   {
   public:
-    /// Reads a file. overrides: "Section/Name=value". Errors: InputError with one clear message.
+    /// Reads a file. overrides: "Section/Name=value". Errors: InputError with one clear message. A deck
+    /// (is_deck()) is the problem itself: parameters are then those of the overrides.
     ParameterFile(const std::string &file, const std::vector<std::string> &overrides);
 
     /// The defaults of a problem with such bodies and pairs.
     ParameterFile(const std::vector<std::string> &body_names, const std::vector<std::string> &pair_names);
 
     ParameterFile(const ParameterFile &) = delete;
+
+    /// The deck, or null.
+    const DeckProblem *deck() const
+    {
+      return deck_problem.get();
+    }
 
     /// The name of the file, or empty.
     const std::string &path() const
@@ -122,7 +131,13 @@ namespace Signorini
     /// The names of bodies and pairs decide which subsections exist.
     void declare(const std::vector<std::string> &body_names, const std::vector<std::string> &pair_names);
 
-    std::string                 file, base_folder;
+    void read_deck(const std::vector<std::string> &overrides);
+
+    std::string                  file, base_folder;
+    std::unique_ptr<DeckProblem> deck_problem;
+    /// How a deck is taken.
+    bool                        deck_strict = false;
+    std::string                 deck_ignore;
     TopLevel                    top_level;
     std::vector<BodySection>    bodies;
     std::vector<PairParameters> pairs;
