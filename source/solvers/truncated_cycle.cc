@@ -44,18 +44,28 @@ namespace Signorini
     check.begin_iteration();
     smoother.smooth_from_zero(correction, residual, contact, plan.smoothing, new_residual);
     check(v, correction);
+    const bool may_minimize = has_subspace && plan.phase != IterationPhase::resting;
+    if (may_minimize && stays_blocked)
+      {
+        minimize_in_subspace();
+        check(v, correction);
+      }
 
     keeps_active = contact.active() == active;
     searched     = plan.trusts_kept_set ? plan.phase == IterationPhase::on_the_way || !all_ranks(keeps_active)
                                         : plan.phase != IterationPhase::resting;
     cut_off      = correct();
-    if (has_subspace && is_blocked && plan.phase != IterationPhase::resting)
+    if (may_minimize && is_blocked)
       {
         check(v, correction);
-        minimize_in_subspace(residual);
+        hierarchy.level(level).matrix.vmult(product, correction);
+        new_residual = residual;
+        new_residual -= product;
+        minimize_in_subspace();
         check(v, correction);
-        keeps_active = contact.active() == active;
-        cut_off      = correct();
+        keeps_active  = contact.active() == active;
+        cut_off       = correct();
+        stays_blocked = is_blocked;
       }
     if (searched)
       check(v, correction);
@@ -71,13 +81,10 @@ namespace Signorini
 
 
 
-  void TruncatedCycle::minimize_in_subspace(const Vector &residual)
+  void TruncatedCycle::minimize_in_subspace()
   {
     if (!subspace)
       subspace.emplace(hierarchy, level);
-    hierarchy.level(level).matrix.vmult(product, correction);
-    new_residual = residual;
-    new_residual -= product;
     subspace->run(correction, new_residual, contact, motions);
   }
 

@@ -85,8 +85,7 @@ namespace Signorini
     double add_better(const double length);
 
     /// Collective. Adds the minimizer in the contact subspace to the correction, and updates new_residual.
-    /// @param residual b - A v
-    void minimize_in_subspace(const Vector &residual);
+    void minimize_in_subspace();
 
     MultigridHierarchy    &hierarchy;
     const unsigned int     level;
@@ -104,6 +103,8 @@ namespace Signorini
     bool searched = false, keeps_active = false;
     /// Whether nodes in the way left little of the last coarse correction, or nothing holds the bodies.
     bool is_blocked = false;
+    /// Whether that was so after the last minimizer, too: the next iterations begin with one.
+    bool stays_blocked = false;
     /// Energy norm of a coarse correction of which something was cut off or shortened; else zero.
     double cut_off = 0.;
   };
