@@ -7,8 +7,6 @@
 #include <signorini/application/contact_checks.h>
 #include <signorini/mortar/geometric_penetration.h>
 
-#include <Eigen/Dense>
-
 #include <iomanip>
 
 namespace Signorini
@@ -23,8 +21,10 @@ namespace Signorini
       /// Covered area whose multipliers other pairs take away, as a share of the covered area. A strip of one
       /// face between two neighbours on one surface is less on all but the coarsest meshes.
       double lost_share = .25;
-      /// Initial overlap as a share of the narrowest extent of a body. Linear elasticity ends at a tenth.
-      double overlap = .5;
+      /// Initial overlap as a share of the extent of a body along the normal: what is no interference fit, and what is
+      /// taken for one unless it is asked for. Fits of shafts are a thousandth; linear elasticity ends at a
+      /// tenth.
+      double overlap = .5, small_overlap = .01;
       /// What prescribed displacements add to the overlap of two surfaces, as a share of the largest of them:
       /// more than different meshes make of the same field.
       double held_overlap = .02;
@@ -296,79 +296,69 @@ namespace Signorini
 
   namespace
   {
-    double width_of(const unsigned int body, const Bodies &bodies, const NodalSpace &space)
+    /// The extent of a body along a direction (length).
+    double width_of(const unsigned int body, const Bodies &bodies, const NodalSpace &space,
+                    const Vector3 &direction)
     {
-      const MPI_Comm comm = space.communicator();
-      // The extents along the principal axes of the nodes.
-      std::set<NodeIndex> nodes;
+      double low = std::numeric_limits<double>::max(), high = -low;
       for (const NodalSpace::Cell &cell : space.cells())
         if (cell.is_owned && bodies.body_of_material(cell.material) == body)
-          nodes.insert(space.nodes(cell).begin(), space.nodes(cell).end());
-      const double    n        = Utilities::MPI::sum(static_cast<double>(nodes.size()), comm);
-      Eigen::Vector3d centre   = Eigen::Vector3d::Zero();
-      const auto      position = [&](const NodeIndex node) {
-        const Point<3> &x = space.position(node);
-        return Eigen::Vector3d(x[0], x[1], x[2]);
-      };
-      for (const NodeIndex node : nodes)
-        centre += position(node) / n;
-      for (unsigned int c = 0; c < dim; ++c)
-        centre[c] = Utilities::MPI::sum(centre[c], comm);
-      Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
-      for (const NodeIndex node : nodes)
-        second += (position(node) - centre) * (position(node) - centre).transpose();
-      for (unsigned int i = 0; i < 9; ++i)
-        second.data()[i] = Utilities::MPI::sum(second.data()[i], comm);
-      const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(second);
-      double                                               width = std::numeric_limits<double>::max();
-      for (unsigned int i = 0; i < 3; ++i)
-        {
-          double low = std::numeric_limits<double>::max(), high = -low;
-          for (const NodeIndex node : nodes)
+          for (const NodeIndex node : space.nodes(cell))
             {
-              const double x = eigen.eigenvectors().col(i).dot(position(node) - centre);
+              const double x = direction * space.position(node);
               low            = std::min(low, x);
               high           = std::max(high, x);
             }
-          width = std::min(width, Utilities::MPI::max(high, comm) - Utilities::MPI::min(low, comm));
-        }
-      return width;
-    }
-
-    // Weighted gaps may be far below all gaps where the surfaces bend within a face: what counts is the gap
-    // itself.
-    double initial_overlap(const ContactPair &pair, const MPI_Comm comm)
-    {
-      const ContactSurface      &non = pair.nonmortar.surface, &mor = pair.mortar.surface;
-      const std::vector<Vector3> at_rest(non.mesh.vertices.size()), mortar_at_rest(mor.mesh.vertices.size());
-      const auto                 penetration =
-          pair.obstacle ? sample_rigid_penetration(non, *pair.obstacle, at_rest, comm)
-                                        : sample_geometric_penetration({non, mor, pair.mapping->overlay()}, at_rest,
-                                                                       mortar_at_rest, pair.prescribed_gap, comm);
-      return -penetration.min_initial_gap;
+      const MPI_Comm comm = space.communicator();
+      return Utilities::MPI::max(high, comm) - Utilities::MPI::min(low, comm);
     }
   } // namespace
 
 
 
-  void refuse_large_overlap(const CoupledPairs &coupled, const ContactPair &pair, const double overlap)
+  double smallest_initial_gap(const ContactPair &pair, const MPI_Comm comm)
   {
-    const Bodies     &bodies = coupled.model.bodies();
-    const NodalSpace &space  = coupled.constrained.nodal();
+    const ContactSurface      &non = pair.nonmortar.surface, &mor = pair.mortar.surface;
+    const std::vector<Vector3> at_rest(non.mesh.vertices.size()), mortar_at_rest(mor.mesh.vertices.size());
+    return pair.obstacle ? sample_rigid_penetration(non, *pair.obstacle, at_rest, comm).min_initial_gap :
+                           sample_geometric_penetration({non, mor, pair.mapping->overlay()}, at_rest,
+                                                        mortar_at_rest, pair.prescribed_gap, comm)
+                               .min_initial_gap;
+  }
+
+
+
+  void refuse_large_overlap(const CoupledPairs &coupled, const unsigned int p)
+  {
+    const ContactPair      &pair   = coupled.pairs[p];
+    const PairDefinition   &wanted = coupled.model.pairs()[p].definition;
+    const Bodies           &bodies = coupled.model.bodies();
+    const NodalSpace       &space  = coupled.constrained.nodal();
+    const PairCoupling     &c      = coupled.couplings[p];
+    const auto              worst  = std::min_element(c.gaps.begin(), c.gaps.end());
+    const std::size_t       row    = worst - c.gaps.begin();
+    const Vector3           normal = pair.nonmortar.surface.mesh.vertex_normals[c.vertices[row]];
+    const double share = wanted.penetration == InitialPenetration::automatic ? ContactRule().small_overlap :
+                                                                               ContactRule().overlap;
     for (const unsigned int body : {pair.nonmortar.body, pair.mortar.body})
       if (body != numbers::invalid_unsigned_int)
-        if (const double limit = ContactRule().overlap * width_of(body, bodies, space);
-            overlap > limit && initial_overlap(pair, space.communicator()) > limit)
-          {
-            std::ostringstream text;
-            text << "Pair " << pair.name << ": \"" << pair.nonmortar.name << "\" and \"" << pair.mortar.name
-                 << "\" overlap by " << overlap << " at the beginning, and body " << bodies.body_name(body)
-                 << " is only " << limit / ContactRule().overlap
-                 << " wide. Check the units and the place of the bodies (Body/Mesh, "
-                 << "Translation, Rotation), the boundaries of the pair (First, Second)"
-                 << (pair.obstacle ? ", the obstacle" : "")
-                 << (pair.prescribed_gap ? ", and \"Initial gap\"." : ".");
-            throw InputError(text.str());
-          }
+        if (const double width = width_of(body, bodies, space, normal); -*worst > share * width)
+          // Weighted gaps may be far below all gaps where the surfaces bend within a face: what counts is the
+          // gap itself.
+          if (const double overlap = -smallest_initial_gap(pair, space.communicator());
+              overlap > share * width)
+            {
+              std::ostringstream text;
+              text << "Pair " << pair.name << ": \"" << pair.nonmortar.name << "\" and \"" << pair.mortar.name
+                   << "\" overlap by " << overlap << " at the beginning, most near ("
+                   << c.positions[row] << "), and body " << bodies.body_name(body)
+                   << " is only " << width << " wide there. Check the units and the place of the bodies (Body/Mesh, "
+                   << "Translation, Rotation), the boundaries of the pair (First, Second)"
+                   << (pair.obstacle ? ", the obstacle" : "")
+                   << (pair.prescribed_gap ? ", and \"Initial gap\"." : ".");
+              if (overlap <= ContactRule().overlap * width)
+                text << " If an interference fit is meant, write \"Initial penetration = resolve\".";
+              throw InputError(text.str());
+            }
   }
 } // namespace Signorini

@@ -9,6 +9,7 @@ signorini_add_layer(mesh
   boundary_shape.cc
   coarser_meshes.cc
   expression.cc
+  extruded_mesh.cc
   generated_mesh.cc
   gmsh_file.cc
   material.cc
@@ -16,6 +17,7 @@ signorini_add_layer(mesh
   nodal_space.cc
   node_movement.cc
   refinement.cc
+  size_limit.cc
   surface_extraction.cc
   surface_file.cc
   surface_normals.cc

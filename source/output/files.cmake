@@ -1,5 +1,6 @@
 signorini_add_layer(output
   field_output.cc
+  final_words.cc
   output_folder.cc
   progress.cc
   summary.cc

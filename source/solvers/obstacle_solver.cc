@@ -93,21 +93,24 @@ namespace Signorini
           "obstacles of the level admit.");
       prm.add_action("Level 0", [&p](const std::string &value) { p.level_zero = level_zero_method(value); });
       prm.add_parameter("Level 0 steps", p.level_zero_steps, "Number of steps of algebraic shortened.",
-                        Patterns::Integer(1));
+                        Patterns::Integer(1, 10000));
     }
 
 
 
     void add_smoothing(ParameterHandler &prm, SmoothingParameters &p)
     {
-      prm.add_parameter("Pre-smoothing steps", p.n_pre, "Gauss-Seidel sweeps before the coarse correction.");
-      prm.add_parameter("Post-smoothing steps", p.n_post, "Gauss-Seidel sweeps after the coarse correction.");
+      prm.add_parameter("Pre-smoothing steps", p.n_pre, "Gauss-Seidel sweeps before the coarse correction.",
+                        Patterns::Integer(0, 10000));
+      prm.add_parameter("Post-smoothing steps", p.n_post, "Gauss-Seidel sweeps after the coarse correction.",
+                        Patterns::Integer(0, 10000));
       prm.add_parameter(
           "Interface sweeps", p.n_interface_sweeps,
           "Extra sweeps over the contact nodes of both sides and one layer of neighbours, on "
           "every level, after the pre- and before the post-smoothing; "
           "after a good start accelerated leaves them out on the finest level while the active set "
-          "rests, until an iteration is slow (leaves more than a quarter of the correction, for V(3,3)).");
+          "rests, until an iteration is slow (leaves more than a quarter of the correction, for V(3,3)).",
+          Patterns::Integer(0, 10000));
     }
   } // namespace
 
@@ -128,7 +131,7 @@ namespace Signorini
         Patterns::Double(0.));
     prm.add_parameter("Maximal iterations", max_iterations,
                       "Applications of the V-cycle (of a symmetric sweep, for projected gauss seidel).",
-                      Patterns::Integer(1));
+                      Patterns::Integer(1, 1000000000));
     prm.add_parameter("Safety net", safety_net,
                       "Whether accelerated goes on with active-set steps where it stays slow, with sparse "
                       "factors while the mesh is small. A note says when.");

@@ -32,9 +32,13 @@ namespace Signorini
   /// the matrix.
   void refuse_dense_coupling(const CoupledPairs &coupled);
 
-  /// Collective. Errors: InputError for an initial overlap of the order of a body.
-  /// @param overlap largest negative weighted gap of the pair
-  void refuse_large_overlap(const CoupledPairs &coupled, const ContactPair &pair, const double overlap);
+  /// Collective. The smallest distance of the true surfaces before anything moves (length, negative where they
+  /// overlap); infinite where nothing is covered.
+  double smallest_initial_gap(const ContactPair &pair, const MPI_Comm comm);
+
+  /// Collective. Errors: InputError for an initial overlap that is more than the definition of a pair allows,
+  /// or of the order of a body.
+  void refuse_large_overlap(const CoupledPairs &coupled, const unsigned int pair);
 } // namespace Signorini
 
 #endif
