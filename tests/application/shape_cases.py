@@ -15,7 +15,7 @@ def line_contact(p):
         with open(os.path.join(out, 'pressure.csv')) as f:
             rows = [{k: float(v) for k, v in row.items()} for row in csv.DictReader(f)]
     certificate(s, 1e-7)
-    radius, modulus, depth = 10., 1000. / (1 - .3 ** 2) / 2, .1
+    radius, modulus, depth = 10., 1000. / (1 - .3 ** 2) / 2, .2
     forces = [row['area'] * row['pressure'] for row in rows]
     # Half of the line, a slab of some depth. For p0 sqrt(1 - (x/a)^2) the mean of x^2 is (a/2)^2.
     force = 2 * sum(forces) / depth
