@@ -345,7 +345,7 @@ def robust(p):
     run('a single node', 15, 'Pair interface/Initial gap=10*((x-0.5)^2 + (y-0.5)^2) - 0.001', 'Body upper/Divisions=2, 2, 2',
         'Body upper/Dirichlet=top: (0, 0, 0)', two)
     run('separation', 15, 'Pair interface/Initial gap=1', two)
-    run('initial penetration', 15, 'Pair interface/Initial gap=-0.1', two)
+    run('initial penetration', 15, 'Pair interface/Initial gap=-0.1', 'Pair interface/Initial penetration=resolve', two)
     run('fixed border', 15, 'Body upper/Dirichlet=top: (0, 0, -0.05); left: (0, 0, 0)', 'Body lower/Dirichlet=bottom: (0, 0, 0); left: (0, 0, 0)', two)
 
 
@@ -373,7 +373,7 @@ def from_zero(p):
                 ('soft below', 15, 'cubes/cubes.prm', 2, ('Body upper/Young modulus=1', 'Body lower/Young modulus=1e-6', 'Pair interface/Nonmortar=auto')),
                 ('soft above', 15, 'cubes/cubes.prm', 2, ('Body upper/Young modulus=1', 'Body lower/Young modulus=1e6')),
                 ('separation', 15, 'cubes/cubes.prm', 2, ('Pair interface/Initial gap=1',)),
-                ('initial penetration', 15, 'cubes/cubes.prm', 2, ('Pair interface/Initial gap=-0.1',)),
+                ('initial penetration', 15, 'cubes/cubes.prm', 2, ('Pair interface/Initial gap=-0.1', 'Pair interface/Initial penetration=resolve')),
                 ('rough gap', 15, 'cubes/cubes.prm', 2, ('Pair interface/Initial gap=0.01*sin(50*x)*sin(70*y)',)),
                 ('fixed border', 15, 'cubes/cubes.prm', 2, ('Body upper/Dirichlet=top: (0, 0, -0.05); left: (0, 0, 0)', 'Body lower/Dirichlet=bottom: (0, 0, 0); left: (0, 0, 0)')))
     for text, bound, prm, levels, settings in problems:

@@ -398,7 +398,7 @@ TEST(GeneratedMesh, GradingHasTheRatioAndKeepsTheShape)
       const Bodies     graded(MPI_COMM_WORLD, define_bodies(MPI_COMM_WORLD, {p}, "."));
       const NodalSpace space(MPI_COMM_WORLD, graded.mesh());
       EXPECT_NEAR(volume(space) / volume(even), 1., .02) << kind;
-      EXPECT_GT(ratio_of_volumes(space), 3. * ratio_of_volumes(even)) << kind << ", " << towards;
+      EXPECT_GT(ratio_of_volumes(space), 2. * ratio_of_volumes(even)) << kind << ", " << towards;
     }
 }
 
