@@ -96,6 +96,7 @@ namespace Signorini
     {
       const Bodies &bodies = model.bodies();
       Loads         one;
+      one.time = model.loads().time;
       one.volume_forces.resize(bodies.n_bodies());
       for (const Traction &traction : model.loads().tractions)
         {
@@ -108,7 +109,7 @@ namespace Signorini
           {
             one.volume_forces[b] = model.loads().volume_forces[b];
             describe_load(out, model, d, one, "body " + bodies.body_name(b) + ", volume");
-            one.volume_forces[b] = nullptr;
+            one.volume_forces[b] = {};
           }
       const auto all = load_resultants(model, d, model.loads());
       for (unsigned int b = 0; b < bodies.n_bodies(); ++b)
@@ -119,7 +120,7 @@ namespace Signorini
     /// Prescribed displacements of a condition at its nodes, as far as this rank has them.
     struct Prescribed
     {
-      double                n_nodes = 0.;
+      double                n_nodes = 0., n_directions = 0.;
       std::array<double, 3> low = {{1e300, 1e300, 1e300}}, high = {{-1e300, -1e300, -1e300}};
     };
 
@@ -138,6 +139,9 @@ namespace Signorini
                 conditions[k].low[c]  = std::min(conditions[k].low[c], d.dirichlet().value[r][c]);
                 conditions[k].high[c] = std::max(conditions[k].high[c], d.dirichlet().value[r][c]);
               }
+          if (const auto node = d.dirichlet().held.find(r); node != d.dirichlet().held.end())
+            for (const HeldNode::Hold &hold : node->second.holds)
+              conditions[hold.condition].n_directions += 1.;
         }
       for (std::size_t k = 0; k < conditions.size(); ++k)
         {
@@ -157,7 +161,11 @@ namespace Signorini
                   out << ",";
                 }
             }
-          out << ' ' << n << " components of nodes" << std::endl;
+          if (n > 0.)
+            out << ' ' << n << " components of nodes";
+          if (const double m = Utilities::MPI::sum(conditions[k].n_directions, comm); m > 0.)
+            out << ' ' << m << " directions of nodes";
+          out << std::endl;
         }
     }
 

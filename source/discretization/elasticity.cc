@@ -39,13 +39,14 @@ namespace Signorini
     };
 
     /// Forces of a traction on one face.
-    void add_traction(CellData &data, const unsigned int face, const Traction &traction)
+    void add_traction(CellData &data, const unsigned int face, const SurfaceForces &forces,
+                      const std::size_t traction)
     {
       const ElementFace shape(data.element, face);
       for (unsigned int q = 0; q < shape.n_points(); ++q)
         {
           const ElementFace::PointData point = shape.point(q);
-          const Vector3                force = traction.force(point.position, point.area);
+          const Vector3                force = forces.force(traction, point.position, point.area);
           for (unsigned int v = 0; v < shape.n_corners(); ++v)
             data.load[shape.vertex(v)] += point.shape[v] * force;
         }
@@ -56,20 +57,16 @@ namespace Signorini
     class CellAssembler
     {
     public:
+      /// Collective.
       CellAssembler(const Bodies &bodies, const NodalSpace &space, const Loads &loads)
         : bodies(bodies)
         , space(space)
         , loads(loads)
+        , forces(loads, space)
       {
-        std::map<types::boundary_id, std::vector<const Traction *>> tractions_of;
-        for (const Traction &traction : loads.tractions)
-          for (const types::boundary_id id : traction.ids)
-            tractions_of[id].push_back(&traction);
-        if (!tractions_of.empty())
-          for (const NodalSpace::BoundaryFace &face : space.boundary_faces())
-            if (const auto it = tractions_of.find(face.id); it != tractions_of.end())
-              for (const Traction *traction : it->second)
-                loaded.push_back({face.cell, face.face, traction});
+        for (const NodalSpace::BoundaryFace &face : space.boundary_faces())
+          for (const std::size_t traction : forces.on(face.id))
+            loaded.push_back({face.cell, face.face, traction});
         std::stable_sort(loaded.begin(), loaded.end(),
                          [](const auto &a, const auto &b) { return a.cell < b.cell; });
       }
@@ -93,7 +90,7 @@ namespace Signorini
             {
               const auto [weight, point] = data.element.volume_element(q);
               const auto    values       = data.element.shape_at_point(q);
-              const Vector3 value        = force(point);
+              const Vector3 value        = force(point, loads.time);
               for (unsigned int v = 0; v < data.n(); ++v)
                 for (unsigned int c = 0; c < dim; ++c)
                   data.load[v][c] += weight * values[v] * value[c];
@@ -101,19 +98,20 @@ namespace Signorini
         auto face = std::lower_bound(loaded.begin(), loaded.end(), index,
                                      [](const LoadedFace &f, const unsigned int i) { return f.cell < i; });
         for (; face != loaded.end() && face->cell == index; ++face)
-          add_traction(data, face->face, *face->traction);
+          add_traction(data, face->face, forces, face->traction);
       }
 
     private:
       struct LoadedFace
       {
-        unsigned int    cell, face;
-        const Traction *traction;
+        unsigned int cell, face;
+        std::size_t  traction;
       };
 
       const Bodies           &bodies;
       const NodalSpace       &space;
       const Loads            &loads;
+      const SurfaceForces     forces;
       std::vector<LoadedFace> loaded;
     };
 
@@ -273,13 +271,13 @@ namespace Signorini
 
 
 
-    std::vector<FixedMask> owned_masks(const NodalSpace &space, const DirichletData &dirichlet)
+    std::vector<FixedDirections> owned_masks(const NodalSpace &space, const DirichletData &dirichlet)
     {
-      std::vector<FixedMask> masks;
+      std::vector<FixedDirections> masks;
       for (const NodeIndex node : space.owned())
         masks.push_back(space.hanging_nodes().is_constrained(node)
                             ? all_fixed
-                            : dirichlet.mask[space.relevant().index_within_set(node)]);
+                            : dirichlet.fixed[space.relevant().index_within_set(node)]);
       return masks;
     }
 
@@ -340,9 +338,7 @@ namespace Signorini
     system.matrix.compress();
     system.rhs.compress(VectorOperation::add);
     for (unsigned int i = 0; i < system.matrix.n_rows(); ++i)
-      for (unsigned int c = 0; c < dim; ++c)
-        if (system.fixed[i] & (1u << c))
-          system.rhs.local_element(dim * i + c) = 0.;
+      project_free(system.fixed[i], system.rhs, i);
     return system;
   }
 

@@ -13,6 +13,7 @@ import tempfile
 
 import finished_mesh_cases
 import geometry_cases
+import load_cases
 import random_pair_cases
 import shape_cases
 import tool_cases
@@ -665,7 +666,9 @@ def surface_map(p):
 
 
 if __name__ == '__main__':
-    case = next(getattr(m, sys.argv[2]) for m in (sys.modules[__name__], geometry_cases, finished_mesh_cases, random_pair_cases, shape_cases, tool_cases, verification_cases, true_gap_cases) if hasattr(m, sys.argv[2]))
+    modules = (sys.modules[__name__], geometry_cases, finished_mesh_cases, load_cases, random_pair_cases, shape_cases, tool_cases, true_gap_cases,
+               verification_cases)
+    case = next(getattr(m, sys.argv[2]) for m in modules if hasattr(m, sys.argv[2]))
     case(Program(sys.argv[1], int(sys.argv[3])))
     for failure in FAILURES:
         print('FAILED:', failure)
