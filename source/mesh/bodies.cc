@@ -26,6 +26,28 @@ namespace Signorini
 
 
 
+  namespace
+  {
+    /// Refuses what leaves the range of numbers when it is squared and multiplied with a modulus.
+    void check_extent(const VolumeMesh &mesh, const std::string &section)
+    {
+      double width = 0., largest = 0.;
+      for (const Point<3> &v : mesh.vertices)
+        {
+          width   = std::max(width, v.distance(mesh.vertices[0]));
+          largest = std::max(largest, v.norm());
+        }
+      if (width > 1e-60 && largest < 1e60)
+        return;
+      std::ostringstream text;
+      text << section << "Mesh: the body is " << width << " wide and reaches " << largest
+           << " away from the origin. Choose another unit.";
+      throw InputError(text.str());
+    }
+  } // namespace
+
+
+
   Bodies::Placed Bodies::add_body(const BodyDefinition &definition)
   {
     const std::string  section = "Body " + definition.name + "/";
@@ -51,6 +73,7 @@ namespace Signorini
       v = definition.placement(v);
     for (Point<3> &v : start_surfaces.back().mesh.vertices)
       v = definition.placement(v);
+    check_extent(body.mesh, section);
     check_shapes(body, section + "Boundary shapes", definition.snap);
     find_parts(body, b);
     for (const unsigned int material : body.material_of_cell)

@@ -53,8 +53,9 @@ namespace Signorini
     LevelZeroMethod level_zero_method(const std::string &name)
     {
       const auto &names = level_zero_names();
-      if (const auto it = names.find(name); it != names.end())
-        return it->second;
+      for (const auto &entry : names)
+        if (plain_word(entry.first) == plain_word(name))
+          return entry.second;
       std::string known;
       for (const auto &entry : names)
         known += (known.empty() ? "" : ", ") + entry.first;
@@ -90,7 +91,7 @@ namespace Signorini
           "Solver of the coarsest level. automatic: Cholesky while the level is small, else amg. cholesky: "
           "sparse factors. amg: algebraic multigrid (Trilinos ML with rigid motions) to three digits. "
           "algebraic shortened: a few steps of algebraic multigrid, each shortened as a whole to what the "
-          "obstacles of the level admit.");
+          "obstacles of the level admit. One of: automatic, cholesky, amg, algebraic shortened.");
       prm.add_action("Level 0", [&p](const std::string &value) { p.level_zero = level_zero_method(value); });
       prm.add_parameter("Level 0 steps", p.level_zero_steps, "Number of steps of algebraic shortened.",
                         Patterns::Integer(1, 10000));
