@@ -73,6 +73,20 @@ namespace Signorini
       return line.str();
     }
 
+    /// After an iteration that did not converge.
+    std::string what_may_help(const SolverParameters &solver)
+    {
+      std::string text = " What may help:";
+      if (solver.method != SolverMethod::accelerated)
+        text += " Solver/Method = accelerated;";
+      else if (!solver.safety_net)
+        text += " Solver/Safety net = true;";
+      if (solver.max_iterations < 100)
+        text += " more Maximal iterations;";
+      return text + " the softer body as Pair/Nonmortar; cells that are less stretched (contrib/plots/render.py shows "
+                    "them); a condition that stops bodies from sliding where only contact holds them.";
+    }
+
     std::string describe(const SafetyNetReport &net)
     {
       std::ostringstream text;
@@ -191,7 +205,8 @@ namespace Signorini
         const ConvergenceReport &report = last.solution.report;
         last.results.converged          = last.results.converged && report.converged;
         if (!report.converged || report.stagnated)
-          journal.note("cycle " + std::to_string(cycle) + ": " + report.note + ".");
+          journal.note("cycle " + std::to_string(cycle) + ": " + report.note + "." +
+                       (report.converged ? "" : what_may_help(parameters.solve.solver)));
         if (report.safety_net.after > 0)
           journal.note("cycle " + std::to_string(cycle) + ": " + describe(report.safety_net));
         if (report.needed_patches && report.before_patches > 0)

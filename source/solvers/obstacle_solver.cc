@@ -199,9 +199,29 @@ namespace Signorini
 
 
 
+  namespace
+  {
+    /// When an iteration gets nowhere.
+    struct PlateauRule
+    {
+      /// So many iterations without a smaller correction than any before: four times what bodies that only
+      /// contact holds take altogether.
+      std::size_t patience = 100;
+    };
+
+    bool is_on_plateau(const std::vector<double> &history)
+    {
+      const std::size_t n = PlateauRule().patience;
+      return history.size() > n && *std::min_element(history.end() - static_cast<long>(n), history.end()) >=
+                                       *std::min_element(history.begin(), history.end() - static_cast<long>(n));
+    }
+  } // namespace
+
+
+
   bool ObstacleSolver::goes_on(const ConvergenceReport &report) const
   {
-    return report.iterations < parameters.max_iterations && !report.converged;
+    return report.iterations < parameters.max_iterations && !report.converged && !is_on_plateau(report.history);
   }
 
 
@@ -222,7 +242,8 @@ namespace Signorini
     report.energy = -.5 * (problem.rhs * v + residual * v);
     report.rate   = convergence_rate(report.history);
     if (!report.converged)
-      report.note = "stopped after " + std::to_string(report.iterations) + " iterations without convergence";
+      report.note = "stopped after " + std::to_string(report.iterations) + " iterations without convergence" +
+                    (is_on_plateau(report.history) ? ", the last of which brought nothing" : "");
   }
 
 
