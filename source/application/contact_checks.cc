@@ -5,7 +5,7 @@
 
 #include <signorini/algebra/input_error.h>
 #include <signorini/application/contact_checks.h>
-#include <signorini/mortar/geometric_penetration.h>
+#include <signorini/mortar/surface_values.h>
 
 #include <iomanip>
 
@@ -25,6 +25,9 @@ namespace Signorini
       /// taken for one unless it is asked for. Fits of shafts are a thousandth; linear elasticity ends at a
       /// tenth.
       double overlap = .5, small_overlap = .01;
+      /// Product of the normals from where on surfaces do not face each other: 60 degrees, as for obstacles.
+      /// Gaps at grazing angles are no distances.
+      double facing = -.5;
       /// What prescribed displacements add to the overlap of two surfaces, as a share of the largest of them:
       /// more than different meshes make of the same field.
       double held_overlap = .02;
@@ -316,49 +319,95 @@ namespace Signorini
 
 
 
-  double smallest_initial_gap(const ContactPair &pair, const MPI_Comm comm)
+  namespace
   {
-    const ContactSurface      &non = pair.nonmortar.surface, &mor = pair.mortar.surface;
-    const std::vector<Vector3> at_rest(non.mesh.vertices.size()), mortar_at_rest(mor.mesh.vertices.size());
-    return pair.obstacle ? sample_rigid_penetration(non, *pair.obstacle, at_rest, comm).min_initial_gap :
-                           sample_geometric_penetration({non, mor, pair.mapping->overlay()}, at_rest,
-                                                        mortar_at_rest, pair.prescribed_gap, comm)
-                               .min_initial_gap;
+    /// Calls f(vertex or point of the nonmortar surface, its normal, gap) where surfaces face each other: at the
+    /// corners of the overlay cells of this rank.
+    template <typename F>
+    void for_each_gap(const ContactPair &pair, const F &f)
+    {
+      const ContactSurface &non = pair.nonmortar.surface, &mor = pair.mortar.surface;
+      if (pair.obstacle)
+        for (std::size_t v = 0; v < non.mesh.vertices.size(); ++v)
+          {
+            const Point<3> &x = non.mesh.vertices[v];
+            const Vector3  &n = non.mesh.vertex_normals[v];
+            if (double gap; pair.obstacle->gap(gap, x, n, surface_size(non)))
+              f(x, n, gap);
+          }
+      if (!pair.mapping)
+        return;
+      const SurfaceValues on_nonmortar(non), on_mortar(mor);
+      for (const OverlayTriangle &cell : pair.mapping->overlay())
+        for (unsigned int c = 0; c < 3; ++c)
+          {
+            std::array<double, 3> corner = {{0., 0., 0.}};
+            corner[c]                    = 1.;
+            const Point<3> x     = on_nonmortar.point(cell.nonmortar_triangle, cell.nonmortar[c]);
+            const Point<3> image = on_mortar.point(cell.mortar_triangle, cell.mortar[c]);
+            const Vector3  n     = on_nonmortar.normal(cell.nonmortar_triangle, cell.nonmortar[c]);
+            const Vector3  other = on_mortar.normal(cell.mortar_triangle, cell.mortar[c]);
+            if (pair.prescribed_gap)
+              f(x, n, pair.prescribed_gap(x));
+            else if (n * other < ContactRule().facing)
+              f(x, n, initial_gap(non, mor, cell, corner, x, image) * n);
+          }
+    }
+  } // namespace
+
+
+
+  SmallestGap smallest_initial_gap(const ContactPair &pair, const MPI_Comm comm)
+  {
+    SmallestGap result;
+    for_each_gap(pair, [&](const Point<3> &x, const Vector3 &n, const double gap) {
+      if (gap < result.value)
+        result = {gap, x, n};
+    });
+    const auto all = Utilities::MPI::all_gather(comm, std::make_tuple(result.value, result.place, result.normal));
+    for (const auto &[value, place, normal] : all)
+      if (value < result.value)
+        result = {value, place, normal};
+    // The same on all ranks, also where several of them have it.
+    for (const auto &[value, place, normal] : all)
+      if (value == result.value)
+        return {value, place, normal};
+    return result;
   }
 
 
 
   void refuse_large_overlap(const CoupledPairs &coupled, const unsigned int p)
   {
-    const ContactPair      &pair   = coupled.pairs[p];
-    const PairDefinition   &wanted = coupled.model.pairs()[p].definition;
-    const Bodies           &bodies = coupled.model.bodies();
-    const NodalSpace       &space  = coupled.constrained.nodal();
-    const PairCoupling     &c      = coupled.couplings[p];
-    const auto              worst  = std::min_element(c.gaps.begin(), c.gaps.end());
-    const std::size_t       row    = worst - c.gaps.begin();
-    const Vector3           normal = pair.nonmortar.surface.mesh.vertex_normals[c.vertices[row]];
+    const ContactPair    &pair   = coupled.pairs[p];
+    const PairDefinition &wanted = coupled.model.pairs()[p].definition;
+    const Bodies         &bodies = coupled.model.bodies();
+    const NodalSpace     &space  = coupled.constrained.nodal();
+    // Weighted gaps may be far below all gaps where the surfaces bend within a face: what counts is the gap
+    // itself.
+    const SmallestGap gap = smallest_initial_gap(pair, space.communicator());
+    if (!(gap.value < 0.))
+      return;
     const double share = wanted.penetration == InitialPenetration::automatic ? ContactRule().small_overlap :
                                                                                ContactRule().overlap;
     for (const unsigned int body : {pair.nonmortar.body, pair.mortar.body})
-      if (body != numbers::invalid_unsigned_int)
-        if (const double width = width_of(body, bodies, space, normal); -*worst > share * width)
-          // Weighted gaps may be far below all gaps where the surfaces bend within a face: what counts is the
-          // gap itself.
-          if (const double overlap = -smallest_initial_gap(pair, space.communicator());
-              overlap > share * width)
-            {
-              std::ostringstream text;
-              text << "Pair " << pair.name << ": \"" << pair.nonmortar.name << "\" and \"" << pair.mortar.name
-                   << "\" overlap by " << overlap << " at the beginning, most near ("
-                   << c.positions[row] << "), and body " << bodies.body_name(body)
-                   << " is only " << width << " wide there. Check the units and the place of the bodies (Body/Mesh, "
-                   << "Translation, Rotation), the boundaries of the pair (First, Second)"
-                   << (pair.obstacle ? ", the obstacle" : "")
-                   << (pair.prescribed_gap ? ", and \"Initial gap\"." : ".");
-              if (overlap <= ContactRule().overlap * width)
-                text << " If an interference fit is meant, write \"Initial penetration = resolve\".";
-              throw InputError(text.str());
-            }
+      {
+        if (body == numbers::invalid_unsigned_int)
+          continue;
+        const double width = width_of(body, bodies, space, gap.normal);
+        if (-gap.value <= share * width)
+          continue;
+        std::ostringstream text;
+        text << "Pair " << pair.name << ": \"" << pair.nonmortar.name << "\" and \"" << pair.mortar.name
+             << "\" overlap by " << -gap.value << " at the beginning, most at (" << gap.place << "), and body "
+             << bodies.body_name(body) << " is only " << width
+             << " wide there. Check the units and the place of the bodies (Body/Mesh, Translation, Rotation), the "
+                "boundaries of the pair (First, Second)"
+             << (pair.obstacle ? ", the obstacle" : "")
+             << (pair.prescribed_gap ? ", and \"Initial gap\"." : ".");
+        if (-gap.value <= ContactRule().overlap * width)
+          text << " If an interference fit is meant, write \"Initial penetration = resolve\".";
+        throw InputError(text.str());
+      }
   }
 } // namespace Signorini

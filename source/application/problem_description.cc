@@ -57,7 +57,7 @@ namespace Signorini
     void describe_pair(std::ostream &out, const ContactPair &pair, const PairCoupling &coupling,
                        const MPI_Comm comm)
     {
-      const double smallest = smallest_initial_gap(pair, comm);
+      const SmallestGap smallest = smallest_initial_gap(pair, comm);
       if (coupling.gaps.empty())
         return;
       std::vector<double> gaps;
@@ -67,10 +67,9 @@ namespace Signorini
           << ", " << gaps.size() << " contact nodes, gap " << *std::min_element(gaps.begin(), gaps.end())
           << " to " << *std::max_element(gaps.begin(), gaps.end()) << ", coverage "
           << coupling.covered_area / coupling.area << std::endl;
-      const std::size_t row = std::min_element(coupling.gaps.begin(), coupling.gaps.end()) - coupling.gaps.begin();
-      out << "  smallest distance of the true surfaces: " << smallest
-          << (smallest < 0. ? " (they overlap)" : "") << ", near (" << coupling.positions[row] << ")"
-          << std::endl;
+      if (smallest.value < std::numeric_limits<double>::max())
+        out << "  smallest distance of the true surfaces: " << smallest.value
+            << (smallest.value < 0. ? " (they overlap)" : "") << ", at (" << smallest.place << ")" << std::endl;
     }
 
     std::string text(const Vector3 &v)

@@ -201,10 +201,11 @@ def own_words(p):
         words = description[description.index('One of: ') + 8:].rstrip('.').split(', ')
         # What is explained, "word: ..." at the beginning of a sentence or after a semicolon, is one of them.
         explained = re.findall(r'(?:^|[.;] )([A-Za-z0-9 ]+?): ', description[:description.index('One of: ')])
-        for word in words + explained + [w.upper() for w in words]:
-            n_words += 1
-            run = p.call('--print-parameters', PATCH_TEST, '--set', f'{section}{name}={word}')
-            check(run.returncode == 0, f'{section}{name} = {word}: {run.stderr}')
+        explained = [w for phrase in explained for w in phrase.split(' and ')]
+        every = words + explained + [w.upper() for w in words]
+        n_words += len(every)
+        run = p.call('--print-parameters', PATCH_TEST, *[a for w in every for a in ('--set', f'{section}{name}={w}')])
+        check(run.returncode == 0, f'{section}{name} = {every}: {run.stderr}')
         run = p.call('--print-parameters', PATCH_TEST, '--set', f'{section}{name}=nonsense')
         check(run.returncode == 1 and words[0] in run.stderr, f'{section}{name} = nonsense: {run.stderr}')
     check(n_options >= 10 and n_words > 60, f'{n_options} options with {n_words} words')
@@ -216,12 +217,14 @@ def own_words(p):
     kinds = description[description.index('generated mesh: ') + len('generated mesh: '):].rstrip('.').split(', ')
     check(len(kinds) >= 20, f'kinds: {kinds}')
     with tempfile.TemporaryDirectory() as folder:
-        prm = os.path.join(folder, 'one.prm')
+        prm = os.path.join(folder, 'all.prm')
+        with open(prm, 'w') as f:
+            f.write('set Bodies = ' + ', '.join(kinds) + '\n')
+            for kind in kinds:
+                f.write(f'subsection Body {kind}\n set Mesh = {kind}\n set Corners = (0, 0); (1, 0); (0, 1)\nend\n')
+        run = p.call('--check', prm)
         for kind in kinds:
-            with open(prm, 'w') as f:
-                f.write(f'set Bodies = one\nsubsection Body one\n set Mesh = {kind}\n set Corners = (0, 0); (1, 0); (0, 1)\nend\n')
-            run = p.call('--check', prm)
-            check(run.returncode == 0 and 'body one' in run.stdout, f'Mesh = {kind}: {run.stderr}')
+            check(f'body {kind}: ' in run.stdout, f'Mesh = {kind}: {run.stderr}')
     # Obstacles, shapes and regions, as theirs have them.
     for setting in ('Pair bottom/Obstacle=plane: (0, 0, 0), (0, 0, 1)', 'Pair bottom/Obstacle=sphere: (0.5, 0.5, -5), 5',
                     'Pair bottom/Obstacle=cylinder: (0.5, 0, -5), (0, 1, 0), 5', 'Pair bottom/Obstacle=paraboloid: (0.5, 0.5, 0), (0, 0, 1), 2',
@@ -322,7 +325,7 @@ def check_says(p):
     run = p.call('--check', PATCH_TEST, '--set', 'Body upper/Pressures=right: 2', '--set', 'Body lower/Volume force=(0, 0, -3)', '--set',
                  'Body upper/Translation=0, 0, 0.25')
     check(run.returncode == 0, f'--check: {run.stderr}')
-    for line in ('load on body upper, boundary right: force (-2, 0, 0), moment about the origin (0, -1.5, 1)', 'load on body lower, volume: force (0, 0, -3)',
+    for line in ('load on body upper, boundary "right": force (-2, 0, 0), moment about the origin (0, -1.5, 1)', 'load on body lower, volume: force (0, 0, -3)',
                  'all loads on body upper: force (-2, 0, 0)', 'constraint on body upper, boundary top: u_z = -0.01, ', 'free motions: none',
                  'smallest distance of the true surfaces: 0.25'):
         found = re.sub(r'[-+0-9.]+e-1[5-9]', '0', run.stdout)

@@ -32,9 +32,18 @@ namespace Signorini
   /// the matrix.
   void refuse_dense_coupling(const CoupledPairs &coupled);
 
-  /// Collective. The smallest distance of the true surfaces before anything moves (length, negative where they
-  /// overlap); infinite where nothing is covered.
-  double smallest_initial_gap(const ContactPair &pair, const MPI_Comm comm);
+  /// The smallest distance of two surfaces: its length along the normal, negative where they overlap, and where
+  /// that is on the nonmortar side.
+  struct SmallestGap
+  {
+    double           value = std::numeric_limits<double>::max();
+    dealii::Point<3> place;
+    Vector3          normal;
+  };
+
+  /// Collective. That of the true surfaces before anything moves, at the corners of the overlay (with an
+  /// obstacle, at the vertices) where they face each other.
+  SmallestGap smallest_initial_gap(const ContactPair &pair, const MPI_Comm comm);
 
   /// Collective. Errors: InputError for an initial overlap that is more than the definition of a pair allows,
   /// or of the order of a body.
