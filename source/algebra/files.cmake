@@ -1,6 +1,7 @@
 signorini_add_layer(algebra
   algebraic_multigrid.cc
   block_row.cc
+  fixed_directions.cc
   galerkin_product.cc
   nodal_transfer.cc
   node_block_matrix.cc

@@ -123,11 +123,12 @@ namespace Signorini
 
 
 
-  std::vector<FixedMask> replicate_masks(const NodePartition &partition, const std::vector<FixedMask> &owned,
-                                         const std::vector<NodeIndex> &nodes)
+  std::vector<FixedDirections> replicate_masks(const NodePartition                &partition,
+                                               const std::vector<FixedDirections> &owned,
+                                               const std::vector<NodeIndex>       &nodes)
   {
     const auto [begin, end] = owned_range(partition, nodes);
-    std::vector<FixedMask> mine;
+    std::vector<FixedDirections> mine;
     for (std::size_t i = begin; i < end; ++i)
       mine.push_back(owned[nodes[i] - partition.first_owned()]);
     return concatenate(partition, mine);
@@ -135,17 +136,30 @@ namespace Signorini
 
 
 
-  std::vector<FixedMask> import_ghost_masks(const NodePartition          &partition,
-                                            const std::vector<FixedMask> &owned)
+  std::vector<FixedDirections> import_ghost_masks(const NodePartition                &partition,
+                                                  const std::vector<FixedDirections> &owned)
   {
-    Vector flags;
+    Vector flags, axes;
     partition.reinit(flags);
+    partition.reinit(axes);
     for (unsigned int i = 0; i < partition.n_owned(); ++i)
-      flags.local_element(dim * i) = owned[i];
+      {
+        flags.local_element(dim * i)     = owned[i].components();
+        flags.local_element(dim * i + 1) = owned[i].n_oblique_directions();
+        for (unsigned int c = 0; c < dim; ++c)
+          axes.local_element(dim * i + c) = owned[i].oblique_axis()[c];
+      }
     flags.update_ghost_values();
-    std::vector<FixedMask> masks(partition.n_local());
+    axes.update_ghost_values();
+    std::vector<FixedDirections> masks(partition.n_local());
     for (unsigned int i = 0; i < partition.n_local(); ++i)
-      masks[i] = static_cast<FixedMask>(flags.local_element(dim * i));
+      {
+        Vector3 axis;
+        for (unsigned int c = 0; c < dim; ++c)
+          axis[c] = axes.local_element(dim * i + c);
+        masks[i] = FixedDirections(static_cast<FixedMask>(flags.local_element(dim * i)),
+                                   static_cast<unsigned int>(flags.local_element(dim * i + 1)), axis);
+      }
     return masks;
   }
 } // namespace Signorini

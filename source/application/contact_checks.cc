@@ -136,7 +136,7 @@ namespace Signorini
     bool is_held(const ContactSurface &surface, const unsigned int v)
     {
       return surface.hanging[v].empty() &&
-             (surface.vertex_fixed[v] == all_fixed ||
+             (surface.vertex_fixed[v].all() ||
               project_free(surface.vertex_fixed[v], surface.mesh.vertex_normals[v]).norm() < .5);
     }
 

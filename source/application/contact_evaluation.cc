@@ -253,15 +253,13 @@ namespace Signorini
             const NodeIndex node = d.partition().to_global(i);
             if (d.nodal().hanging_nodes().is_constrained(node))
               continue;
-            const auto &condition = d.dirichlet().condition[d.nodal().relevant().index_within_set(node)];
+            Vector3 force;
             for (unsigned int c = 0; c < dim; ++c)
-              if (const double f = residual.local_element(dim * i + c); condition[c] >= 0)
-                reactions[condition[c]][c] += f;
-              else
-                {
-                  rest[i][c] = f;
-                  square += f * f;
-                }
+              force[c] = residual.local_element(dim * i + c);
+            rest[i] = d.dirichlet().split_reaction(
+                d.nodal().relevant().index_within_set(node), force,
+                [&](const std::size_t condition, const Vector3 &part) { reactions[condition] += part; });
+            square += rest[i].norm_square();
           }
       }
 

@@ -16,7 +16,7 @@ namespace Signorini
 
   namespace
   {
-    /// Components in the global directions, or nothing if the axes of the frame are oblique.
+    /// Prescribed components.
     using Values = std::array<std::optional<double>, 3>;
 
     bool is_zero(const Values &values)
@@ -24,7 +24,7 @@ namespace Signorini
       return std::all_of(values.begin(), values.end(), [](const auto &v) { return v && *v == 0.; });
     }
 
-    /// Values along axes that are those of space in another order or direction.
+    /// Values along axes that are those of space in another order or direction; false for oblique ones.
     bool to_global(Values &result, const Values &values, const DeckFrame &frame)
     {
       if (is_zero(values))
@@ -44,36 +44,16 @@ namespace Signorini
               if (std::abs(std::abs(frame.axes[i][c]) - 1.) < 1e-12)
                 along = c;
             if (along == 3)
-              {
-                if (!values[0] || !values[1] || !values[2])
-                  return false;
-                // All three: the sum along the axes.
-                for (unsigned int c = 0; c < 3; ++c)
-                  {
-                    double sum = 0.;
-                    for (unsigned int k = 0; k < 3; ++k)
-                      sum += *values[k] * frame.axes[k][c];
-                    result[c] = sum;
-                  }
-                return true;
-              }
+              return false;
             result[along] = *values[i] * frame.axes[i][along];
           }
       return true;
     }
 
-    /// The axes of a frame at a node.
-    std::array<Vector3, 3> axes_at(const DeckFrame &frame, const Point<3> &x)
+    ConditionFrame condition_frame(const DeckFrame &frame)
     {
-      if (!frame.is_cylindrical)
-        return frame.axes;
-      std::array<Vector3, 3> axes;
-      axes[2]        = (frame.second - frame.first) / frame.second.distance(frame.first);
-      Vector3 radial = x - frame.first;
-      radial -= (radial * axes[2]) * axes[2];
-      axes[0] = radial.norm() > 0. ? radial / radial.norm() : Vector3();
-      axes[1] = cross_product_3d(axes[2], axes[0]);
-      return axes;
+      return frame.is_cylindrical ? ConditionFrame::cylindrical(frame.first, frame.second - frame.first)
+                                  : ConditionFrame::rotated(frame.axes[0], frame.axes[1]);
     }
 
     class LoadsOfDeck
@@ -117,15 +97,14 @@ namespace Signorini
         bool is_anywhere = condition.nodes.empty();
         for (const auto &[frame, nodes] : by_frame)
           {
-            Values values = condition.values;
+            Values         values = condition.values;
+            ConditionFrame axes;
             if (frame != Deck::none && !to_global(values, condition.values, model.frames()[frame]))
-              deck.text().fail(condition.place, "directions of a TRANSFORM that are oblique (" +
-                                                    deck.text().where(model.frames()[frame].place) +
-                                                    ") need all three directions to be prescribed.");
+              axes = condition_frame(model.frames()[frame]);
             std::string name = condition.set.empty() ? "nodes of line " + std::to_string(condition.place.line)
                                                      : condition.set;
             for (DeckBody &body : bodies)
-              is_anywhere = add_condition(body, name, nodes, values) || is_anywhere;
+              is_anywhere = add_condition(body, name, nodes, values, axes) || is_anywhere;
           }
         if (!is_anywhere)
           remarks.push_back(deck.text().where(condition.place) +
@@ -133,7 +112,7 @@ namespace Signorini
       }
 
       bool add_condition(DeckBody &body, std::string name, const std::vector<unsigned int> &nodes,
-                         const Values &values)
+                         const Values &values, const ConditionFrame &axes)
       {
         const std::vector<unsigned int> vertices = vertices_within(nodes, *body.cells);
         if (vertices.empty())
@@ -144,6 +123,7 @@ namespace Signorini
           sets.emplace_back(name, vertices);
         LoadDefinition::Displacement displacement;
         displacement.boundary = name;
+        displacement.frame    = axes;
         for (unsigned int c = 0; c < 3; ++c)
           if (values[c])
             displacement.components[c] = [value = *values[c]](const Point<3> &) { return value; };
@@ -179,7 +159,8 @@ namespace Signorini
             if (frame == model.frame_of_node().end())
               force[component] = load.value;
             else
-              force = load.value * axes_at(model.frames()[frame->second], deck.positions()[node])[component];
+              force = load.value * condition_frame(model.frames()[frame->second])
+                                       .axes(deck.positions()[node], Vector3())[component];
             bool is_anywhere = load.value == 0.;
             for (DeckBody &body : bodies)
               if (const unsigned int vertex = body.cells->vertex(node); vertex != VolumeMesh::no_vertex)

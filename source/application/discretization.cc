@@ -92,7 +92,7 @@ namespace Signorini
       result.surface = extract_contact_surface(
           space, side.ids,
           [&](const NodeIndex node) {
-            return constrained.dirichlet.mask[space.relevant().index_within_set(node)];
+            return constrained.dirichlet.fixed[space.relevant().index_within_set(node)];
           },
           region, side.shapes);
       if (result.surface.faces.empty())

@@ -19,9 +19,9 @@ namespace Signorini
       const auto add = [&](const NodeIndex node, const Vector3 &force) {
         if (!d.partition().owns(node))
           return;
-        const unsigned int i    = d.partition().to_local(node);
-        const FixedMask    mask = d.dirichlet().mask[d.nodal().relevant().index_within_set(node)];
-        const Vector3      free = project_free(mask, force);
+        const unsigned int i = d.partition().to_local(node);
+        const Vector3      free =
+            project_free(d.dirichlet().fixed[d.nodal().relevant().index_within_set(node)], force);
         for (unsigned int c = 0; c < dim; ++c)
           rhs.local_element(dim * i + c) += free[c];
       };

@@ -304,7 +304,7 @@ namespace Signorini
 
 
     /// The nodes of a rank of which some component is free.
-    std::vector<MeshNode> own_nodes(const NodalSpace &space, const std::vector<FixedMask> &fixed,
+    std::vector<MeshNode> own_nodes(const NodalSpace &space, const std::vector<FixedDirections> &fixed,
                                     const Bodies &bodies, const BackgroundRule &rule)
     {
       const IndexSet            &owned = space.owned();
@@ -329,7 +329,7 @@ namespace Signorini
       for (const NodeIndex node : owned)
         {
           const Point<3> &p = space.position(node);
-          if (fixed[i] != all_fixed)
+          if (!fixed[i].all())
             result.push_back({node,
                               {{p[0], p[1], p[2]}},
                               rule.edge_share * (edges[i].lengths[0] + edges[i].lengths[1]),
@@ -458,8 +458,8 @@ namespace Signorini
 
 
 
-  std::vector<DistributedBackgroundLevel> background_levels(const NodalSpace             &space,
-                                                            const std::vector<FixedMask> &fixed,
+  std::vector<DistributedBackgroundLevel> background_levels(const NodalSpace                   &space,
+                                                            const std::vector<FixedDirections> &fixed,
                                                             const Bodies &bodies, const BackgroundRule &rule)
   {
     const MPI_Comm        communicator = space.communicator();

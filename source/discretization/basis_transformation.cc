@@ -56,7 +56,12 @@ namespace Signorini
       {
         const std::size_t r = space.relevant().index_within_set(partition.to_global(i));
         for (unsigned int c = 0; c < dim; ++c)
-          u.local_element(dim * i + c) = v.local_element(dim * i + c) + dirichlet.value[r][c];
+          u.local_element(dim * i + c) = v.local_element(dim * i + c);
+        // Rounding of the sweeps: what is fixed in an oblique direction is no number that stays zero.
+        if (!dirichlet.fixed[r].is_along_axes())
+          project_free(dirichlet.fixed[r], u, i);
+        for (unsigned int c = 0; c < dim; ++c)
+          u.local_element(dim * i + c) += dirichlet.value[r][c];
       }
     for (const auto &[p, local] : owned_rows)
       {
@@ -86,9 +91,11 @@ namespace Signorini
         const NodeIndex   node = partition.to_global(i);
         const std::size_t r    = space.relevant().index_within_set(node);
         if (!space.hanging_nodes().is_constrained(node))
-          for (unsigned int c = 0; c < dim; ++c)
-            if (!(dirichlet.mask[r] & (1u << c)))
+          {
+            for (unsigned int c = 0; c < dim; ++c)
               w.local_element(dim * i + c) = u.local_element(dim * i + c) - dirichlet.value[r][c];
+            project_free(dirichlet.fixed[r], w, i);
+          }
       }
     const std::vector<Vector3> columns = replicate_values(partition, w, column_nodes);
     for (const auto &[p, local] : owned_rows)

@@ -21,7 +21,7 @@ namespace Signorini
                                                  const InterfaceCoupling          &fine,
                                                  const std::vector<NodeIndex>     &nodes,
                                                  const NodeRows &node_rows, const InterfaceCoupling &coarse,
-                                                 const std::vector<FixedMask> &coarse_masks)
+                                                 const std::vector<FixedDirections> &coarse_masks)
   {
     std::vector<Vector3> sums(coarse.n_rows());
     for (std::size_t p = 0; p < fine.n_rows(); ++p)

@@ -39,13 +39,14 @@ namespace Signorini
     };
 
     /// Forces of a traction on one face.
-    void add_traction(CellData &data, const unsigned int face, const Traction &traction)
+    void add_traction(CellData &data, const unsigned int face, const SurfaceForces &forces,
+                      const std::size_t traction)
     {
       const ElementFace shape(data.element, face);
       for (unsigned int q = 0; q < shape.n_points(); ++q)
         {
           const ElementFace::PointData point = shape.point(q);
-          const Vector3                force = traction.force(point.position, point.area);
+          const Vector3                force = forces.force(traction, point.position, point.area);
           for (unsigned int v = 0; v < shape.n_corners(); ++v)
             data.load[shape.vertex(v)] += point.shape[v] * force;
         }
@@ -56,20 +57,16 @@ namespace Signorini
     class CellAssembler
     {
     public:
+      /// Collective.
       CellAssembler(const Bodies &bodies, const NodalSpace &space, const Loads &loads)
         : bodies(bodies)
         , space(space)
         , loads(loads)
+        , forces(loads, space)
       {
-        std::map<types::boundary_id, std::vector<const Traction *>> tractions_of;
-        for (const Traction &traction : loads.tractions)
-          for (const types::boundary_id id : traction.ids)
-            tractions_of[id].push_back(&traction);
-        if (!tractions_of.empty())
-          for (const NodalSpace::BoundaryFace &face : space.boundary_faces())
-            if (const auto it = tractions_of.find(face.id); it != tractions_of.end())
-              for (const Traction *traction : it->second)
-                loaded.push_back({face.cell, face.face, traction});
+        for (const NodalSpace::BoundaryFace &face : space.boundary_faces())
+          for (const std::size_t traction : forces.on(face.id))
+            loaded.push_back({face.cell, face.face, traction});
         std::stable_sort(loaded.begin(), loaded.end(),
                          [](const auto &a, const auto &b) { return a.cell < b.cell; });
         find_nodal_forces();
@@ -94,7 +91,7 @@ namespace Signorini
             {
               const auto [weight, point] = data.element.volume_element(q);
               const auto    values       = data.element.shape_at_point(q);
-              const Vector3 value        = force(point);
+              const Vector3 value        = force(point, loads.time);
               for (unsigned int v = 0; v < data.n(); ++v)
                 for (unsigned int c = 0; c < dim; ++c)
                   data.load[v][c] += weight * values[v] * value[c];
@@ -102,11 +99,11 @@ namespace Signorini
         auto face = std::lower_bound(loaded.begin(), loaded.end(), index,
                                      [](const LoadedFace &f, const unsigned int i) { return f.cell < i; });
         for (; face != loaded.end() && face->cell == index; ++face)
-          add_traction(data, face->face, *face->traction);
+          add_traction(data, face->face, forces, face->traction);
         for (auto node = std::lower_bound(
-                 forces.begin(), forces.end(), index,
+                 nodal.begin(), nodal.end(), index,
                  [](const NodalForce &force, const unsigned int i) { return force.cell < i; });
-             node != forces.end() && node->cell == index; ++node)
+             node != nodal.end() && node->cell == index; ++node)
           data.load[node->vertex] += node->force;
       }
 
@@ -130,7 +127,7 @@ namespace Signorini
                 is_done[i] = true;
                 if (const auto it = loads.nodal_forces.find(space.start_vertices()[i]);
                     it != loads.nodal_forces.end())
-                  forces.push_back({c, v, it->second});
+                  nodal.push_back({c, v, it->second});
               }
       }
 
@@ -143,15 +140,16 @@ namespace Signorini
 
       struct LoadedFace
       {
-        unsigned int    cell, face;
-        const Traction *traction;
+        unsigned int cell, face;
+        std::size_t  traction;
       };
 
       const Bodies           &bodies;
       const NodalSpace       &space;
       const Loads            &loads;
+      const SurfaceForces     forces;
       std::vector<LoadedFace> loaded;
-      std::vector<NodalForce> forces;
+      std::vector<NodalForce> nodal;
     };
 
 
@@ -310,13 +308,13 @@ namespace Signorini
 
 
 
-    std::vector<FixedMask> owned_masks(const NodalSpace &space, const DirichletData &dirichlet)
+    std::vector<FixedDirections> owned_masks(const NodalSpace &space, const DirichletData &dirichlet)
     {
-      std::vector<FixedMask> masks;
+      std::vector<FixedDirections> masks;
       for (const NodeIndex node : space.owned())
         masks.push_back(space.hanging_nodes().is_constrained(node)
                             ? all_fixed
-                            : dirichlet.mask[space.relevant().index_within_set(node)]);
+                            : dirichlet.fixed[space.relevant().index_within_set(node)]);
       return masks;
     }
 
@@ -377,9 +375,7 @@ namespace Signorini
     system.matrix.compress();
     system.rhs.compress(VectorOperation::add);
     for (unsigned int i = 0; i < system.matrix.n_rows(); ++i)
-      for (unsigned int c = 0; c < dim; ++c)
-        if (system.fixed[i] & (1u << c))
-          system.rhs.local_element(dim * i + c) = 0.;
+      project_free(system.fixed[i], system.rhs, i);
     return system;
   }
 

@@ -74,7 +74,7 @@ namespace Signorini
 
 
 
-    double cell_residual(const CellStress &cell, const VectorField &force)
+    double cell_residual(const CellStress &cell, const VectorField &force, const double time)
     {
       const Vector3 divergence = cell.divergence();
       double        sum        = 0.;
@@ -83,7 +83,7 @@ namespace Signorini
           const auto [weight, point] = cell.element.volume_element(q);
           Vector3 residual           = divergence;
           if (force)
-            residual += force(point);
+            residual += force(point, time);
           sum += weight * residual.norm_square();
         }
       const double h = cell.element.diameter();
@@ -94,7 +94,7 @@ namespace Signorini
 
     /// The squared norm of sigma n - t on a boundary face, without the components in `fixed`.
     double boundary_residual(const CellStress &cell, const unsigned int face, const FaceTraction &traction,
-                             const FixedMask fixed)
+                             const FixedDirections &fixed)
     {
       const ElementFace shape(cell.element, face);
       double            square = traction.square;
@@ -120,13 +120,13 @@ namespace Signorini
 
 
     /// The loads on a face in the free components.
-    void add_load(FaceTraction &sum, const ElementFace &shape, const Traction &traction,
-                  const FixedMask fixed)
+    void add_load(FaceTraction &sum, const ElementFace &shape, const SurfaceForces &forces,
+                  const std::size_t traction, const FixedDirections &fixed)
     {
       for (unsigned int q = 0; q < shape.n_points(); ++q)
         {
           const auto    point = shape.point(q);
-          const Vector3 force = project_free(fixed, traction.force(point.position, point.area));
+          const Vector3 force = project_free(fixed, forces.force(traction, point.position, point.area));
           for (unsigned int v = 0; v < shape.n_corners(); ++v)
             sum.moments[v] += point.shape[v] * force;
           sum.square += force.norm_square() / point.area.norm();
@@ -148,26 +148,52 @@ namespace Signorini
       return .5 * shape.diameter() * square / (inside.material.mu() + outside.material.mu());
     }
 
-    FixedMask prescribed_components(const Loads &loads, const types::boundary_id id)
+    /// Whether the set of nodes that a condition holds has the nodes of a face (hanging ones aside).
+    bool has_all_nodes(const NodalSpace &space, const DirichletCondition &condition,
+                       const NodalSpace::BoundaryFace &face)
     {
-      FixedMask fixed = 0;
+      if (condition.node_set == StartNodes::none)
+        return false;
+      const NodalSpace::Cell &cell = space.cells()[face.cell];
+      const auto             &set  = space.node_sets()[condition.node_set];
+      for (const unsigned int v : CellShape::face(cell.n_vertices, face.face))
+        if (const NodeIndex node = space.nodes(cell)[v];
+            !space.hanging_nodes().is_constrained(node) && !std::binary_search(set.begin(), set.end(), node))
+          return false;
+      return true;
+    }
+
+    /// Those in which conditions hold a face.
+    FixedDirections prescribed_directions(const NodalSpace &space, const Loads &loads,
+                                          const NodalSpace::BoundaryFace &face, const ElementFace &shape)
+    {
+      Point<3> centre;
+      Vector3  normal;
+      for (unsigned int q = 0; q < shape.n_points(); ++q)
+        {
+          const auto point = shape.point(q);
+          centre += Vector3(point.position) / shape.n_points();
+          normal += point.area;
+        }
+      std::vector<Vector3> directions;
       for (const DirichletCondition &condition : loads.dirichlet)
-        if (condition.ids.count(id) > 0)
-          for (unsigned int c = 0; c < dim; ++c)
-            if (condition.components[c])
-              fixed |= 1u << c;
-      return fixed;
+        if (condition.ids.count(face.id) > 0 || has_all_nodes(space, condition, face))
+          {
+            const auto axes = condition.frame.axes(centre, normal / normal.norm());
+            for (unsigned int c = 0; c < dim; ++c)
+              if (condition.components[c])
+                directions.push_back(axes[c]);
+          }
+      return FixedDirections::span(directions);
     }
 
     /// h_F |sigma n - t|^2 / (2 mu), with the loads added to what contact does.
-    double boundary_share(const CellStress &cell, const NodalSpace::BoundaryFace &face, const Loads &loads,
-                          FaceTraction traction)
+    double boundary_share(const CellStress &cell, const NodalSpace::BoundaryFace &face,
+                          const FixedDirections &fixed, const SurfaceForces &forces, FaceTraction traction)
     {
-      const FixedMask   fixed = prescribed_components(loads, face.id);
       const ElementFace shape(cell.element, face.face);
-      for (const Traction &load : loads.tractions)
-        if (load.ids.count(face.id) > 0)
-          add_load(traction, shape, load, fixed);
+      for (const std::size_t load : forces.on(face.id))
+        add_load(traction, shape, forces, load, fixed);
       return shape.diameter() * boundary_residual(cell, face.face, traction, fixed) /
              (2. * cell.material.mu());
     }
@@ -187,20 +213,23 @@ namespace Signorini
     };
     for (unsigned int c = 0; c < cells.size(); ++c)
       if (cells[c].is_owned)
-        indicator[c] =
-            cell_residual(stress_in(c), loads.volume_forces[bodies.body_of_material(cells[c].material)]);
+        indicator[c] = cell_residual(
+            stress_in(c), loads.volume_forces[bodies.body_of_material(cells[c].material)], loads.time);
     for (const NodalSpace::InnerFace &face : space.inner_faces())
       {
         const double share = jump(stress_in(face.cell), stress_in(face.other), face.face);
         indicator[face.cell] += share;
         indicator[face.other] += share;
       }
+    const SurfaceForces forces(loads, space);
     for (unsigned int f = 0; f < space.boundary_faces().size(); ++f)
       if (const NodalSpace::BoundaryFace &face = space.boundary_faces()[f]; cells[face.cell].is_owned)
         {
-          const auto it = contact.find(f);
-          indicator[face.cell] += boundary_share(stress_in(face.cell), face, loads,
-                                                 it == contact.end() ? FaceTraction() : it->second);
+          const auto       it     = contact.find(f);
+          const CellStress stress = stress_in(face.cell);
+          indicator[face.cell] += boundary_share(
+              stress, face, prescribed_directions(space, loads, face, ElementFace(stress.element, face.face)),
+              forces, it == contact.end() ? FaceTraction() : it->second);
         }
     return indicator;
   }

@@ -2,6 +2,7 @@ signorini_add_layer(discretization
   background_levels.cc background_octree.cc basis_transformation.cc
   boundary_conditions.cc
   coarse_contact.cc
+  condition_frame.cc
   elasticity.cc
   elasticity_pattern.cc
   element.cc

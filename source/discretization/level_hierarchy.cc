@@ -110,8 +110,20 @@ namespace Signorini
 
 
 
+    /// Fixed axes of coordinates are fixed on the coarser mesh too, but directions of rollers on a curved
+    /// boundary are others there.
+    std::vector<FixedDirections> only_oblique(std::vector<FixedDirections> fixed)
+    {
+      for (FixedDirections &f : fixed)
+        if (f.is_along_axes())
+          f = FixedDirections();
+      return fixed;
+    }
+
+
+
     /// v = T⁻¹ u, zero in fixed components, in place.
-    void make_relative(Vector &u, const NodePartition &partition, const std::vector<FixedMask> &fixed,
+    void make_relative(Vector &u, const NodePartition &partition, const std::vector<FixedDirections> &fixed,
                        const InterfaceCoupling &coupling, const std::vector<RowProjection> &projections)
     {
       const std::vector<NodeIndex> nodes  = interface_nodes(coupling);
@@ -155,8 +167,9 @@ namespace Signorini
 
 
   std::vector<Vector> rigid_motions(const std::vector<Point<3>> &positions, const NodePartition &partition,
-                                    const std::vector<FixedMask> &fixed, const InterfaceCoupling &coupling,
-                                    const std::vector<RowProjection> &projections)
+                                    const std::vector<FixedDirections> &fixed,
+                                    const InterfaceCoupling            &coupling,
+                                    const std::vector<RowProjection>   &projections)
   {
     Point<3> centre;
     for (unsigned int i = 0; i < partition.n_owned(); ++i)
@@ -261,6 +274,11 @@ namespace Signorini
           contact.fixed      = import_ghost_masks(finer, spaces.fixed(level));
           contact.node_fixed = replicate_masks(finer, spaces.fixed(level), nodes);
           half_spaces        = RowHalfSpaces();
+        }
+      else if (spaces.has_rollers())
+        {
+          contact.fixed      = only_oblique(import_ghost_masks(finer, spaces.fixed(level)));
+          contact.node_fixed = only_oblique(replicate_masks(finer, spaces.fixed(level), nodes));
         }
       const auto block_rows = transformed_rows(finer, rows, contact);
       result.transfer.reinit(std::move(rows), block_rows, finer.n_owned());

@@ -150,15 +150,22 @@ namespace Signorini
   namespace
   {
     /// Fixed masks of the owned nodes; hanging ones are fixed.
-    std::vector<FixedMask> fixed_masks(const NodalSpace &space, const Loads &loads)
+    std::vector<FixedDirections> fixed_masks(const NodalSpace &space, const Loads &loads)
     {
-      const DirichletData    dirichlet = evaluate_dirichlet(space, loads, false);
-      std::vector<FixedMask> masks;
+      const DirichletData          dirichlet = evaluate_dirichlet(space, loads, false);
+      std::vector<FixedDirections> masks;
       for (const NodeIndex node : space.owned())
         masks.push_back(space.hanging_nodes().is_constrained(node)
                             ? all_fixed
-                            : dirichlet.mask[space.relevant().index_within_set(node)]);
+                            : dirichlet.fixed[space.relevant().index_within_set(node)]);
       return masks;
+    }
+
+    bool has_oblique(const std::vector<FixedDirections> &fixed, const MPI_Comm communicator)
+    {
+      const bool mine = std::any_of(fixed.begin(), fixed.end(),
+                                    [](const FixedDirections &f) { return !f.is_along_axes(); });
+      return Utilities::MPI::max(mine ? 1 : 0, communicator) > 0;
     }
   } // namespace
 
@@ -169,7 +176,7 @@ namespace Signorini
   {
     const NodalSpace *below = nullptr;
     const auto        add   = [&](const NodalSpace &space) {
-      std::vector<FixedMask> fixed = fixed_masks(space, loads);
+      std::vector<FixedDirections> fixed = fixed_masks(space, loads);
       if (below != nullptr)
         rows.push_back(interpolation_rows(space, *below, bodies.tetrahedra()));
       else if (coarse_levels == CoarseLevels::background ||
@@ -178,6 +185,7 @@ namespace Signorini
       if (owned_nodes.empty())
         places = node_places(bodies, space);
       owned_nodes.push_back(space.owned());
+      with_rollers = with_rollers || has_oblique(fixed, space.communicator());
       masks.push_back(std::move(fixed));
       below = &space;
     };
@@ -199,7 +207,7 @@ namespace Signorini
             places.positions = std::move(level.positions);
             places.parts.assign(level.parts.begin(), level.parts.end());
           }
-        masks.emplace_back(level.owned.n_elements(), 0);
+        masks.emplace_back(level.owned.n_elements(), FixedDirections());
         owned_nodes.push_back(std::move(level.owned));
         rows.push_back(std::move(level.rows));
       }

@@ -17,14 +17,14 @@ namespace Signorini
     using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
     /// The six rigid motions of a body at a point, for component c.
-    Vector6 rigid_row(const FreeMotion &frame, const Point<3> &p, const unsigned int c)
+    Vector6 rigid_row(const FreeMotion &frame, const Point<3> &p, const Vector3 &direction)
     {
       Vector6 row;
       for (unsigned int m = 0; m < 6; ++m)
         {
           FreeMotion motion                                     = frame;
           (m < 3 ? motion.translation : motion.rotation)[m % 3] = 1.;
-          row[m]                                                = motion(p)[c];
+          row[m]                                                = motion(p) * direction;
         }
       return row;
     }
@@ -83,12 +83,11 @@ namespace Signorini
         if (part_of_node[i] < 0)
           continue;
         const unsigned int b = static_cast<unsigned int>(part_of_node[i]);
-        for (unsigned int c = 0; c < dim; ++c)
-          if (dirichlet.mask[i] & (1u << c))
-            {
-              const Vector6 row = rigid_row(frames[b], space.position(node), c);
-              Eigen::Map<Matrix6>(sums.data() + 36 * b) += row * row.transpose();
-            }
+        for (const Vector3 &direction : dirichlet.fixed[i].basis())
+          {
+            const Vector6 row = rigid_row(frames[b], space.position(node), direction);
+            Eigen::Map<Matrix6>(sums.data() + 36 * b) += row * row.transpose();
+          }
       }
     for (double &s : sums)
       s = Utilities::MPI::sum(s, space.communicator());

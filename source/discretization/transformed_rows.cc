@@ -54,7 +54,7 @@ namespace Signorini
       /// Whether a local node has a row of its own.
       bool differs(const unsigned int local, const NodeIndex node) const
       {
-        if (find_fine(node) >= 0 || fixed(contact.fixed, local) != 0)
+        if (find_fine(node) >= 0 || fixed(contact.fixed, local).any())
           return true;
         for (std::size_t k = rows.start[local]; k < rows.start[local + 1]; ++k)
           if (find_coarse(rows.columns[k]) >= 0)
@@ -86,23 +86,19 @@ namespace Signorini
       /// A_p E_q, with a look at whether it is the identity.
       struct Factor
       {
-        explicit Factor(const RowProjection &projection, const FixedMask mask)
-          : is_identity(projection.is_identity() && mask == 0)
-          , block(projection.block())
+        explicit Factor(const RowProjection &projection, const FixedDirections &fixed)
+          : is_identity(projection.is_identity() && !fixed.any())
+          , block(fixed.any() ? projection.block() * fixed.free_block() : projection.block())
         {
-          for (unsigned int c = 0; c < dim; ++c)
-            for (unsigned int d = 0; d < dim; ++d)
-              if (mask & (1u << d))
-                block[c][d] = 0.;
         }
 
         bool  is_identity;
         Block block;
       };
 
-      static FixedMask fixed(const std::vector<FixedMask> &masks, const std::size_t i)
+      static FixedDirections fixed(const std::vector<FixedDirections> &masks, const std::size_t i)
       {
-        return masks.empty() ? FixedMask(0) : masks[i];
+        return masks.empty() ? FixedDirections() : masks[i];
       }
 
       std::ptrdiff_t find_fine(const NodeIndex node) const
@@ -141,7 +137,7 @@ namespace Signorini
             if (c < 0)
               continue;
             const RowProjection &coarse = contact.coarse_projections[c];
-            Factor               product(coarse, 0);
+            Factor               product(coarse, {});
             if (!left.is_identity)
               {
                 product.block       = left.block * product.block;

@@ -60,13 +60,14 @@ namespace Signorini
     try
       {
         auto function = std::make_shared<FunctionParser<3>>(1);
-        function->initialize("x,y,z", source, {{"pi", numbers::PI}});
+        function->initialize("x,y,z,t", source, {{"pi", numbers::PI}}, true);
+        function->set_time(ScalarField::end);
         (void)function->value(Point<3>(.1, .2, .3));
         parser = function;
       }
     catch (const std::exception &)
       {
-        error = where + ": \"" + source + "\" is not an expression in x, y, z";
+        error = where + ": \"" + source + "\" is not an expression in x, y, z, t";
         std::string       line;
         const std::string key = "Message:  <";
         for (std::istringstream lines(words.str()); std::getline(lines, line);)
@@ -81,10 +82,11 @@ namespace Signorini
 
 
 
-  double Expression::operator()(const Point<3> &p) const
+  double Expression::operator()(const Point<3> &p, const double time) const
   {
     if (!parser)
       return constant;
+    parser->set_time(time);
     const double value = parser->value(p);
     if (!std::isfinite(value))
       {
@@ -119,8 +121,8 @@ namespace Signorini
     std::array<Expression, dim> components;
     for (unsigned int c = 0; c < dim; ++c)
       components[c] = Expression(entries[c], where);
-    return [components](const Point<3> &p) {
-      return Vector3({components[0](p), components[1](p), components[2](p)});
+    return [components](const Point<3> &p, const double time) {
+      return Vector3({components[0](p, time), components[1](p, time), components[2](p, time)});
     };
   }
 

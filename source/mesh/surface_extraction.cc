@@ -23,7 +23,7 @@ namespace Signorini
       /// invalid_node.
       std::array<NodeIndex, 8>             nodes;
       std::array<std::array<double, 3>, 8> points;
-      std::array<FixedMask, 8>             fixed;
+      std::array<FixedDirections, 8>       fixed;
       unsigned int                         owner, material;
 
       bool operator<(const PackedFace &other) const
@@ -45,7 +45,7 @@ namespace Signorini
       NodeIndex             hanging, parent;
       double                weight;
       std::array<double, 3> point;
-      FixedMask             fixed;
+      FixedDirections       fixed;
 
       bool operator<(const PackedParent &other) const
       {
@@ -59,7 +59,7 @@ namespace Signorini
     };
 
     PackedFace pack(const NodalSpace::BoundaryFace &face, const NodalSpace &space,
-                    const std::function<FixedMask(const NodeIndex)> &fixed)
+                    const std::function<FixedDirections(const NodeIndex)> &fixed)
     {
       const NodalSpace::Cell &cell = space.cells()[face.cell];
       PackedFace              packed;
@@ -93,7 +93,7 @@ namespace Signorini
     }
 
     void pack_parents(std::vector<PackedParent> &parents, const PackedFace &face, const NodalSpace &space,
-                      const std::function<FixedMask(const NodeIndex)> &fixed)
+                      const std::function<FixedDirections(const NodeIndex)> &fixed)
     {
       for (const NodeIndex node : face.nodes)
         if (node != invalid_node)
@@ -250,7 +250,8 @@ namespace Signorini
       ContactSurface surface;
 
     private:
-      unsigned int add_vertex(const NodeIndex node, const std::array<double, 3> &p, const FixedMask mask)
+      unsigned int add_vertex(const NodeIndex node, const std::array<double, 3> &p,
+                              const FixedDirections &mask)
       {
         const auto [it, is_new] =
             number.insert({node, static_cast<unsigned int>(surface.vertex_node.size())});
@@ -293,9 +294,9 @@ namespace Signorini
 
 
   ContactSurface extract_contact_surface(const NodalSpace &space, const std::set<types::boundary_id> &ids,
-                                         const std::function<FixedMask(const NodeIndex)>  &fixed,
-                                         const std::function<bool(const Point<3> &point)> &region,
-                                         const SurfaceShapes                              &shapes)
+                                         const std::function<FixedDirections(const NodeIndex)> &fixed,
+                                         const std::function<bool(const Point<3> &point)>      &region,
+                                         const SurfaceShapes                                   &shapes)
   {
     std::vector<PackedFace>   mine;
     std::vector<PackedParent> my_parents;

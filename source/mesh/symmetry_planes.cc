@@ -14,7 +14,7 @@ namespace Signorini
     class SymmetryPlanes
     {
     public:
-      SymmetryPlanes(const ContactSurface &surface, const std::vector<FixedMask> &fixed,
+      SymmetryPlanes(const ContactSurface &surface, const std::vector<FixedDirections> &fixed,
                      const SymmetryPlaneRule &rule)
         : mesh(surface.mesh)
         , fixed(fixed)
@@ -23,40 +23,63 @@ namespace Signorini
       {
       }
 
-      /// The components that symmetry planes take from the normal of a vertex.
-      FixedMask components(const unsigned int vertex)
+      /// The directions that symmetry planes take from the normal of a vertex.
+      FixedDirections directions(const unsigned int vertex)
       {
-        FixedMask result = 0;
-        for (unsigned int c = 0; c < dim; ++c)
-          if ((fixed[vertex] & (1u << c)) && ends_at_plane(vertex, c) && is_curved_across(vertex, c))
-            result |= static_cast<FixedMask>(1u << c);
-        return result;
+        std::vector<Vector3> result;
+        for (const Vector3 &n : candidates(vertex))
+          if (ends_at_plane(vertex, n) && is_curved_across(vertex, n))
+            result.push_back(n);
+        return FixedDirections::span(result);
       }
 
     private:
-      /// Whether border edges with prescribed component c meet at a vertex, all in the plane x_c = const.
-      bool ends_at_plane(const unsigned int vertex, const unsigned int c) const
+      /// Calls f with both ends of all border edges at a vertex.
+      template <typename F>
+      void for_border_edges(const unsigned int vertex, const F &f) const
       {
-        bool any = false;
-        for (unsigned int f = topology.fan_start[vertex]; f < topology.fan_start[vertex + 1]; ++f)
-          for (const unsigned int edge : topology.triangle_edges[topology.fan[f]])
-            {
-              const auto &[a, b] = topology.edges[edge];
-              if (!topology.is_border(edge) || (a != vertex && b != vertex) ||
-                  !(fixed[a] & fixed[b] & (1u << c)))
-                continue;
-              const Tensor<1, 3> way = mesh.vertices[b] - mesh.vertices[a];
-              if (std::abs(way[c]) > rule.planarity * way.norm())
-                return false;
-              any = true;
-            }
-        return any;
+        for (unsigned int t = topology.fan_start[vertex]; t < topology.fan_start[vertex + 1]; ++t)
+          for (const unsigned int edge : topology.triangle_edges[topology.fan[t]])
+            if (const auto &[a, b] = topology.edges[edge];
+                topology.is_border(edge) && (a == vertex || b == vertex))
+              f(a, b);
       }
 
-      /// Whether the facets around a vertex and those around their corners differ in component c by as much
-      /// as the normal of the vertex has of it. Where all of them touch the plane there is nothing to compare
-      /// with: then whether they differ at all.
-      bool is_curved_across(const unsigned int vertex, const unsigned int c)
+      /// Normals of planes that a vertex may lie in: what is fixed there, and where that is more than one
+      /// direction that is no axis, those of its neighbours on the border.
+      std::vector<Vector3> candidates(const unsigned int vertex) const
+      {
+        std::vector<Vector3> result = fixed[vertex].basis();
+        if (fixed[vertex].n_oblique_directions() < 2)
+          return result;
+        result.clear();
+        for_border_edges(vertex, [&](const unsigned int a, const unsigned int b) {
+          const std::vector<Vector3> other = fixed[a == vertex ? b : a].basis();
+          if (other.size() == 1 && fixed[vertex].contains(other[0]))
+            result.push_back(other[0]);
+        });
+        return result;
+      }
+
+      /// Whether border edges along which the direction n is prescribed meet at a vertex, all in the plane
+      /// across n.
+      bool ends_at_plane(const unsigned int vertex, const Vector3 &n) const
+      {
+        bool any = false, all = true;
+        for_border_edges(vertex, [&](const unsigned int a, const unsigned int b) {
+          if (!fixed[a].contains(n) || !fixed[b].contains(n))
+            return;
+          const Vector3 way = mesh.vertices[b] - mesh.vertices[a];
+          all               = all && std::abs(way * n) <= rule.planarity * way.norm();
+          any               = true;
+        });
+        return any && all;
+      }
+
+      /// Whether the facets around a vertex and those around their corners differ along n by as much as the
+      /// normal of the vertex has of it. Where all of them touch the plane there is nothing to compare with:
+      /// then whether they differ at all.
+      bool is_curved_across(const unsigned int vertex, const Vector3 &n)
       {
         near.clear();
         for (unsigned int f = topology.fan_start[vertex]; f < topology.fan_start[vertex + 1]; ++f)
@@ -74,21 +97,21 @@ namespace Signorini
             const double       length = area.norm();
             if (length == 0. || area * normal < rule.crease * length)
               continue;
-            least     = std::min(least, area[c] / length);
-            largest   = std::max(largest, area[c] / length);
+            least     = std::min(least, area * n / length);
+            largest   = std::max(largest, area * n / length);
             all_touch = all_touch && std::any_of(x.begin(), x.end(), [&](const unsigned int corner) {
-                          const double distance = mesh.vertices[corner][c] - mesh.vertices[vertex][c];
+                          const double distance = (mesh.vertices[corner] - mesh.vertices[vertex]) * n;
                           return distance * distance <= rule.planarity * rule.planarity * length;
                         });
           }
-        return largest - least >= (all_touch ? rule.flatness : std::abs(normal[c]));
+        return largest - least >= (all_touch ? rule.flatness : std::abs(normal * n));
       }
 
-      const SurfaceMesh            &mesh;
-      const std::vector<FixedMask> &fixed;
-      const SymmetryPlaneRule      &rule;
-      const SurfaceTopology         topology;
-      std::vector<unsigned int>     near;
+      const SurfaceMesh                  &mesh;
+      const std::vector<FixedDirections> &fixed;
+      const SymmetryPlaneRule            &rule;
+      const SurfaceTopology               topology;
+      std::vector<unsigned int>           near;
     };
   } // namespace
 
@@ -97,30 +120,30 @@ namespace Signorini
   void project_onto_symmetry_planes(ContactSurface &surface, const SymmetryPlaneRule &rule)
   {
     // Prescribed components of hanging vertices are those of all of their parents.
-    std::vector<FixedMask> fixed = surface.vertex_fixed;
+    std::vector<FixedDirections> fixed = surface.vertex_fixed;
     for (std::size_t v = 0; v < fixed.size(); ++v)
       if (!surface.hanging[v].empty())
         {
           fixed[v] = all_fixed;
           for (const auto &parent : surface.hanging[v])
-            fixed[v] &= surface.vertex_fixed[parent.first];
+            fixed[v] = fixed[v].common(surface.vertex_fixed[parent.first]);
         }
     // Vertices without any free component carry no multiplier.
-    const auto is_partly_fixed = [](const FixedMask mask) { return mask != 0 && mask != all_fixed; };
+    const auto is_partly_fixed = [](const FixedDirections &f) { return f.any() && !f.all(); };
     if (std::none_of(fixed.begin(), fixed.end(), is_partly_fixed))
       return;
 
-    SymmetryPlanes                                 planes(surface, fixed, rule);
-    std::vector<std::pair<std::size_t, FixedMask>> projected;
-    std::vector<bool>                              is_projected(fixed.size(), false);
+    SymmetryPlanes                                       planes(surface, fixed, rule);
+    std::vector<std::pair<std::size_t, FixedDirections>> projected;
+    std::vector<bool>                                    is_projected(fixed.size(), false);
     for (unsigned int v = 0; v < fixed.size(); ++v)
       if (surface.hanging[v].empty() && is_partly_fixed(fixed[v]))
-        if (const FixedMask components = planes.components(v); components != 0)
-          projected.emplace_back(v, components);
-    for (const auto &[v, components] : projected)
+        if (const FixedDirections directions = planes.directions(v); directions.any())
+          projected.emplace_back(v, directions);
+    for (const auto &[v, directions] : projected)
       {
         Tensor<1, 3>      &normal = surface.mesh.vertex_normals[v];
-        const Tensor<1, 3> inside = project_free(components, normal);
+        const Tensor<1, 3> inside = project_free(directions, normal);
         if (const double length = inside.norm(); length > 0.)
           {
             normal          = inside / length;

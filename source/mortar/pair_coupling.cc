@@ -121,7 +121,7 @@ namespace Signorini
         for (unsigned int v = 0; v < in_r.size(); ++v)
           if (!is_hanging(v))
             {
-              if (surface.vertex_fixed[v] == all_fixed)
+              if (surface.vertex_fixed[v].all())
                 drop(v, DroppedNode::fixed);
               else if (free_normal(v) < rule.smallest_free_normal)
                 drop(v, DroppedNode::normal_fixed);

@@ -190,9 +190,9 @@ namespace Signorini
     reinit_galerkin(space.matrix, above, space.to_finer, space.numbering.owned());
     compute_galerkin(space.matrix, above, space.to_finer);
 
-    const NodePartition   &own = finest.matrix.partition();
-    std::vector<FixedMask> masks(coarse.fixed.begin(),
-                                 coarse.fixed.begin() + coarse.matrix.partition().n_owned());
+    const NodePartition         &own = finest.matrix.partition();
+    std::vector<FixedDirections> masks(coarse.fixed.begin(),
+                                       coarse.fixed.begin() + coarse.matrix.partition().n_owned());
     for (const NodeIndex node : finest.contact_nodes)
       if (own.owns(node))
         masks.push_back(finest.fixed[own.to_local(node)]);
@@ -228,9 +228,7 @@ namespace Signorini
         space.values = 0.;
         space.to_finer.restrict_and_add(space.values, *above);
         for (unsigned int i = 0; i < space.to_finer.coarse_partition().n_owned(); ++i)
-          for (unsigned int c = 0; c < dim; ++c)
-            if (space.fixed[i] & (1u << c))
-              space.values.local_element(dim * i + c) = 0.;
+          project_free(space.fixed[i], space.values, i);
         above = &space.values;
       }
     const Space           &space     = spaces.back();

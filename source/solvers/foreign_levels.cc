@@ -26,9 +26,10 @@ namespace Signorini
 
 
 
-  std::vector<FixedMask> ForeignNumbering::fixed(const IndexSet &owned_dofs, const IndexSet &prescribed) const
+  std::vector<FixedDirections> ForeignNumbering::fixed(const IndexSet &owned_dofs,
+                                                       const IndexSet &prescribed) const
   {
-    std::vector<FixedMask> masks;
+    std::vector<FixedDirections> masks;
     for (const NodeIndex node : nodes(owned_dofs))
       {
         FixedMask mask = missing();

@@ -51,6 +51,36 @@ namespace Signorini
               block[dim * c + d] += filling * direction[c] * direction[d];
     }
 
+    /// Rows and columns of prescribed components; the diagonal stays what it is.
+    void eliminate_components(double *const b, const FixedMask of_row, const FixedMask of_column,
+                              const bool is_diagonal, const double scale)
+    {
+      for (unsigned int c = 0; c < dim; ++c)
+        for (unsigned int d = 0; d < dim; ++d)
+          if ((of_row & (1u << c)) || (of_column & (1u << d)))
+            {
+              if (is_diagonal && c == d)
+                b[dim * c + d] = b[dim * c + d] > 0. ? b[dim * c + d] : scale;
+              else
+                b[dim * c + d] = 0.;
+            }
+    }
+
+    /// E_p B E_q, and the mean stiffness of the prescribed directions in these on the diagonal.
+    void eliminate_directions(double *const b, const FixedDirections &of_row,
+                              const FixedDirections &of_column, const bool is_diagonal, const double scale)
+    {
+      const Block block = read_block(b), free_row = of_row.free_block();
+      Block       result = free_row * block * of_column.free_block();
+      if (is_diagonal)
+        {
+          const Block  fixed     = static_cast<Block>(unit_symmetric_tensor<dim>()) - free_row;
+          const double stiffness = trace(fixed * block) / trace(fixed);
+          result += (stiffness > 0. ? stiffness : scale) * fixed;
+        }
+      write_block(b, result);
+    }
+
     std::vector<unsigned int> all_rows(const NodeBlockMatrix &matrix)
     {
       std::vector<unsigned int> rows(matrix.n_rows());
@@ -65,15 +95,13 @@ namespace Signorini
   {
     level.to_finer.restrict_and_add(coarse_defect, residual);
     for (unsigned int i = 0; i < level.matrix.n_rows(); ++i)
-      if (level.fixed[i] != 0)
-        for (unsigned int c = 0; c < dim; ++c)
-          if (level.fixed[i] & (1u << c))
-            coarse_defect.local_element(dim * i + c) = 0.;
+      if (level.fixed[i].any())
+        project_free(level.fixed[i], coarse_defect, i);
   }
 
 
 
-  void eliminate_fixed_components(NodeBlockMatrix &matrix, const std::vector<FixedMask> &fixed,
+  void eliminate_fixed_components(NodeBlockMatrix &matrix, const std::vector<FixedDirections> &fixed,
                                   const std::vector<unsigned int> &rows, const double scale)
   {
     for (const unsigned int i : rows)
@@ -81,20 +109,15 @@ namespace Signorini
         for (const BlockRange &range : matrix.ranges(i))
           for (std::size_t k = range.begin; k < range.end; ++k)
             {
-              const FixedMask row_mask = fixed[i], column_mask = fixed[matrix.column(k)];
-              if (row_mask == 0 && column_mask == 0)
+              const FixedDirections &of_row = fixed[i], &of_column = fixed[matrix.column(k)];
+              if (!of_row.any() && !of_column.any())
                 continue;
-              const bool    is_diagonal = k == matrix.diagonal(i);
-              double *const b           = matrix.block(k);
-              for (unsigned int c = 0; c < dim; ++c)
-                for (unsigned int d = 0; d < dim; ++d)
-                  if ((row_mask & (1u << c)) || (column_mask & (1u << d)))
-                    {
-                      if (is_diagonal && c == d)
-                        b[dim * c + d] = b[dim * c + d] > 0. ? b[dim * c + d] : scale;
-                      else
-                        b[dim * c + d] = 0.;
-                    }
+              const bool is_diagonal = k == matrix.diagonal(i);
+              if (of_row.is_along_axes() && of_column.is_along_axes())
+                eliminate_components(matrix.block(k), of_row.components(), of_column.components(),
+                                     is_diagonal, scale);
+              else
+                eliminate_directions(matrix.block(k), of_row, of_column, is_diagonal, scale);
             }
         fill_empty_directions(matrix.block(matrix.diagonal(i)), scale);
       }
@@ -131,7 +154,7 @@ namespace Signorini
 
 
 
-  MultigridHierarchy::MultigridHierarchy(NodeBlockMatrix &&matrix, std::vector<FixedMask> fixed)
+  MultigridHierarchy::MultigridHierarchy(NodeBlockMatrix &&matrix, std::vector<FixedDirections> fixed)
   {
     HierarchyParts parts;
     parts.matrix = std::move(matrix);

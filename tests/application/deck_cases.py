@@ -1,5 +1,6 @@
 """Decks of Abaqus and CalculiX: what is computed, refused and written."""
 import json
+import math
 import os
 import shutil
 import subprocess
@@ -177,6 +178,72 @@ def deck_words(d):
                                       '*BOUNDARY\nY1, 2\nYX, 3\nBX, 1\nB1, 3\n*STEP', 1))
 
 
+def turned(x, axis=(1, 2, 3), angle=25):
+    """A point turned about an axis through the origin (degrees)."""
+    a = [t / math.hypot(*axis) for t in axis]
+    c, s = math.cos(math.radians(angle)), math.sin(math.radians(angle))
+    along = sum(t * q for t, q in zip(a, x))
+    return [c * x[i] + s * (a[i - 2] * x[i - 1] - a[i - 1] * x[i - 2]) + (1 - c) * along * a[i] for i in range(3)]
+
+
+@in_folder
+def deck_transform(d):
+    """Rollers along the axes of TRANSFORM: the blocks turned by any angle; a ring with rollers along its radius and tangents."""
+    for kind in ('C3D8', 'C3D10'):
+        text, upper, lower = two_blocks(kind, (2, 2, 2), (3, 3, 2), move=turned)
+        axes = ', '.join(f'{c:.16g}' for x in ((1, 0, 0), (0, 1, 0)) for c in turned(x))
+        frame = nset('ALL', list(upper.nodes) + list(lower.nodes)) + f'*TRANSFORM, NSET=ALL, TYPE=R\n{axes}\n'
+        force = ''.join(f'{n}, 3, -0.05\n' for n in upper.plane(2, 1))
+        for refined in ([], ['--set', 'Refinement/Initial global levels=1']):
+            s, _ = d.solve(text.replace('*BOUNDARY', frame + '*BOUNDARY'), *refined)
+            constant_pressure(s, 5., 1e-8)
+            certificate(s)
+            near(s['certificate']['potential_energy'], -.025, 1e-8, 'energy')
+        s, _ = d.solve(text.replace('*BOUNDARY', frame + '*BOUNDARY').replace(LOAD.format(5.), '*CLOAD\n' + force))
+        near(s['pairs'][0]['load'], .05 * len(upper.plane(2, 1)), 1e-9, 'forces along the axes')
+    # A quarter of a ring whose inner side is moved out by u and whose outer side is held: radial displacement a r + b / r.
+    block = Block('C3D20', (1, 0, 0), (2, 90, 1), (12, 6, 1),
+                  move=lambda x: [x[0] * math.cos(math.radians(x[1])), x[0] * math.sin(math.radians(x[1])), x[2]])
+    text = block.text_nodes() + block.text_elements('RING') + nset('ALL', block.nodes) + nset('IN', block.plane(0, 1)) + nset('OUT', block.plane(0, 2))
+    text += nset('ENDS', block.plane(1, 0) + block.plane(1, 90)) + nset('FLAT', block.plane(2, 0) + block.plane(2, 1))
+    text += '*TRANSFORM, NSET=ALL, TYPE=C\n0., 0., -1., 0., 0., 5.\n' + MATERIAL + '*SOLID SECTION, ELSET=RING, MATERIAL=steel\n'
+    text += '*STEP\n*STATIC\n*BOUNDARY\nIN, 1, 1, 0.01\nOUT, 1, 1\nENDS, 2, 2\nFLAT, 3, 3\n*END STEP\n'
+    s, (nodes, _, fields) = d.solve(text)
+    for label in block.plane(0, 1.5):
+        x, u = nodes[label], fields['DISP'][label]
+        r = math.hypot(x[0], x[1])
+        near((u[0] * x[0] + u[1] * x[1]) / r, .01 / 3 * (4 / r - r), 5e-3, 'radial displacement')
+
+
+@in_folder
+def deck_refined(d):
+    """Sets of nodes, forces at nodes and result files on refined meshes; the same on any number of ranks."""
+    for kind in ('C3D8', 'C3D6'):
+        text, upper, lower = two_blocks(kind, (2, 2, 2), (3, 3, 2))
+        s, (nodes, elements, fields) = d.solve(text, '--set', 'Refinement/Global cycles=1', '--set', 'Refinement/Regions=ball: (0.4, 0.5, 0.3), 0.3, 1')
+        constant_pressure(s, 5., 1e-8)
+        certificate(s)
+        near(s['certificate']['potential_energy'], -.025, 1e-8, 'energy')
+        check(all(v in nodes for _, element in elements.values() for v in element), 'nodes of the elements')
+        for block in (upper, lower):
+            for label, (x, _) in block.nodes.items():
+                check(max(abs(a - b) for a, b in zip(nodes[label], x)) < 1e-5, f'node {label}')
+        for label, x in nodes.items():
+            check(abs(fields['DISP'][label][2] + .005 * (x[2] + 1)) < 1e-7, f'node {label}: {fields["DISP"][label]}')
+    # An edge that is held, and forces at corners.
+    text, upper, lower = two_blocks('C3D8', (1, 1, 1), (2, 2, 2), None)
+    corners = ''.join(f'{n}, 3, -1.\n' for n in upper.plane(2, 1))
+    edge = sorted(set(upper.plane(2, 1)) & set(upper.plane(0, 0)))
+    text = text.replace('*STEP', nset('EDGE', edge) + '*STEP', 1).replace('*STATIC\n', f'*STATIC\n*CLOAD\n{corners}*BOUNDARY\nEDGE, 1, 1, 0.001\n')
+    s, (nodes, _, fields) = d.solve(text, '--set', 'Refinement/Initial global levels=2')
+    near(s['pairs'][0]['load'], 4., 1e-9, 'forces at corners')
+    certificate(s)
+    on_edge = [label for label, x in nodes.items() if x[0] == 0 and x[2] == 1]
+    check(len(on_edge) == 5, f'nodes on the edge: {on_edge}')
+    for label in on_edge:
+        near(fields['DISP'][label][0], .001, 1e-5, 'held edge')
+
+
 @in_folder
 def deck_parts(d):
     """PART and INSTANCE: the upper block is the lower one, turned and moved."""
@@ -284,7 +351,7 @@ def deck_refused(d):
                                ('*STEP\n*STATIC\n' + LOAD.format(5.) + '*END STEP\n', '', ['no STEP']), ('*STATIC\n', '*STATIC\n*DLOAD\n1, P7, 5.\n', ['P7', 'P1 to P6']),
                                ('*STATIC\n', '*STATIC\n*DLOAD\nUpper, GRAV, 9.8, 0., 0., -1.\n', ['DENSITY', 'steel']),
                                ('*HEADING', '*INCLUDE, INPUT=gone.txt\n*HEADING', ['gone.txt', 'line 2']),
-                               ('*STEP', '*TRANSFORM, NSET=TOP\n1., 1., 0., -1., 1., 0.\n*BOUNDARY\nTOP, 1, 1\n*STEP', ['TRANSFORM', 'oblique']),
+                               ('*STEP', '*TRANSFORM, NSET=TOP\n1., 1., 0., 2., 2., 0.\n*BOUNDARY\nTOP, 1, 1\n*STEP', ['parallel']),
                                ('TYPE=C3D8, ELSET=Upper', 'TYPE=C3D5, ELSET=Upper', ['C3D5', 'C3D10'])]:
         check(text.replace(where, what, 1) != text, f'{words}: nothing was changed')
         d.refuses(text.replace(where, what, 1), *words)

@@ -14,6 +14,7 @@ import tempfile
 import deck_cases
 import finished_mesh_cases
 import geometry_cases
+import load_cases
 import random_pair_cases
 import true_gap_cases
 import verification_cases
@@ -664,7 +665,7 @@ def surface_map(p):
 
 
 if __name__ == '__main__':
-    case = next(getattr(m, sys.argv[2]) for m in (sys.modules[__name__], deck_cases, geometry_cases, finished_mesh_cases, random_pair_cases, verification_cases, true_gap_cases) if hasattr(m, sys.argv[2]))
+    case = next(getattr(m, sys.argv[2]) for m in (sys.modules[__name__], deck_cases, geometry_cases, finished_mesh_cases, load_cases, random_pair_cases, verification_cases, true_gap_cases) if hasattr(m, sys.argv[2]))
     case(Program(sys.argv[1], int(sys.argv[3])))
     for failure in FAILURES:
         print('FAILED:', failure)

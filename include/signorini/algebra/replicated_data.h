@@ -4,6 +4,7 @@
 #ifndef signorini_algebra_replicated_data_h
 #define signorini_algebra_replicated_data_h
 
+#include <signorini/algebra/fixed_directions.h>
 #include <signorini/algebra/node_partition.h>
 
 #include <vector>
@@ -61,12 +62,13 @@ namespace Signorini
 
   /// Collective. Fixed masks of a list of nodes (sorted, the same on all ranks), on all ranks.
   /// `owned` holds the masks of the owned nodes.
-  std::vector<FixedMask> replicate_masks(const NodePartition &partition, const std::vector<FixedMask> &owned,
-                                         const std::vector<NodeIndex> &nodes);
+  std::vector<FixedDirections> replicate_masks(const NodePartition                &partition,
+                                               const std::vector<FixedDirections> &owned,
+                                               const std::vector<NodeIndex>       &nodes);
 
   /// Collective. Fixed masks of all local nodes, given those of the owned ones.
-  std::vector<FixedMask> import_ghost_masks(const NodePartition          &partition,
-                                            const std::vector<FixedMask> &owned);
+  std::vector<FixedDirections> import_ghost_masks(const NodePartition                &partition,
+                                                  const std::vector<FixedDirections> &owned);
 } // namespace Signorini
 
 #endif

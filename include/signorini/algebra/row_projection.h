@@ -4,12 +4,12 @@
 #ifndef signorini_algebra_row_projection_h
 #define signorini_algebra_row_projection_h
 
-#include <signorini/algebra/types.h>
+#include <signorini/algebra/fixed_directions.h>
 
 namespace Signorini
 {
   /// A_p of doc/algorithm.md, (23): how a node of the nonmortar side follows a displacement s of the other
-  /// side where components of its own are prescribed. With its unit normal n, m = E_p n and n_F = n - m,
+  /// side where directions of its own are prescribed. With its unit normal n, m = E_p n and n_F = n - m,
   ///   A_p = E_p + m n_Fᵀ / |m|² ,
   /// the projection onto the free directions that keeps normal parts, n·A_p s = n·s. So u_p = v_p + A_p s
   /// gives n·(u_p - s) = m·v_p: what the fixed components cannot do is left to the free ones. It is the
@@ -26,12 +26,12 @@ namespace Signorini
     RowProjection() = default;
 
     /// @param normal outward unit normal, or zero for E_p
-    RowProjection(const FixedMask fixed, const Vector3 &normal)
-      : mask(fixed)
+    RowProjection(const FixedDirections &fixed, const Vector3 &normal)
+      : fixed_directions(fixed)
       , full_normal(normal)
       , free_direction(normal)
     {
-      const Vector3 fixed_part = normal - project_free(mask, normal);
+      const Vector3 fixed_part = normal - project_free(fixed, normal);
       if (fixed_part.norm_square() == 0.)
         return;
       const Vector3 free_part = normal - fixed_part;
@@ -42,7 +42,7 @@ namespace Signorini
     }
 
     /// E_p at a node that is tied in all of its free components, with the normal in these.
-    static RowProjection tied(const FixedMask fixed, const Vector3 &normal)
+    static RowProjection tied(const FixedDirections &fixed, const Vector3 &normal)
     {
       const RowProjection contact(fixed, normal);
       return RowProjection(fixed, contact.direction());
@@ -51,29 +51,25 @@ namespace Signorini
     /// A_p s.
     Vector3 apply(const Vector3 &s) const
     {
-      return project_free(mask, s) + (lever * s) * free_direction;
+      return project_free(fixed_directions, s) + (lever * s) * free_direction;
     }
 
     /// A_p.
     Block block() const
     {
-      Block result = outer_product(free_direction, lever);
-      for (unsigned int c = 0; c < dim; ++c)
-        if (!(mask & (1u << c)))
-          result[c][c] += 1.;
-      return result;
+      return fixed_directions.free_block() + outer_product(free_direction, lever);
     }
 
     /// Whether no component is prescribed: the projection is the identity then.
     bool is_identity() const
     {
-      return mask == 0;
+      return !fixed_directions.any();
     }
 
-    /// The prescribed components.
-    FixedMask fixed() const
+    /// The prescribed directions.
+    const FixedDirections &fixed() const
     {
-      return mask;
+      return fixed_directions;
     }
 
     /// n.
@@ -98,8 +94,8 @@ namespace Signorini
     /// What is left of a component of a unit normal where it is zero.
     static constexpr double rounding = 1e-6;
 
-    FixedMask mask = 0;
-    Vector3   full_normal, free_direction;
+    FixedDirections fixed_directions;
+    Vector3         full_normal, free_direction;
     /// n_F/|m|.
     Vector3 lever;
     double  free_share = 1.;

@@ -42,21 +42,6 @@ namespace Signorini
       for (unsigned int d = 0; d < dim; ++d)
         numbers[dim * c + d] = block[c][d];
   }
-
-  /// Bit c is set if component c of the displacement of a node is prescribed.
-  using FixedMask = std::uint8_t;
-
-  constexpr FixedMask all_fixed = 7;
-
-  /// E_p of doc/algorithm.md, chapter 4: the projector onto the free directions of a node.
-  inline Vector3 project_free(const FixedMask fixed, const Vector3 &v)
-  {
-    Vector3 w = v;
-    for (unsigned int c = 0; c < dim; ++c)
-      if (fixed & (1u << c))
-        w[c] = 0.;
-    return w;
-  }
 } // namespace Signorini
 
 #endif

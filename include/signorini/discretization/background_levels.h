@@ -87,9 +87,9 @@ namespace Signorini
   /// Collective. The levels under a mesh, the finest first. Every rank makes all of them, from the whole
   /// mesh, which is a start mesh: all ranks know its cells.
   /// @param fixed masks of the owned nodes
-  std::vector<DistributedBackgroundLevel> background_levels(const NodalSpace             &space,
-                                                            const std::vector<FixedMask> &fixed,
-                                                            const Bodies                 &bodies,
+  std::vector<DistributedBackgroundLevel> background_levels(const NodalSpace                   &space,
+                                                            const std::vector<FixedDirections> &fixed,
+                                                            const Bodies                       &bodies,
                                                             const BackgroundRule &rule = BackgroundRule());
 } // namespace Signorini
 

@@ -4,6 +4,8 @@
 #ifndef signorini_discretization_boundary_conditions_h
 #define signorini_discretization_boundary_conditions_h
 
+#include <signorini/algebra/fixed_directions.h>
+#include <signorini/discretization/condition_frame.h>
 #include <signorini/mesh/bodies.h>
 #include <signorini/mesh/field.h>
 #include <signorini/mesh/nodal_space.h>
@@ -26,8 +28,9 @@ namespace Signorini
     {
       /// A boundary, or else a set of nodes, that the mesh names.
       std::string boundary;
-      /// Free components are empty.
+      /// In the directions of the frame; free components are empty.
       std::array<ScalarField, 3> components;
+      ConditionFrame             frame = ConditionFrame();
     };
 
     /// Acts on a boundary.
@@ -35,9 +38,11 @@ namespace Signorini
     {
       /// A boundary that the mesh names.
       std::string boundary;
-      /// Force per area, and pressure against the outward normal; either may be empty.
+      /// Force per area, pressure against the outward normal, and a total force that is spread evenly over
+      /// the area (its value at the origin counts); any may be empty.
       VectorField traction;
-      ScalarField pressure;
+      ScalarField pressure    = ScalarField();
+      VectorField total_force = VectorField();
     };
 
     /// Acts at a node of the start mesh.
@@ -61,7 +66,7 @@ namespace Signorini
   struct LoadParameters
   {
     /// Lists as the parameter file has them, one condition after the other.
-    std::string dirichlet, tractions, pressures, volume_force;
+    std::string dirichlet, tractions, pressures, forces, volume_force;
 
     /// Declares the parameters in the current subsection.
     void add_parameters(dealii::ParameterHandler &prm);
@@ -78,21 +83,23 @@ namespace Signorini
     unsigned int                         body;
     std::string                          boundary;
     std::set<dealii::types::boundary_id> ids;
-    std::array<ScalarField, 3>           components;
+    /// In the directions of the frame.
+    std::array<ScalarField, 3> components;
+    ConditionFrame             frame;
+    /// What its normals are taken from, where there is one.
+    std::map<dealii::types::boundary_id, BoundaryShapePointer> shapes;
     /// Number of the set of nodes (NodalSpace::node_sets()) that it holds instead of a boundary.
     unsigned int node_set = StartNodes::none;
   };
 
-  /// Force per area on a boundary: a vector, a pressure against the outward normal, or both.
+  /// Forces on a boundary, as LoadDefinition::SurfaceForce has them.
   struct Traction
   {
-    /// Where; force per area, and pressure against the outward normal; either may be empty.
+    /// Where, and what.
     std::set<dealii::types::boundary_id> ids;
     VectorField                          traction;
     ScalarField                          pressure;
-
-    /// Force on a piece of the boundary, given its outward area vector.
-    Vector3 force(const dealii::Point<3> &position, const Vector3 &area) const;
+    VectorField                          total_force;
   };
 
   /// All conditions and loads of all bodies.
@@ -105,22 +112,90 @@ namespace Signorini
     std::map<unsigned int, Vector3> nodal_forces;
     /// Force per volume of each body; an entry for all of them is needed, so add() every body.
     std::vector<VectorField> volume_forces;
+    /// The pseudo-time at which conditions and forces are evaluated.
+    double time = ScalarField::end;
 
     /// Takes in what acts on one body. Errors: InputError for unknown boundaries.
     void add(const Bodies &bodies, const unsigned int body, const LoadDefinition &definition);
   };
 
-  /// Prescribed components of the relevant nodes of a space.
+  /// The surface forces of a problem on one mesh, which total forces are spread over.
+  class SurfaceForces
+  {
+  public:
+    /// Collective. The loads must outlive the object.
+    SurfaceForces(const Loads &loads, const NodalSpace &space);
+
+    /// The forces that act on the boundary, as numbers in Loads::tractions.
+    const std::vector<std::size_t> &on(const dealii::types::boundary_id id) const;
+
+    /// One of them on a piece of the boundary, given its outward area vector.
+    Vector3 force(const std::size_t traction, const dealii::Point<3> &position, const Vector3 &area) const;
+
+  private:
+    const Loads                                                   &loads;
+    std::map<dealii::types::boundary_id, std::vector<std::size_t>> by_boundary;
+    /// Per traction; 0 where there is no total force.
+    std::vector<double> areas;
+  };
+
+  /// What holds a node in directions that need not be orthogonal, nor axes of coordinates.
+  struct HeldNode
+  {
+    /// One component of a condition.
+    struct Hold
+    {
+      /// Index into Loads::dirichlet, and which of its components.
+      int          condition;
+      unsigned int component;
+      /// A unit vector, and its dual among the directions of the node: both span the same space, and their
+      /// products are one for the pair and zero for others.
+      Vector3 direction, dual;
+    };
+
+    /// Three at most, linearly independent.
+    std::vector<Hold> holds;
+  };
+
+  /// Prescribed displacements of the relevant nodes of a space.
   struct DirichletData
   {
     /// Indexed like NodalSpace::relevant().
-    std::vector<FixedMask> mask;
-    std::vector<Vector3>   value;
+    std::vector<FixedDirections> fixed;
+    /// The displacement (length), zero in free directions.
+    std::vector<Vector3> value;
     /// The condition that prescribes each component (index into Loads::dirichlet), or -1.
     std::vector<std::array<int, 3>> condition;
+    /// Owned nodes, by relevant index, with conditions in other frames; they have no components above.
+    std::map<std::size_t, HeldNode> held;
+
+    /// Calls f(condition, its part) for the parts of a force at a relevant node that its conditions take;
+    /// returns what they leave.
+    template <typename F>
+    Vector3 split_reaction(const std::size_t i, const Vector3 &force, const F &f) const
+    {
+      Vector3 rest = force;
+      if (const auto node = held.find(i); node != held.end())
+        for (const HeldNode::Hold &hold : node->second.holds)
+          {
+            const Vector3 part = (force * hold.dual) * hold.direction;
+            f(static_cast<std::size_t>(hold.condition), part);
+            rest -= part;
+          }
+      else
+        for (unsigned int c = 0; c < dim; ++c)
+          if (condition[i][c] >= 0)
+            {
+              Vector3 part;
+              part[c] = force[c];
+              rest[c] = 0.;
+              f(static_cast<std::size_t>(condition[i][c]), part);
+            }
+      return rest;
+    }
   };
 
-  /// Collective. Evaluates the conditions at the nodes. Where two conditions prescribe the same component
+  /// Collective. Evaluates the conditions at the nodes. Where two conditions prescribe the same direction
   /// of a node, the later one counts. Hanging nodes get no entry: their parents do.
   DirichletData evaluate_dirichlet(const NodalSpace &space, const Loads &loads, const bool with_values);
 } // namespace Signorini

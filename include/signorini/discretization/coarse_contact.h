@@ -23,7 +23,7 @@ namespace Signorini
                                                  const InterfaceCoupling          &fine,
                                                  const std::vector<NodeIndex>     &nodes,
                                                  const NodeRows &node_rows, const InterfaceCoupling &coarse,
-                                                 const std::vector<FixedMask> &coarse_masks);
+                                                 const std::vector<FixedDirections> &coarse_masks);
 
   /// A half-space for each row of a coupling, on all ranks; no half-space where the normal is zero.
   struct RowHalfSpaces

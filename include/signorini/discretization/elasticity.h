@@ -24,7 +24,7 @@ namespace Signorini
     NodeBlockMatrix matrix;
     Vector          rhs;
     /// Fixed components of all local nodes of the matrix; hanging nodes are fixed altogether.
-    std::vector<FixedMask> fixed;
+    std::vector<FixedDirections> fixed;
   };
 
   /// Collective. projections: A_p of the rows of the coupling. An empty coupling gives the

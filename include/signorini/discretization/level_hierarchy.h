@@ -64,7 +64,7 @@ namespace Signorini
   /// what algebraic multigrid needs to know.
   /// @param positions of its owned nodes
   std::vector<Vector> rigid_motions(const std::vector<dealii::Point<3>> &positions,
-                                    const NodePartition &partition, const std::vector<FixedMask> &fixed,
+                                    const NodePartition &partition, const std::vector<FixedDirections> &fixed,
                                     const InterfaceCoupling          &coupling,
                                     const std::vector<RowProjection> &projections);
 } // namespace Signorini

@@ -74,7 +74,7 @@ namespace Signorini
     }
 
     /// Fixed masks of the owned nodes of a level; hanging nodes are fixed altogether.
-    const std::vector<FixedMask> &fixed(const unsigned int level) const
+    const std::vector<FixedDirections> &fixed(const unsigned int level) const
     {
       return masks[level];
     }
@@ -86,14 +86,22 @@ namespace Signorini
       return level + 1 != n_background;
     }
 
+    /// Whether a level has nodes that are fixed in directions that are no axes of coordinates; the same on
+    /// all ranks.
+    bool has_rollers() const
+    {
+      return with_rollers;
+    }
+
   private:
     void add_background(std::vector<DistributedBackgroundLevel> &&levels);
 
-    std::vector<dealii::IndexSet>       owned_nodes;
-    std::vector<NodeRows>               rows;
-    std::vector<std::vector<FixedMask>> masks;
-    NodePlaces                          places;
-    unsigned int                        n_background = 0;
+    std::vector<dealii::IndexSet>             owned_nodes;
+    std::vector<NodeRows>                     rows;
+    std::vector<std::vector<FixedDirections>> masks;
+    NodePlaces                                places;
+    unsigned int                              n_background = 0;
+    bool                                      with_rollers = false;
   };
 } // namespace Signorini
 

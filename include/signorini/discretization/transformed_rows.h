@@ -30,7 +30,7 @@ namespace Signorini
     const std::vector<unsigned char> &tied;
     /// Fixed components of the local nodes of the finer level, and of `nodes`; empty where the coarse
     /// functions are zero in them anyway.
-    std::vector<FixedMask> fixed, node_fixed;
+    std::vector<FixedDirections> fixed, node_fixed;
   };
 
   /// The rows of P̂ = (I - A S) E P (I + A_c S_c), E = I but in fixed components, that differ from those of P,

@@ -4,7 +4,7 @@
 #ifndef signorini_mesh_contact_surface_h
 #define signorini_mesh_contact_surface_h
 
-#include <signorini/algebra/types.h>
+#include <signorini/algebra/fixed_directions.h>
 #include <signorini/mesh/true_shape.h>
 #include <signorini/surface/surface_mesh.h>
 
@@ -47,8 +47,8 @@ namespace Signorini
     std::vector<unsigned int> triangle_face;
     /// Global node number of each vertex of mesh.
     std::vector<NodeIndex> vertex_node;
-    /// Prescribed components of each vertex.
-    std::vector<FixedMask> vertex_fixed;
+    /// Prescribed directions of each vertex.
+    std::vector<FixedDirections> vertex_fixed;
     /// For hanging vertices: parents (vertex indices) and weights of the closed constraint; else empty.
     std::vector<std::vector<std::pair<unsigned int, double>>> hanging;
     /// The true surface over the facets.

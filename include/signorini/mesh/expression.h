@@ -16,7 +16,7 @@
 
 namespace Signorini
 {
-  /// A scalar function of x, y, z given by a user as text, e.g. "0.01*sin(2*pi*x)".
+  /// A scalar function of x, y, z and the pseudo-time t given by a user as text, e.g. "0.01*t*sin(2*pi*x)".
   class Expression
   {
   public:
@@ -26,7 +26,7 @@ namespace Signorini
     Expression(const std::string &text, const std::string &where);
 
     /// Errors: InputError where the value is not finite (not collective: one rank alone may throw).
-    double operator()(const dealii::Point<3> &p) const;
+    double operator()(const dealii::Point<3> &p, const double time = ScalarField::end) const;
 
     /// As it was written.
     const std::string &text() const
@@ -35,9 +35,10 @@ namespace Signorini
     }
 
   private:
-    std::string                                      source   = "0", place;
-    double                                           constant = 0.;
-    std::shared_ptr<const dealii::FunctionParser<3>> parser;
+    std::string source   = "0", place;
+    double      constant = 0.;
+    /// Its time is set before each use.
+    std::shared_ptr<dealii::FunctionParser<3>> parser;
   };
 
 

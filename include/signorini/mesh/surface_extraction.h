@@ -19,7 +19,7 @@ namespace Signorini
   /// @param shapes true shapes of the boundaries, where there are any
   ContactSurface extract_contact_surface(const NodalSpace                                         &space,
                                          const std::set<dealii::types::boundary_id>               &ids,
-                                         const std::function<FixedMask(const NodeIndex)>          &fixed,
+                                         const std::function<FixedDirections(const NodeIndex)>    &fixed,
                                          const std::function<bool(const dealii::Point<3> &point)> &region,
                                          const SurfaceShapes &shapes = {});
 

@@ -5,6 +5,7 @@
 #define signorini_mortar_face_moments_h
 
 #include <signorini/mesh/contact_surface.h>
+#include <signorini/mesh/field.h>
 #include <signorini/surface/overlay.h>
 
 #include <array>
@@ -35,7 +36,7 @@ namespace Signorini
   };
 
   /// A gap (length) prescribed at points of the nonmortar surface; empty for the geometric one.
-  using GapFunction = std::function<double(const dealii::Point<3> &)>;
+  using GapFunction = ScalarField;
 
   /// Collective. Moments of all faces of the nonmortar surface, sorted by face, the same on all ranks; those
   /// of uncovered faces hold the area only.

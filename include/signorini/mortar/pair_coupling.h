@@ -70,7 +70,7 @@ namespace Signorini
     std::vector<dealii::Point<3>> positions;
     std::vector<double>           areas;
     std::vector<double>           shares;
-    std::vector<FixedMask>        fixed;
+    std::vector<FixedDirections>  fixed;
     std::vector<unsigned int>     vertices;
     /// Nodes of the columns that belong to the nonmortar surface (the set R), sorted.
     std::vector<NodeIndex> r_nodes;

@@ -72,11 +72,11 @@ namespace Signorini
     /// A space below the finest level, with its transfer to the space above.
     struct Space
     {
-      Numbering              numbering;
-      NodalTransfer          to_finer;
-      NodeBlockMatrix        matrix;
-      std::vector<FixedMask> fixed;
-      Vector                 values;
+      Numbering                    numbering;
+      NodalTransfer                to_finer;
+      NodeBlockMatrix              matrix;
+      std::vector<FixedDirections> fixed;
+      Vector                       values;
     };
 
     /// Index of a node of the finest level among the contact nodes, or nothing.

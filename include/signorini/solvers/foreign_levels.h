@@ -27,8 +27,8 @@ namespace Signorini
     dealii::IndexSet nodes(const dealii::IndexSet &dofs) const;
 
     /// Masks of the owned nodes: missing components, and dofs whose value is prescribed (zero).
-    std::vector<FixedMask> fixed(const dealii::IndexSet &owned_dofs,
-                                 const dealii::IndexSet &prescribed) const;
+    std::vector<FixedDirections> fixed(const dealii::IndexSet &owned_dofs,
+                                       const dealii::IndexSet &prescribed) const;
   };
 
 
@@ -57,8 +57,8 @@ namespace Signorini
       /// Of the owned nodes of the finer level.
       NodeRows rows;
       /// Owned nodes and their masks (ForeignNumbering).
-      dealii::IndexSet       owned;
-      std::vector<FixedMask> fixed;
+      dealii::IndexSet             owned;
+      std::vector<FixedDirections> fixed;
     };
 
     /// Finest first: levels[0] is the one below the finest. Every node of the finest level may have a
@@ -113,11 +113,11 @@ namespace Signorini
     void vmult(VectorType &dst, const VectorType &src) const;
 
   private:
-    const ForeignNumbering numbering;
-    mutable VCycle         cycle;
-    const NodeIndex        first;
-    std::vector<FixedMask> fixed;
-    mutable Vector         correction, defect;
+    const ForeignNumbering       numbering;
+    mutable VCycle               cycle;
+    const NodeIndex              first;
+    std::vector<FixedDirections> fixed;
+    mutable Vector               correction, defect;
   };
 
 
@@ -180,7 +180,7 @@ namespace Signorini
     const auto for_each  = [&](const auto &action) {
       for (unsigned int i = 0; dim * i < defect.locally_owned_size(); ++i)
         for (unsigned int c = 0; c < n; ++c)
-          action(n * (first + i) + c, dim * i + c, (fixed[i] & (1u << c)) != 0);
+          action(n * (first + i) + c, dim * i + c, (fixed[i].components() & (1u << c)) != 0);
     };
     for_each([&](const NodeIndex dof, const unsigned int local, const bool is_fixed) {
       defect.local_element(local) = is_fixed ? 0. : src(dof);

@@ -32,8 +32,8 @@ namespace Signorini
     /// A of the level, fixed components eliminated.
     NodeBlockMatrix matrix;
     /// Fixed components of the local nodes.
-    std::vector<FixedMask>    fixed;
-    std::unique_ptr<Smoother> smoother;
+    std::vector<FixedDirections> fixed;
+    std::unique_ptr<Smoother>    smoother;
     /// Contact nodes of both sides: global numbers, sorted, the same on all ranks.
     std::vector<NodeIndex> contact_nodes;
     /// Contact nodes of a coarse level with their normals, for coarse obstacles (no bounds); may be empty.
@@ -57,7 +57,7 @@ namespace Signorini
   /// Zeroes rows and columns of fixed components (the diagonal entry stays, or becomes `scale` where it
   /// is zero) and gives directions without any stiffness, which truncation can leave behind, a diagonal
   /// entry, so that blocks can be inverted. `rows` are owned rows.
-  void eliminate_fixed_components(NodeBlockMatrix &matrix, const std::vector<FixedMask> &fixed,
+  void eliminate_fixed_components(NodeBlockMatrix &matrix, const std::vector<FixedDirections> &fixed,
                                   const std::vector<unsigned int> &rows, const double scale);
 
   /// A level below another one, as it is described to the hierarchy.
@@ -66,8 +66,8 @@ namespace Signorini
     /// Rows of the local nodes of the finer level.
     NodalTransfer transfer;
     /// Owned nodes, and their fixed masks.
-    dealii::IndexSet       owned;
-    std::vector<FixedMask> fixed;
+    dealii::IndexSet             owned;
+    std::vector<FixedDirections> fixed;
     /// Contact nodes of both sides.
     LevelInterface interface;
     /// See MultigridLevel.
@@ -98,9 +98,9 @@ namespace Signorini
   {
     /// The finest matrix, whose fixed components are eliminated by the hierarchy, and the fixed masks of its
     /// owned nodes (what follows is not looked at).
-    NodeBlockMatrix        matrix;
-    std::vector<FixedMask> fixed;
-    LevelInterface         interface;
+    NodeBlockMatrix              matrix;
+    std::vector<FixedDirections> fixed;
+    LevelInterface               interface;
     /// Null for a hierarchy of the finest level alone, which only methods without levels can use.
     LevelSource *levels = nullptr;
     /// Null, or a problem and a good start: the coarser levels are built truncated at the active set that
@@ -125,7 +125,7 @@ namespace Signorini
     explicit MultigridHierarchy(HierarchyParts &&parts);
 
     /// Collective. The finest level alone, for methods without levels.
-    MultigridHierarchy(NodeBlockMatrix &&matrix, std::vector<FixedMask> fixed);
+    MultigridHierarchy(NodeBlockMatrix &&matrix, std::vector<FixedDirections> fixed);
 
     /// Whether it was built for a good start (HierarchyParts::start).
     bool expects_active_set() const

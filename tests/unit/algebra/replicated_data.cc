@@ -37,12 +37,25 @@ TEST(NodePartition, NumbersOwnedNodesFirst)
     }
 }
 
+namespace
+{
+  /// Axes of coordinates at most nodes, oblique directions at every ninth.
+  FixedDirections fixed_at(const NodeIndex p)
+  {
+    if (p % 9 != 0)
+      return static_cast<FixedMask>(p % 8);
+    const Vector3 a = dealii::Point<3>(1., 2., 3. + p), b = dealii::Point<3>(-1., 0., .1 * p);
+    return p % 2 == 0 ? FixedDirections::span({a / a.norm()})
+                      : FixedDirections::span({a / a.norm(), b / b.norm()});
+  }
+} // namespace
+
 TEST(ReplicatedData, ComesFromTheOwner)
 {
-  const NodePartition    nodes = partition();
-  Vector                 field;
-  NodeRows               rows;
-  std::vector<FixedMask> masks;
+  const NodePartition          nodes = partition();
+  Vector                       field;
+  NodeRows                     rows;
+  std::vector<FixedDirections> masks;
   nodes.reinit(field);
   for (unsigned int i = 0; i < nodes.n_owned(); ++i)
     {
@@ -52,7 +65,7 @@ TEST(ReplicatedData, ComesFromTheOwner)
       for (NodeIndex k = 0; k < p % 4; ++k)
         rows.add((p + k) % n, 1. / (1. + p + k));
       rows.finish_row();
-      masks.push_back(p % 8);
+      masks.push_back(fixed_at(p));
     }
   const std::vector<NodeIndex> asked    = {0, 3, 4, 11, 19};
   const auto                   values   = replicate_values(nodes, field, asked);
@@ -65,7 +78,7 @@ TEST(ReplicatedData, ComesFromTheOwner)
       const NodeIndex p = asked[i];
       for (unsigned int c = 0; c < 3; ++c)
         EXPECT_EQ(values[i][c], 10. * p + c);
-      EXPECT_EQ(fixed[i], p % 8);
+      EXPECT_EQ(fixed[i], fixed_at(p));
       ASSERT_EQ(of_nodes.start[i + 1] - of_nodes.start[i], p % 4);
       for (NodeIndex k = 0; k < p % 4; ++k)
         {
@@ -79,7 +92,7 @@ TEST(ReplicatedData, ComesFromTheOwner)
   ASSERT_EQ(local_rows.n_rows(), nodes.n_local());
   for (unsigned int i = 0; i < nodes.n_local(); ++i)
     {
-      EXPECT_EQ(local_masks[i], nodes.to_global(i) % 8);
+      EXPECT_EQ(local_masks[i], fixed_at(nodes.to_global(i)));
       EXPECT_EQ(local_rows.start[i + 1] - local_rows.start[i], nodes.to_global(i) % 4);
     }
 }

@@ -180,11 +180,11 @@ TEST(BackgroundLevels, DoNotDependOnTheNumberOfRanks)
   for (const bool tetrahedra : {false, true})
     {
       p.convert_to_tetrahedra = tetrahedra;
-      const Bodies           bodies(MPI_COMM_WORLD, define_bodies(MPI_COMM_WORLD, {p}, "."));
-      const NodalSpace       space(MPI_COMM_WORLD, bodies.mesh());
-      std::vector<FixedMask> fixed;
+      const Bodies                 bodies(MPI_COMM_WORLD, define_bodies(MPI_COMM_WORLD, {p}, "."));
+      const NodalSpace             space(MPI_COMM_WORLD, bodies.mesh());
+      std::vector<FixedDirections> fixed;
       for (const NodeIndex node : space.owned())
-        fixed.push_back(space.position(node)[2] < 1e-12 ? all_fixed : FixedMask(0));
+        fixed.push_back(space.position(node)[2] < 1e-12 ? all_fixed : 0);
       const auto             levels = background_levels(space, fixed, bodies);
       std::vector<NodeIndex> sizes;
       for (const auto &level : levels)

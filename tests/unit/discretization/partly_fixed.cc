@@ -91,7 +91,7 @@ TEST(PartlyFixed, TransformedProblemIsTheSameProblem)
       coupling.row_start.push_back(coupling.entries.size());
       coupling.weight.push_back(1.);
       projections.emplace_back(x[0] < 1e-12 ? 1 : x[0] > 1. - 1e-12 ? 6 : 0, normal);
-      ++n_rows[projections.back().fixed()];
+      ++n_rows[projections.back().fixed().components()];
       gaps.push_back(.1 * value(x, 1));
     }
   EXPECT_GT(n_rows[0], 0u);
@@ -107,7 +107,7 @@ TEST(PartlyFixed, TransformedProblemIsTheSameProblem)
   const Vector lift = transformation.to_displacement(v, unknowns);
   for (unsigned int i = 0; i < unknowns.n_owned(); ++i)
     for (unsigned int c = 0; c < dim; ++c)
-      if (!(system.fixed[i] & (1u << c)))
+      if (!(system.fixed[i].components() & (1u << c)))
         v.local_element(dim * i + c) = value(space.position(unknowns.to_global(i)), c);
   const Vector u = transformation.to_displacement(v, unknowns);
 

@@ -19,7 +19,7 @@ namespace
                          const std::function<bool(const Point<3> &)> &region = {})
   {
     return extract_contact_surface(
-        space, bodies.boundary_ids(0, boundary), [](const NodeIndex) { return FixedMask(0); }, region);
+        space, bodies.boundary_ids(0, boundary), [](const NodeIndex) { return FixedDirections(); }, region);
   }
 
   void refine_near(Bodies &bodies, const Point<3> &p, const double radius)

@@ -165,7 +165,7 @@ namespace FlatSurfaces
 
   /// Vertices where a condition on the position holds.
   inline void fix(ContactSurface &surface, const std::function<bool(const Point<3> &)> &where,
-                  const FixedMask mask = all_fixed)
+                  const FixedDirections &mask = all_fixed)
   {
     for (unsigned int v = 0; v < surface.vertex_node.size(); ++v)
       if (where(surface.mesh.vertices[v]))

@@ -44,9 +44,9 @@ namespace CubeProblem
     }
 
     /// u = 0 on z = 1.
-    std::vector<FixedMask> fixed() const
+    std::vector<FixedDirections> fixed() const
     {
-      std::vector<FixedMask> masks;
+      std::vector<FixedDirections> masks;
       for (const NodeIndex p : owned)
         masks.push_back(index(p)[2] == n ? all_fixed : 0);
       return masks;

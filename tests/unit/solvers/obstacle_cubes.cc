@@ -300,7 +300,8 @@ TEST(MultigridHierarchy, FillsDirectionsWithHardlyAnyStiffness)
     Block block = 7. * dealii::unit_symmetric_tensor<3>();
     block -= 7. * (1. - weak) * outer_product(normal, normal);
     write_block(matrix.block(matrix.diagonal(0)), block);
-    eliminate_fixed_components(matrix, std::vector<FixedMask>(matrix.partition().n_local(), 0), {0}, 7.);
+    eliminate_fixed_components(matrix, std::vector<FixedDirections>(matrix.partition().n_local(), 0), {0},
+                                      7.);
     return normal * (read_block(matrix.block(matrix.diagonal(0))) * normal) / 7.;
   };
   for (const double weak : {0., 1e-13, 1e-10, 1e-7})
