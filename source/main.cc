@@ -6,6 +6,7 @@
 #include <signorini/application/journal.h>
 #include <signorini/application/problem_description.h>
 #include <signorini/application/write_results.h>
+#include <signorini/output/termination.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -155,11 +156,12 @@ namespace
     if (!line.mesh_only)
       nested.results.wall_time = time.wall_time();
     write_results(nested, model, file, *folder, line.mesh_only);
-    folder->commit();
+    const bool        converged = nested.results.converged;
+    const std::string place     = folder->commit(converged ? Outcome::complete : Outcome::not_converged);
     if (is_root && file.output().verbosity > 0)
-      std::cout << "results in " << file.output().folder << std::endl;
-    if (!nested.results.converged)
-      throw InputError("the iteration did not converge; see the notes and convergence.csv in the results.");
+      std::cout << "results in " << place << std::endl;
+    if (!converged)
+      throw InputError("the iteration did not converge; see the notes and convergence.csv in " + place + ".");
     return nested.results.certificate.objections.empty() ? 0 : 3;
   }
 } // namespace
@@ -187,6 +189,7 @@ namespace
 int
 main(int argc, char **argv)
 {
+  TerminationWatch::start();
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   give_memory_back();
   const bool is_root = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;

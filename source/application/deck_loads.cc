@@ -166,7 +166,7 @@ namespace Signorini
               if (const unsigned int vertex = body.cells->vertex(node); vertex != VolumeMesh::no_vertex)
                 {
                   if (load.value != 0.)
-                    body.loads.nodal_forces.push_back({vertex, force});
+                    body.loads.nodal_forces.push_back({vertex, [f = force](const Point<3> &) { return f; }});
                   is_anywhere = true;
                 }
             n_lost += is_anywhere ? 0 : 1;
@@ -299,7 +299,7 @@ namespace Signorini
             for (const auto &[vertex, volume] : nodal_volumes(mesh, mesh.cells[c]))
               nodal[vertex] += volume * force;
         for (const auto &[vertex, force] : nodal)
-          body.loads.nodal_forces.push_back({vertex, force});
+          body.loads.nodal_forces.push_back({vertex, [f = force](const Point<3> &) { return f; }});
         remarks.push_back("body " + body.name +
                           ": forces per volume differ from element to element; they act at the nodes of the "
                           "deck, also where cells are refined.");

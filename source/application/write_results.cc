@@ -147,8 +147,16 @@ namespace Signorini
     void write_file(const std::string &path, const F &writer)
     {
       std::ofstream out(path);
-      writer(out);
-      out.close();
+      try
+        {
+          writer(out);
+          out.close();
+        }
+      catch (const ExceptionBase &)
+        {
+          // deal.II looks at the stream, too.
+          out.setstate(std::ios::failbit);
+        }
       if (!out)
         throw InputError("the file \"" + path + "\" cannot be written: is the disk full?");
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/algebra/gathered_lists.h>
 #include <signorini/discretization/background_levels.h>
 #include <signorini/discretization/background_octree.h>
 #include <signorini/mesh/cell_shape.h>
@@ -342,30 +343,6 @@ namespace Signorini
 
 
 
-    /// The lists of all ranks, one after the other, as they are: deal.II's all_gather() would compress them,
-    /// which took longer than all the rest.
-    template <typename T>
-    std::vector<T> gather_all(const std::vector<T> &mine, const MPI_Comm communicator)
-    {
-      static_assert(std::is_trivially_copyable<T>::value, "sent as bytes");
-      const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
-      if (n_ranks == 1)
-        return mine;
-      MPI_Datatype item;
-      MPI_Type_contiguous(sizeof(T), MPI_BYTE, &item);
-      MPI_Type_commit(&item);
-      const int        n = static_cast<int>(mine.size());
-      std::vector<int> counts(n_ranks), starts(n_ranks, 0);
-      MPI_Allgather(&n, 1, MPI_INT, counts.data(), 1, MPI_INT, communicator);
-      std::partial_sum(counts.begin(), counts.end() - 1, starts.begin() + 1);
-      std::vector<T> all(starts.back() + counts.back());
-      MPI_Allgatherv(mine.data(), n, item, all.data(), counts.data(), starts.data(), item, communicator);
-      MPI_Type_free(&item);
-      return all;
-    }
-
-
-
     /// Places of numbers in a list, by number: no_place for those that are not in it.
     constexpr unsigned int no_place = static_cast<unsigned int>(-1);
 
@@ -398,7 +375,7 @@ namespace Signorini
             cells.insert(cells.end(), nodes_of_cell.begin(), nodes_of_cell.end());
             cells.push_back(invalid_node);
           }
-      for (const NodeIndex node : gather_all(cells, space.communicator()))
+      for (const NodeIndex node : gather_lists(cells, space.communicator(), Receivers::all))
         if (node == invalid_node)
           mesh.cells.start.push_back(mesh.cells.nodes.size());
         else if (places[node] != no_place)
@@ -463,7 +440,8 @@ namespace Signorini
                                                             const Bodies &bodies, const BackgroundRule &rule)
   {
     const MPI_Comm        communicator = space.communicator();
-    std::vector<MeshNode> nodes        = gather_all(own_nodes(space, fixed, bodies, rule), communicator);
+    std::vector<MeshNode> nodes =
+        gather_lists(own_nodes(space, fixed, bodies, rule), communicator, Receivers::all);
     std::sort(nodes.begin(), nodes.end());
     std::vector<NodeIndex>    numbers;
     std::vector<unsigned int> ranks;

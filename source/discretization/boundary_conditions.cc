@@ -182,20 +182,20 @@ namespace Signorini
         std::set<types::boundary_id> ids;
         if (node_set == StartNodes::none)
           ids = bodies.boundary_ids(body, condition.boundary, section + "Dirichlet");
+        else if (condition.frame.needs_normal())
+          throw InputError(section + "Dirichlet: \"" + condition.boundary +
+                           "\" is a set of nodes, which has no normals. Name a boundary or a direction.");
         if (condition.frame.needs_normal() && (condition.components[1] || condition.components[2]))
           throw InputError(
               section + "Dirichlet, boundary \"" + condition.boundary +
               "\": along a normal there is one component; tangents have no meaning of their own.");
-        if (condition.frame.needs_normal() && node_set != StartNodes::none)
-          throw InputError(section + "Dirichlet, \"" + condition.boundary +
-                           "\": a set of nodes has no normals.");
         dirichlet.push_back(
             {body, condition.boundary, ids, condition.components, condition.frame, {}, node_set});
         if (condition.frame.needs_normal())
           dirichlet.back().shapes = bodies.true_shapes(body, ids, false);
       }
     for (const LoadDefinition::NodalForce &force : definition.nodal_forces)
-      nodal_forces[bodies.start_vertex(body, force.vertex)] += force.force;
+      nodal_forces[bodies.start_vertex(body, force.vertex)].push_back(force.force);
     for (const LoadDefinition::SurfaceForce &force : definition.surface_forces)
       tractions.push_back({bodies.boundary_ids(body, force.boundary, section + parameter_of(force)),
                            force.traction, force.pressure, force.total_force});
@@ -243,7 +243,7 @@ namespace Signorini
         for (unsigned int i = 0; i < loads.dirichlet.size(); ++i)
           if (loads.dirichlet[i].node_set != StartNodes::none)
             for (const NodeIndex node : space.node_sets()[loads.dirichlet[i].node_set])
-              entry_of(node, static_cast<int>(i));
+              entry(node, i);
       }
 
       /// The latest condition of each component at the nodes whose conditions are all along the axes.
@@ -299,15 +299,15 @@ namespace Signorini
         for (const unsigned int v : CellShape::face(cell.n_vertices, face.face))
           if (const NodeIndex node = space.nodes(cell)[v]; !space.hanging_nodes().is_constrained(node))
             for (const int condition : conditions)
-              entry_of(node, condition).push_back({area, face.id});
+              entry(node, condition).push_back({area, face.id});
       }
 
-      /// The faces of a condition at a node; those of sets of nodes have none.
-      std::vector<Face> &entry_of(const NodeIndex node, const int condition)
+      /// The faces of a condition at a node; none where it holds a set of nodes.
+      std::vector<Face> &entry(const NodeIndex node, const int condition)
       {
-        Node &entry   = nodes[space.relevant().index_within_set(node)];
-        entry.is_held = entry.is_held || !loads.dirichlet[condition].frame.is_cartesian();
-        return entry.conditions[condition];
+        Node &found   = nodes[space.relevant().index_within_set(node)];
+        found.is_held = found.is_held || !loads.dirichlet[condition].frame.is_cartesian();
+        return found.conditions[condition];
       }
 
       /// Of the conditions along normals: one direction for each smooth piece of boundary, with the latest of

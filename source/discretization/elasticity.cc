@@ -101,9 +101,9 @@ namespace Signorini
         for (; face != loaded.end() && face->cell == index; ++face)
           add_traction(data, face->face, forces, face->traction);
         for (auto node = std::lower_bound(
-                 nodal.begin(), nodal.end(), index,
+                 nodal_forces.begin(), nodal_forces.end(), index,
                  [](const NodalForce &force, const unsigned int i) { return force.cell < i; });
-             node != nodal.end() && node->cell == index; ++node)
+             node != nodal_forces.end() && node->cell == index; ++node)
           data.load[node->vertex] += node->force;
       }
 
@@ -127,7 +127,8 @@ namespace Signorini
                 is_done[i] = true;
                 if (const auto it = loads.nodal_forces.find(space.start_vertices()[i]);
                     it != loads.nodal_forces.end())
-                  nodal.push_back({c, v, it->second});
+                  for (const VectorField &force : it->second)
+                    nodal_forces.push_back({c, v, force(space.position(node), loads.time)});
               }
       }
 
@@ -149,7 +150,7 @@ namespace Signorini
       const Loads            &loads;
       const SurfaceForces     forces;
       std::vector<LoadedFace> loaded;
-      std::vector<NodalForce> nodal;
+      std::vector<NodalForce> nodal_forces;
     };
 
 

@@ -62,25 +62,30 @@ namespace Signorini
         const unsigned int rank = Utilities::MPI::this_mpi_process(comm),
                            n    = Utilities::MPI::n_mpi_processes(comm);
         const auto piece = [&](const unsigned int r) { return name + "." + std::to_string(r) + ".vtu"; };
-        bool       good  = true;
-        {
-          std::ofstream out(folder + piece(rank));
-          this->write_vtu(out);
-          out.close();
-          good = static_cast<bool>(out);
-        }
-        if (rank == 0)
+        std::vector<std::string> pieces;
+        for (unsigned int r = 0; r < n; ++r)
+          pieces.push_back(piece(r));
+        bool good = true;
+        try
           {
-            std::vector<std::string> pieces;
-            for (unsigned int r = 0; r < n; ++r)
-              pieces.push_back(piece(r));
-            std::ofstream record(folder + name + ".pvtu");
-            this->write_pvtu_record(record, pieces);
-            std::ofstream pvd(folder + name + ".pvd");
-            DataOutBase::write_pvd_record(pvd, {{0., name + ".pvtu"}});
-            record.close();
-            pvd.close();
-            good = good && record && pvd;
+            std::ofstream out(folder + piece(rank));
+            this->write_vtu(out);
+            out.close();
+            good = static_cast<bool>(out);
+            if (rank == 0)
+              {
+                std::ofstream record(folder + name + ".pvtu"), pvd(folder + name + ".pvd");
+                this->write_pvtu_record(record, pieces);
+                DataOutBase::write_pvd_record(pvd, {{0., name + ".pvtu"}});
+                record.close();
+                pvd.close();
+                good = good && record && pvd;
+              }
+          }
+        catch (const ExceptionBase &)
+          {
+            // deal.II looks at the streams, too.
+            good = false;
           }
         if (Utilities::MPI::min(static_cast<int>(good), comm) == 0)
           throw InputError("the results cannot be written to \"" + folder + "\": is the disk full?");

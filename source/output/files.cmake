@@ -4,4 +4,5 @@ signorini_add_layer(output
   output_folder.cc
   progress.cc
   summary.cc
+  termination.cc
 )

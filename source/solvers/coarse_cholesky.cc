@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
-#include <signorini/solvers/coarse_cholesky.h>
+#include "gathered_blocks.h"
+#include "single_threaded.h"
 
-#include <deal.II/base/mpi.h>
+#include <signorini/algebra/gathered_lists.h>
+#include <signorini/solvers/coarse_cholesky.h>
 
 #include <Eigen/CholmodSupport>
 #include <Eigen/SparseCholesky>
@@ -35,6 +37,7 @@ namespace Signorini
 
     bool factorize(const Matrix &lower, const std::size_t n)
     {
+      const SingleThreaded single_threaded;
       return supernodal ? factorize(*supernodal, lower, n) : factorize(simplicial, lower, n);
     }
 
@@ -46,29 +49,14 @@ namespace Signorini
 
   namespace
   {
-    struct PackedMatrix
+    GatheredBlocks::Blocks pack(const NodeBlockMatrix &matrix)
     {
-      std::vector<NodeIndex> rows, columns;
-      std::vector<double>    values;
-
-      template <class Archive>
-      void serialize(Archive &archive, const unsigned int)
-      {
-        archive &rows &columns &values;
-      }
-    };
-
-    PackedMatrix pack(const NodeBlockMatrix &matrix)
-    {
-      PackedMatrix packed;
+      GatheredBlocks::Blocks packed;
       for (unsigned int i = 0; i < matrix.n_rows(); ++i)
         for (const BlockRange &range : matrix.ranges(i))
           for (std::size_t k = range.begin; k < range.end; ++k)
-            {
-              packed.rows.push_back(matrix.partition().to_global(i));
-              packed.columns.push_back(matrix.partition().to_global(matrix.column(k)));
-              packed.values.insert(packed.values.end(), matrix.block(k), matrix.block(k) + 9);
-            }
+            packed.add(matrix.partition().to_global(i), matrix.partition().to_global(matrix.column(k)),
+                       matrix.block(k));
       return packed;
     }
 
@@ -115,28 +103,18 @@ namespace Signorini
   {
     const MPI_Comm comm         = matrix.partition().communicator();
     factorization->communicator = comm;
-    const auto pieces           = Utilities::MPI::gather(comm, pack(matrix), 0);
-    bool       ok               = true;
+    bool           ok           = true;
+    GatheredBlocks blocks;
+    blocks.gather(pack(matrix), matrix.partition().n_global(), comm);
     if (Utilities::MPI::this_mpi_process(comm) == 0)
       {
-        std::vector<Eigen::Triplet<double>> triplets;
-        std::size_t                         n_blocks = 0;
-        for (const PackedMatrix &piece : pieces)
-          {
-            n_blocks += piece.rows.size();
-            for (std::size_t k = 0; k < piece.rows.size(); ++k)
-              for (unsigned int c = 0; c < dim; ++c)
-                for (unsigned int d = 0; d < dim; ++d)
-                  if (piece.rows[k] >= piece.columns[k])
-                    triplets.emplace_back(dim * piece.rows[k] + c, dim * piece.columns[k] + d,
-                                          piece.values[9 * k + dim * c + d]);
-          }
-        const auto                  n = static_cast<Eigen::Index>(dim * matrix.partition().n_global());
-        Eigen::SparseMatrix<double> lower(n, n);
-        lower.setFromTriplets(triplets.begin(), triplets.end());
+        GatheredBlocks::LowerHalf lower = blocks.lower_structure();
+        blocks.fill_lower(lower, [](const std::size_t, const std::size_t, const double *const block) {
+          return read_block(block);
+        });
         if (is_nearly_singular)
           make_definite(lower);
-        ok = factorization->factorize(lower, n_blocks);
+        ok = factorization->factorize(lower, blocks.n_blocks());
       }
     AssertThrow(Utilities::MPI::min(static_cast<int>(ok), comm) == 1,
                 ExcMessage("The sparse factorization failed: the matrix is singular."));
@@ -154,18 +132,14 @@ namespace Signorini
         Eigen::Map<Eigen::VectorXd>(solution.begin(), mine.size()) = factorization->solve(b);
         return;
       }
-    const auto          pieces = Utilities::MPI::gather(comm, mine, 0);
-    std::vector<double> all;
+    std::vector<double> all = gather_lists(std::move(mine), comm, Receivers::rank_zero);
     if (Utilities::MPI::this_mpi_process(comm) == 0)
       {
-        for (const auto &piece : pieces)
-          all.insert(all.end(), piece.begin(), piece.end());
         const Eigen::VectorXd x =
             factorization->solve(Eigen::Map<const Eigen::VectorXd>(all.data(), all.size()));
         std::copy(x.data(), x.data() + x.size(), all.begin());
       }
-    all                     = Utilities::MPI::broadcast(comm, all, 0);
-    const std::size_t begin = solution.get_partitioner()->local_range().first;
-    std::copy_n(all.begin() + begin, mine.size(), solution.begin());
+    all = scatter_list(std::move(all), rhs.locally_owned_size(), comm);
+    std::copy(all.begin(), all.end(), solution.begin());
   }
 } // namespace Signorini

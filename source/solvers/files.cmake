@@ -6,6 +6,7 @@ signorini_add_layer(solvers
   contact_subspace.cc
   foreign_levels.cc
   free_motion_correction.cc
+  gathered_blocks.cc
   gathered_obstacle_problem.cc
   gauss_seidel_iteration.cc
   interface_correction.cc
@@ -20,6 +21,7 @@ signorini_add_layer(solvers
   projected_gauss_seidel.cc
   rounded_gauss_seidel.cc
   safety_net.cc
+  single_threaded.cc
   smoother.cc
   staged_smoother.cc
   strong_blocks.cc

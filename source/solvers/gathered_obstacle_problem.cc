@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
-#include <signorini/solvers/gathered_obstacle_problem.h>
+#include "gathered_blocks.h"
+#include "single_threaded.h"
+
+#include <signorini/algebra/gathered_lists.h>
 #include <signorini/solvers/obstacle_problem.h>
 
 #include <deal.II/base/mpi.h>
@@ -30,29 +33,6 @@ namespace Signorini
     using States = std::vector<NodeState>;
     using Flags  = std::vector<unsigned char>;
 
-    template <typename Number>
-    constexpr std::size_t n_numbers = sizeof(Number) / sizeof(double);
-    static_assert(sizeof(NodeState) == 8 * sizeof(double), "sent as numbers");
-    static_assert(sizeof(NodeStep) == 4 * sizeof(double), "sent as numbers");
-
-    template <typename Item>
-    std::vector<double> to_numbers(const std::vector<Item> &items)
-    {
-      std::vector<double> result(n_numbers<Item> * items.size());
-      if (!items.empty())
-        std::memcpy(result.data(), items.data(), sizeof(Item) * items.size());
-      return result;
-    }
-
-    template <typename Item>
-    void append_from_numbers(std::vector<Item> &items, const std::vector<double> &data)
-    {
-      const std::size_t n = items.size();
-      items.resize(n + data.size() / n_numbers<Item>);
-      if (!data.empty())
-        std::memcpy(items.data() + n, data.data(), sizeof(double) * data.size());
-    }
-
     double normal_part(const Eigen::VectorXd &x, const std::size_t node, const Vector3 &n)
     {
       return n[0] * x[dim * node] + n[1] * x[dim * node + 1] + n[2] * x[dim * node + 2];
@@ -70,11 +50,9 @@ namespace Signorini
   /// The problem on rank 0.
   struct GatheredObstacleProblem::Factors
   {
-    Blocks                                                   blocks;
-    Eigen::SparseMatrix<double>                              matrix, truncated;
-    Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>> cholesky;
-    /// Where the entries of the blocks of the lower half are in `truncated`; -1 above the diagonal.
-    std::vector<std::ptrdiff_t> places;
+    GatheredBlocks                                         matrix;
+    GatheredBlocks::LowerHalf                              truncated;
+    Eigen::CholmodSupernodalLLT<GatheredBlocks::LowerHalf> cholesky;
     /// Planes that were cut off before the factorization; valid if has_factors.
     Flags factorized;
     bool  has_factors = false, is_definite = false;
@@ -86,7 +64,6 @@ namespace Signorini
       cholesky.cholmod().print = 0;
     }
 
-    void set_matrix(const std::size_t n_nodes);
     void set_structure();
     void factorize(const States &states, const Flags &active);
     bool try_factors(const States &states);
@@ -147,63 +124,29 @@ namespace Signorini
 
 
 
-  void GatheredObstacleProblem::Factors::set_matrix(const std::size_t n_nodes)
-  {
-    std::vector<Eigen::Triplet<double>> entries;
-    entries.reserve(dim * dim * blocks.rows.size());
-    for (std::size_t k = 0; k < blocks.rows.size(); ++k)
-      for (unsigned int c = 0; c < dim; ++c)
-        for (unsigned int d = 0; d < dim; ++d)
-          entries.emplace_back(dim * blocks.rows[k] + c, dim * blocks.columns[k] + d,
-                               blocks.values[dim * dim * k + dim * c + d]);
-    const auto n = static_cast<Eigen::Index>(dim * n_nodes);
-    matrix.resize(n, n);
-    matrix.setFromTriplets(entries.begin(), entries.end());
-    has_factors = false;
-    if (places.empty())
-      set_structure();
-  }
-
-
-
   void GatheredObstacleProblem::Factors::set_structure()
   {
-    truncated = matrix.triangularView<Eigen::Lower>();
+    has_factors = false;
+    if (truncated.rows() != 0)
+      return;
+    truncated = matrix.lower_structure();
     cholesky.analyzePattern(truncated);
-    const int *const rows = truncated.innerIndexPtr();
-    places.assign(dim * dim * blocks.rows.size(), -1);
-    for (std::size_t k = 0; k < blocks.rows.size(); ++k)
-      for (unsigned int c = 0; c < dim; ++c)
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            const auto row    = static_cast<int>(dim * blocks.rows[k] + c);
-            const auto column = static_cast<int>(dim * blocks.columns[k] + d);
-            if (row < column)
-              continue;
-            const int *const begin              = rows + truncated.outerIndexPtr()[column];
-            const int *const end                = rows + truncated.outerIndexPtr()[column + 1];
-            places[dim * dim * k + dim * c + d] = std::lower_bound(begin, end, row) - rows;
-          }
   }
 
 
 
   bool GatheredObstacleProblem::Factors::try_factors(const States &states)
   {
-    const double stiffer = is_singular ? 1. + ActiveSetRule().regularization : 1.;
-    for (std::size_t k = 0; k < blocks.rows.size(); ++k)
-      {
-        const std::size_t row = blocks.rows[k], column = blocks.columns[k];
-        if (row < column)
-          continue;
-        const Block block = restrict_to_planes(
-            blocks.values.data() + dim * dim * k, factorized[row] ? states[row].normal : Vector3(),
-            factorized[column] ? states[column].normal : Vector3(), row == column);
-        for (unsigned int c = 0; c < dim; ++c)
-          for (unsigned int d = 0; d < dim; ++d)
-            if (const std::ptrdiff_t place = places[dim * dim * k + dim * c + d]; place >= 0)
-              truncated.valuePtr()[place] = block[c][d] * (row == column ? stiffer : 1.);
-      }
+    const double stiffer  = is_singular ? 1. + ActiveSetRule().regularization : 1.;
+    const auto   plane_of = [&](const std::size_t node) {
+      return factorized[node] ? states[node].normal : Vector3();
+    };
+    matrix.fill_lower(
+        truncated, [&](const std::size_t row, const std::size_t column, const double *const block) {
+          const Block result = restrict_to_planes(block, plane_of(row), plane_of(column), row == column);
+          return row == column ? stiffer * result : result;
+        });
+    const SingleThreaded single_threaded;
     cholesky.factorize(truncated);
     return cholesky.info() == Eigen::Success;
   }
@@ -365,51 +308,31 @@ namespace Signorini
 
   void GatheredObstacleProblem::set_matrix(const Blocks &mine, const std::size_t n_nodes, const MPI_Comm comm)
   {
-    communicator      = comm;
-    const auto pieces = Utilities::MPI::gather(comm, mine, 0);
-    if (Utilities::MPI::this_mpi_process(comm) != 0)
-      return;
+    communicator = comm;
     if (!factors)
       factors = std::make_unique<Factors>();
-    Blocks &all = factors->blocks;
-    all         = Blocks();
-    for (const Blocks &piece : pieces)
-      {
-        all.rows.insert(all.rows.end(), piece.rows.begin(), piece.rows.end());
-        all.columns.insert(all.columns.end(), piece.columns.begin(), piece.columns.end());
-        all.values.insert(all.values.end(), piece.values.begin(), piece.values.end());
-      }
-    factors->set_matrix(n_nodes);
+    factors->matrix.gather(mine, n_nodes, comm);
+    if (Utilities::MPI::this_mpi_process(comm) == 0)
+      factors->set_structure();
   }
 
 
 
   std::vector<NodeStep> GatheredObstacleProblem::solve(const std::vector<NodeState> &mine)
   {
-    const auto          pieces = Utilities::MPI::gather(communicator, to_numbers(mine), 0);
-    std::vector<double> result;
+    const States          states = gather_lists(mine, communicator, Receivers::rank_zero);
+    std::vector<NodeStep> steps;
     if (Utilities::MPI::this_mpi_process(communicator) == 0)
       {
-        States states;
-        for (const auto &piece : pieces)
-          append_from_numbers(states, piece);
-        AssertDimension(dim * states.size(), static_cast<std::size_t>(factors->matrix.rows()));
+        AssertDimension(states.size(), factors->matrix.n_rows());
         Flags active;
         for (const NodeState &node : states)
           active.push_back(node.is_active != 0.);
         const Eigen::VectorXd step = factors->solve(states, active);
-        std::vector<NodeStep> steps(states.size());
         for (std::size_t i = 0; i < states.size(); ++i)
-          steps[i] = {Vector3({step[dim * i], step[dim * i + 1], step[dim * i + 2]}),
-                      static_cast<double>(active[i])};
-        result = to_numbers(steps);
+          steps.push_back({Vector3({step[dim * i], step[dim * i + 1], step[dim * i + 2]}),
+                           static_cast<double>(active[i])});
       }
-    result = Utilities::MPI::broadcast(communicator, result, 0);
-    std::vector<NodeStep> all;
-    append_from_numbers(all, result);
-    const auto counts = Utilities::MPI::all_gather(communicator, mine.size());
-    const auto begin  = std::accumulate(
-         counts.begin(), counts.begin() + Utilities::MPI::this_mpi_process(communicator), std::size_t(0));
-    return {all.begin() + begin, all.begin() + begin + mine.size()};
+    return scatter_list(steps, mine.size(), communicator);
   }
 } // namespace Signorini

@@ -16,6 +16,7 @@ import finished_mesh_cases
 import geometry_cases
 import load_cases
 import random_pair_cases
+import tool_cases
 import true_gap_cases
 import verification_cases
 from harness import FAILURES, TOP, Program, certificate, check, constant_pressure, iterations, near
@@ -665,7 +666,9 @@ def surface_map(p):
 
 
 if __name__ == '__main__':
-    case = next(getattr(m, sys.argv[2]) for m in (sys.modules[__name__], deck_cases, geometry_cases, finished_mesh_cases, load_cases, random_pair_cases, verification_cases, true_gap_cases) if hasattr(m, sys.argv[2]))
+    modules = (sys.modules[__name__], deck_cases, geometry_cases, finished_mesh_cases, load_cases, random_pair_cases, tool_cases, true_gap_cases,
+               verification_cases)
+    case = next(getattr(m, sys.argv[2]) for m in modules if hasattr(m, sys.argv[2]))
     case(Program(sys.argv[1], int(sys.argv[3])))
     for failure in FAILURES:
         print('FAILED:', failure)

@@ -51,7 +51,7 @@ namespace Signorini
       /// Of BodyDefinition::mesh.
       unsigned int vertex;
       /// Several at a node add up.
-      Vector3 force;
+      VectorField force;
     };
 
     /// Where conditions overlap, the later one counts.
@@ -109,7 +109,7 @@ namespace Signorini
     std::vector<DirichletCondition> dirichlet;
     std::vector<Traction>           tractions;
     /// Forces at vertices of the start meshes (NodalSpace::start_vertices()).
-    std::map<unsigned int, Vector3> nodal_forces;
+    std::map<unsigned int, std::vector<VectorField>> nodal_forces;
     /// Force per volume of each body; an entry for all of them is needed, so add() every body.
     std::vector<VectorField> volume_forces;
     /// The pseudo-time at which conditions and forces are evaluated.

@@ -10,8 +10,17 @@
 
 namespace Signorini
 {
-  /// A folder of results that is never half-written: files go to a temporary sibling, which takes the final
-  /// name in commit(). Without commit() the temporary folder is removed.
+  /// What the results in a folder are worth.
+  enum class Outcome
+  {
+    complete,
+    not_converged
+  };
+
+  /// A folder of results that is never half-written: files go to a temporary folder beside it, which takes
+  /// the final name in commit(). Without commit(), and when a signal ends the process (TerminationWatch), the
+  /// temporary folder is removed and earlier results stay. Which files are results stands in the file
+  /// .signorini of the folder; others that lie there stay, too.
   class OutputFolder
   {
   public:
@@ -28,13 +37,26 @@ namespace Signorini
       return temporary;
     }
 
-    /// Collective. Replaces older results by the new ones.
-    void commit();
+    /// Collective. Replaces older results by the new ones and returns where they are: in the folder, or
+    /// beside it where earlier results are worth more (those that did not converge do not replace complete
+    /// ones) and where somebody else has written there meanwhile. Errors: InputError if the disk is full,
+    /// and the like; then earlier results are as they were.
+    std::string commit(const Outcome outcome = Outcome::complete);
 
   private:
-    std::string    target, temporary;
+    std::string target, temporary;
+    /// Which results were there at the beginning: see the file .signorini.
+    std::string    found;
     const MPI_Comm comm;
-    bool           committed = false;
+    /// Whether the temporary folder lies in the folder, because that cannot be renamed.
+    bool in_place = false, committed = false;
+
+    void        make_temporary();
+    void        remove_abandoned() const;
+    std::string destination(const Outcome outcome) const;
+    std::string beside(const std::string &word) const;
+    void        replace(const std::string &folder);
+    void        replace_contents();
   };
 } // namespace Signorini
 

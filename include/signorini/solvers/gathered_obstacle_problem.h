@@ -52,13 +52,6 @@ namespace Signorini
         columns.push_back(column);
         values.insert(values.end(), block, block + dim * dim);
       }
-
-      /// For MPI.
-      template <class Archive>
-      void serialize(Archive &archive, const unsigned int)
-      {
-        archive &rows &columns &values;
-      }
     };
 
     /// To be followed by set_matrix().

@@ -78,7 +78,7 @@ TEST(DeckProblem, HasBodiesPairsAndLoads)
   EXPECT_EQ(high.loads.surface_forces[0].pressure(Point<3>()), 4.);
   Vector3 sum;
   for (const auto &force : high.loads.nodal_forces)
-    sum += force.force;
+    sum += force.force(Point<3>());
   EXPECT_EQ(sum, Vector3({2., 0., -4.}));
   EXPECT_EQ(high.loads.volume_force(Point<3>()), Vector3({0., 0., -20.}));
 }

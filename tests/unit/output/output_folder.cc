@@ -93,3 +93,113 @@ TEST_F(OutputFolders, ForeignFoldersAndFilesAreNotTouched)
   EXPECT_THROW(OutputFolder(base + "/file", MPI_COMM_WORLD), InputError);
   EXPECT_EQ(n_entries(), 2u);
 }
+
+namespace
+{
+  /// Writes one file with a text and commits.
+  std::string write_results_of(const std::string &name, const std::string &file, const bool is_root,
+                               const Outcome outcome = Outcome::complete)
+  {
+    OutputFolder folder(name, MPI_COMM_WORLD);
+    if (is_root)
+      std::ofstream(folder.path() + file) << file;
+    return folder.commit(outcome);
+  }
+} // namespace
+
+TEST_F(OutputFolders, FilesOfTheUserStay)
+{
+  write_results_of(base + "/out", "first", is_root());
+  if (is_root())
+    std::ofstream(base + "/out/remarks") << "text";
+  MPI_Barrier(MPI_COMM_WORLD);
+  write_results_of(base + "/out", "second", is_root());
+  EXPECT_TRUE(fs::exists(base + "/out/remarks"));
+  EXPECT_TRUE(fs::exists(base + "/out/second"));
+  EXPECT_FALSE(fs::exists(base + "/out/first"));
+  EXPECT_EQ(n_entries(), 1u);
+}
+
+TEST_F(OutputFolders, FolderThatOneWorksInIsReplacedInPlace)
+{
+  write_results_of(base + "/out", "first", is_root());
+  const fs::path before = fs::current_path();
+  fs::current_path(base + "/out");
+  if (is_root())
+    std::ofstream("remarks") << "text";
+  MPI_Barrier(MPI_COMM_WORLD);
+  for (const char *name : {".", "../out", "./"})
+    {
+      EXPECT_EQ(fs::canonical(write_results_of(name, "second", is_root())), fs::canonical(base + "/out"));
+      MPI_Barrier(MPI_COMM_WORLD);
+      // Through the working directory, which must be the same folder as before.
+      EXPECT_TRUE(fs::exists("second"));
+      EXPECT_TRUE(fs::exists("remarks"));
+      EXPECT_FALSE(fs::exists("first"));
+      EXPECT_EQ(std::distance(fs::directory_iterator("."), fs::directory_iterator()), 3);
+    }
+  {
+    OutputFolder unfinished(".", MPI_COMM_WORLD);
+    EXPECT_TRUE(fs::exists("second"));
+  }
+  MPI_Barrier(MPI_COMM_WORLD);
+  EXPECT_EQ(std::distance(fs::directory_iterator("."), fs::directory_iterator()), 3);
+  MPI_Barrier(MPI_COMM_WORLD);
+  fs::current_path(before);
+  EXPECT_EQ(n_entries(), 1u);
+}
+
+TEST_F(OutputFolders, ResultsThatDidNotConvergeDoNotReplaceOthers)
+{
+  EXPECT_EQ(fs::path(write_results_of(base + "/out", "bad", is_root(), Outcome::not_converged)).filename(),
+            "out");
+  EXPECT_EQ(fs::path(write_results_of(base + "/out", "good", is_root())).filename(), "out");
+  for (unsigned int i = 0; i < 2; ++i)
+    EXPECT_EQ(fs::path(write_results_of(base + "/out", "bad", is_root(), Outcome::not_converged)).filename(),
+              "out-not-converged");
+  EXPECT_TRUE(fs::exists(base + "/out/good"));
+  EXPECT_FALSE(fs::exists(base + "/out/bad"));
+  EXPECT_EQ(n_entries(), 2u);
+}
+
+TEST_F(OutputFolders, FolderThatSomebodyElseMakesMeanwhileStays)
+{
+  for (const std::string mine : {"", ".signorini"})
+    {
+      OutputFolder folder(base + "/out", MPI_COMM_WORLD);
+      if (is_root())
+        {
+          std::ofstream(folder.path() + "result") << "text";
+          fs::create_directories(base + "/out");
+          std::ofstream(base + "/out/thesis") << "text";
+          if (!mine.empty())
+            std::ofstream(base + "/out/" + mine) << "id another\nfile thesis\n";
+        }
+      EXPECT_EQ(fs::path(folder.commit()).filename(), "out-2");
+      MPI_Barrier(MPI_COMM_WORLD);
+      EXPECT_TRUE(fs::exists(base + "/out/thesis"));
+      EXPECT_TRUE(fs::exists(base + "/out-2/result"));
+      EXPECT_EQ(n_entries(), 2u);
+      if (is_root())
+        for (const char *name : {"/out", "/out-2"})
+          fs::remove_all(base + name);
+      MPI_Barrier(MPI_COMM_WORLD);
+    }
+}
+
+TEST_F(OutputFolders, WhatKilledProcessesLeaveIsRemoved)
+{
+  if (is_root())
+    for (const std::string outcome : {"unfinished", "complete"})
+      {
+        fs::create_directories(base + "/out.part-99999999-" + outcome);
+        char host[256] = "";
+        gethostname(host, sizeof(host) - 1);
+        std::ofstream(base + "/out.part-99999999-" + outcome + "/.signorini")
+            << "host " << host << "\nprocess 99999999\noutcome " << outcome << "\n";
+      }
+  MPI_Barrier(MPI_COMM_WORLD);
+  write_results_of(base + "/out", "result", is_root());
+  EXPECT_TRUE(fs::exists(base + "/out.part-99999999-complete"));
+  EXPECT_EQ(n_entries(), 2u);
+}

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_solvers_gathered_blocks_h
+#define signorini_solvers_gathered_blocks_h
+
+#include <signorini/solvers/gathered_obstacle_problem.h>
+
+#include <Eigen/SparseCore>
+
+namespace Signorini
+{
+  /// A symmetric matrix of 3 x 3 blocks, whole on rank 0 and empty elsewhere.
+  class GatheredBlocks
+  {
+  public:
+    using LowerHalf = Eigen::SparseMatrix<double>;
+    using Blocks    = GatheredObstacleProblem::Blocks;
+
+    /// Collective.
+    /// @param mine the rows of this rank, one after the other in ascending order; ranks in order, too
+    void gather(Blocks mine, const std::size_t n_nodes, const MPI_Comm communicator);
+
+    std::size_t n_rows() const
+    {
+      return start.size() - 1;
+    }
+
+    std::size_t n_blocks() const
+    {
+      return columns.size();
+    }
+
+    /// A x.
+    Eigen::VectorXd operator*(const Eigen::VectorXd &x) const;
+
+    /// Rows and columns of what is on and below the diagonal, without values.
+    LowerHalf lower_structure() const;
+
+    /// Its values.
+    /// @param block (row, column, nine numbers of the matrix) -> Block, for row <= column
+    template <typename BlockOf>
+    void fill_lower(LowerHalf &lower, const BlockOf &block) const;
+
+  private:
+    /// By rows, columns ascending.
+    std::vector<std::size_t> start = {0}, columns;
+    std::vector<double>      values;
+  };
+
+
+
+  template <typename BlockOf>
+  void GatheredBlocks::fill_lower(LowerHalf &lower, const BlockOf &block_of) const
+  {
+    for (std::size_t row = 0; row < n_rows(); ++row)
+      {
+        // A row right of the diagonal is a column below it.
+        std::array<double *, dim> next;
+        for (unsigned int c = 0; c < dim; ++c)
+          next[c] = lower.valuePtr() + lower.outerIndexPtr()[dim * row + c];
+        for (std::size_t k = start[row]; k < start[row + 1]; ++k)
+          if (columns[k] >= row)
+            {
+              const Block block = block_of(row, columns[k], values.data() + dim * dim * k);
+              for (unsigned int c = 0; c < dim; ++c)
+                for (unsigned int d = columns[k] == row ? c : 0; d < dim; ++d)
+                  *next[c]++ = block[c][d];
+            }
+      }
+  }
+} // namespace Signorini
+
+#endif
