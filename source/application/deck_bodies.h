@@ -30,6 +30,10 @@ namespace Signorini
   /// Names faces of a body for a surface, once; false if it has none of them.
   bool name_surface(DeckBody &body, const Deck &deck, const DeckSurface &surface);
 
+  /// Moves nodes of the dependent surface of a pair onto the other one, as ADJUST says. Returns a remark, or
+  /// nothing if none was moved.
+  std::string adjust_nodes(DeckBody &first, const DeckBody &second, const DeckPair &pair);
+
   /// What can be a name of files and parameters, too.
   std::string plain_name(const std::string &name);
 

@@ -236,6 +236,13 @@ namespace Signorini
           fail(pair.place, "there is no SURFACE INTERACTION \"" + name + "\".");
         model.pair_list.back().is_tied = pair.is_tied || (it != interactions.end() && it->second.is_tied);
       }
+    if (std::any_of(deck.elements().begin(), deck.elements().end(), [](const DeckElement &element) {
+          return element.type->is_solid() && element.type->is_quadratic();
+        }))
+      model.remark_list.push_back(
+          deck.text().files()[0] +
+          ": quadratic elements are cut into eight linear ones, which are stiffer where thin parts bend; "
+          "--set \"Refinement/Initial global levels=1\" shows how much.");
     if (model.steps().size() > 1)
       model.remark_list.push_back(
           deck.text().files()[0] + ": of " + std::to_string(model.steps().size()) +

@@ -74,7 +74,7 @@ namespace Signorini
     }
 
     void add_pair(ProblemDefinition &problem, std::vector<DeckBody> &bodies, const DeckModel &model,
-                  const DeckPair &pair)
+                  const DeckPair &pair, std::vector<std::string> &remarks)
     {
       const Deck &deck  = model.deck();
       const auto  first = bodies_with(bodies, deck, *pair.slave, pair.place),
@@ -102,6 +102,9 @@ namespace Signorini
               if (other.name == definition.name)
                 deck.text().fail(pair.place, "there are two pairs \"" + definition.name + "\".");
             problem.pairs.push_back(definition);
+            if (pair.adjust || !pair.adjusted_nodes.empty())
+              if (const std::string text = adjust_nodes(bodies[a], bodies[b], pair); !text.empty())
+                remarks.push_back(deck.text().where(pair.place) + ": " + text);
           }
       if (n == 0)
         deck.text().fail(pair.place, "the surfaces \"" + pair.slave->name + "\" and \"" + pair.master->name +
@@ -160,7 +163,7 @@ namespace Signorini
       result.largest_node_label = std::max(result.largest_node_label, label);
     result.nonlinear_geometry = model.steps().back().nonlinear_geometry;
     for (const DeckPair &pair : model.pairs())
-      add_pair(result.problem, bodies, model, pair);
+      add_pair(result.problem, bodies, model, pair, result.remarks);
     add_deck_loads(bodies, model, result.remarks);
     for (DeckBody &body : bodies)
       {

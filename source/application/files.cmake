@@ -5,6 +5,7 @@ signorini_add_layer(application
   contact_evaluation.cc
   contact_model.cc
   contact_solve.cc
+  deck_adjust.cc
   deck_bodies.cc
   deck_history.cc
   deck_loads.cc

@@ -285,6 +285,24 @@ def deck_ties(d):
 
 
 @in_folder
+def deck_adjust(d):
+    """Dependent nodes with a gap, or an overlap, are moved onto the other surface without strain."""
+    for gap, moved in ((.003, True), (-.003, True), (.02, False)):
+        upper = Block('C3D20', (0, 0, gap), (1, 1, 1), (2, 2, 2))
+        text, _, lower = two_blocks('C3D20', (2, 2, 2), (3, 3, 2))
+        text = text.replace(two_blocks('C3D20', (2, 2, 2), (3, 3, 2))[1].text_nodes(), upper.text_nodes())
+        for adjust in ('ADJUST=0.01', 'ADJUST=NADJUST') if moved else ('ADJUST=0.01',):
+            changed = text.replace('TO SURFACE\n', f'TO SURFACE, {adjust}\n').replace('*STEP', nset('NADJUST', upper.plane(2, gap)) + '*STEP', 1)
+            s, (nodes, _, _) = d.solve(changed)
+            constant_pressure(s, 5., 1e-8)
+            check(any('ADJUST: 25 nodes' in note for note in s['notes']) == moved, f'notes: {s["notes"]}')
+            # The free way down is part of the energy where nothing was moved.
+            near(s['certificate']['potential_energy'], -.025 if moved else -5 * gap - .5 * 25e-3 * (2 - gap), 1e-8, f'energy with {adjust}, gap {gap}')
+            for n in upper.plane(2, gap):
+                near(nodes[n][2] + 1, 1 if moved else 1 + gap, 1e-6, f'node {n}')
+
+
+@in_folder
 def deck_gravity(d):
     """The weight of the upper block rests on the lower one; also with two materials in a body."""
     text, upper, lower = two_blocks('C3D20', (2, 2, 2), (3, 3, 1), None)
@@ -355,12 +373,31 @@ def deck_refused(d):
                                ('TYPE=C3D8, ELSET=Upper', 'TYPE=C3D5, ELSET=Upper', ['C3D5', 'C3D10'])]:
         check(text.replace(where, what, 1) != text, f'{words}: nothing was changed')
         d.refuses(text.replace(where, what, 1), *words)
+    # Every keyword that is refused says why, and how to pass over it.
+    for word, keywords in (('elastic', ['PLASTIC', 'CYCLIC HARDENING', 'HYPERELASTIC', 'HYPERFOAM', 'CREEP', 'VISCOELASTIC', 'DEFORMATION PLASTICITY',
+                                        'CONCRETE', 'DRUCKER PRAGER', 'MOHR COULOMB', 'USER MATERIAL', 'DEPVAR', 'RATE DEPENDENT']),
+                           ('solid elements', ['SHELL SECTION', 'BEAM SECTION', 'MEMBRANE SECTION', 'BEAM GENERAL SECTION', 'SHELL GENERAL SECTION', 'SPRING',
+                                               'DASHPOT', 'MASS', 'GAP', 'CONNECTOR SECTION']),
+                           ('STATIC', ['DYNAMIC', 'FREQUENCY', 'BUCKLE', 'HEAT TRANSFER', 'COUPLED TEMPERATURE-DISPLACEMENT',
+                                       'UNCOUPLED TEMPERATURE-DISPLACEMENT', 'VISCO', 'MODAL DYNAMIC', 'STEADY STATE DYNAMICS', 'COMPLEX FREQUENCY']),
+                           ('nodes', ['EQUATION', 'MPC', 'KINEMATIC COUPLING', 'DISTRIBUTING COUPLING', 'COUPLING', 'KINEMATIC', 'DISTRIBUTING']),
+                           ('rigid bodies', ['RIGID BODY']), ('pretension', ['PRE-TENSION SECTION']), ('cyclic', ['CYCLIC SYMMETRY MODEL']),
+                           ('CONTACT PAIR', ['CONTACT']), ('are those of the nodes', ['CLEARANCE', 'CONTACT INTERFERENCE']), ('frictionless', ['CHANGE FRICTION']),
+                           ('the same in all steps', ['CHANGE CONTACT TYPE', 'MODEL CHANGE']), ('heat', ['GAP CONDUCTANCE']), ('held', ['INERTIA RELIEF'])):
+        for keyword in keywords:
+            path = d.path('refused.inp', text.replace('*STEP', f'*{keyword}\n1., 2.\n*STEP'))
+            line = line_of(text, 'STEP')
+            run = d.p.call(path, '--check')
+            expected = f'refused.inp, line {line}: {keyword}: '
+            check(run.returncode == 1 and expected in run.stderr and word in run.stderr and f'--ignore "{keyword}"' in run.stderr,
+                  f'{keyword}: {run.returncode}, {run.stderr}')
+            run = d.p.call(path, '--check', '--ignore', keyword)
+            check(run.returncode == 0 and f'{keyword} is passed over' in run.stdout, f'{keyword}: {run.returncode}, {run.stdout} {run.stderr}')
     # What is taken differently is said, or refused.
-    soft = text.replace('OVERCLOSURE=HARD\n', 'OVERCLOSURE=LINEAR\n1e5, \n').replace('TO SURFACE\n', 'TO SURFACE, ADJUST=0.1\n')
+    soft = text.replace('OVERCLOSURE=HARD\n', 'OVERCLOSURE=LINEAR\n1e5, \n')
     s, _ = d.solve(soft)
     constant_pressure(s, 5., 1e-8)
-    for word in ('LINEAR is taken as hard contact', 'ADJUST'):
-        check(any(word in note for note in s['notes']), f'{word}: {s["notes"]}')
+    check(any('LINEAR is taken as hard contact' in note for note in s['notes']), f'notes: {s["notes"]}')
     d.refuses(soft, 'LINEAR', '--strict', arguments=['--strict'])
     # A large rotation under NLGEOM is no answer.
     large = text.replace('*STEP\n', '*STEP, NLGEOM\n').replace('1000., 0.3', '20., 0.3')
