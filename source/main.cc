@@ -148,8 +148,12 @@ namespace
         describe(is_root ? std::cout : nowhere, model, *discretize(model, space, {}, 0, journal));
         return 0;
       }
-    NestedSolution nested = line.mesh_only ? build_meshes(model, parameters, journal)
-                                           : run_nested_iteration(model, parameters, journal);
+    const std::vector<double> times  = file.load_steps();
+    const OutputParameters    output = file.output();
+    NestedSolution            nested =
+        line.mesh_only
+                       ? build_meshes(model, parameters, journal)
+                       : run_load_steps(model, parameters, times, StepWriter(model, output, *folder, times), journal);
     if (file.deck() != nullptr && !line.mesh_only)
       judge_linear_kinematics(*file.deck(), model, nested, journal);
     nested.results.notes = journal.notes();

@@ -45,6 +45,13 @@ namespace Signorini
 
 
 
+  Discretization::Discretization(const Discretization &other, std::shared_ptr<const ConstrainedSpace> space)
+    : Discretization(std::move(space), other.pairs, other.couplings, other.turned)
+  {
+  }
+
+
+
   namespace
   {
     double average_face_area(const ContactSurface &surface)

@@ -17,6 +17,7 @@ signorini_add_layer(application
   free_bodies.cc
   journal.cc
   linear_comparison.cc
+  load_steps.cc
   nested_iteration.cc
   parameters.cc
   problem_description.cc

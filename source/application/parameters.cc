@@ -249,6 +249,11 @@ namespace Signorini
     prm.add_parameter(
         "Contact pairs", pairs,
         "Names of the contact pairs, separated by commas. Each has a subsection \"Pair NAME\".");
+    prm.add_parameter(
+        "Load steps", load_steps,
+        "A number of equal steps to t = 1, or a list of ascending times like 0.2, 0.5, 1; empty for "
+        "one load. Expressions of conditions, forces and pressures may use t, which is 1 without "
+        "steps. Meshes are those of the last load.");
   }
 
 
@@ -410,6 +415,13 @@ namespace Signorini
           result.exact_displacements.back() = parse_vector_field(text, section + "Exact displacement");
       }
     return result;
+  }
+
+
+
+  std::vector<double> ParameterFile::load_steps() const
+  {
+    return parse_load_steps(top_level.load_steps, "Load steps");
   }
 
 

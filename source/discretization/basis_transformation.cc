@@ -114,18 +114,49 @@ namespace Signorini
 
 
 
-  std::vector<double> BasisTransformation::reduce_gaps(const std::vector<double> &gaps) const
+  Vector BasisTransformation::restrict_forces(const Vector &forces, const NodePartition &unknowns) const
   {
-    Vector lift;
-    partition.reinit(lift);
+    Vector result;
+    unknowns.reinit(result);
+    for (unsigned int i = 0; i < dim * partition.n_owned(); ++i)
+      result.local_element(i) = forces.local_element(i);
+    for (const auto &[p, local] : owned_rows)
+      {
+        Vector3 force;
+        for (unsigned int c = 0; c < dim; ++c)
+          force[c] = forces.local_element(dim * local + c);
+        force = force * projections[p].block();
+        for (const auto *entry = coupling.begin(p); entry != coupling.end(p); ++entry)
+          for (unsigned int c = 0; c < dim; ++c)
+            result.local_element(dim * unknowns.to_local(entry->node) + c) += entry->weight * force[c];
+      }
+    result.compress(VectorOperation::add);
+    return result;
+  }
+
+
+
+  Vector BasisTransformation::lift() const
+  {
+    Vector result;
+    partition.reinit(result);
     for (unsigned int i = 0; i < partition.n_owned(); ++i)
       {
         const std::size_t r = space.relevant().index_within_set(partition.to_global(i));
         for (unsigned int c = 0; c < dim; ++c)
-          lift.local_element(dim * i + c) = dirichlet.value[r][c];
+          result.local_element(dim * i + c) = dirichlet.value[r][c];
       }
-    const std::vector<Vector3> own     = replicate_values(partition, lift, coupling.rows);
-    const std::vector<Vector3> columns = replicate_values(partition, lift, column_nodes);
+    interpolate_hanging_nodes(result);
+    return result;
+  }
+
+
+
+  std::vector<double> BasisTransformation::reduce_gaps(const std::vector<double> &gaps) const
+  {
+    const Vector               u_D     = lift();
+    const std::vector<Vector3> own     = replicate_values(partition, u_D, coupling.rows);
+    const std::vector<Vector3> columns = replicate_values(partition, u_D, column_nodes);
     std::vector<double>        reduced(gaps.size());
     for (std::size_t p = 0; p < coupling.n_rows(); ++p)
       {

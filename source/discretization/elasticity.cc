@@ -72,12 +72,20 @@ namespace Signorini
         find_nodal_forces();
       }
 
-      void compute(CellData &data, const unsigned int index) const
+      /// The element and its load.
+      void compute_load(CellData &data, const unsigned int index) const
       {
         const Cell &cell = space.cells()[index];
         data.element     = Element(space, cell);
         data.vertices.reinit(space.nodes(cell).data(), cell.n_vertices);
-        const auto &material = bodies.material(cell.material);
+        data.load.fill(Vector3());
+        add_load(data, index);
+      }
+
+      /// The stiffness of what compute_load() was called for.
+      void compute_stiffness(CellData &data, const unsigned int index) const
+      {
+        const auto &material = bodies.material(space.cells()[index].material);
         if (!data.element.stiffness(data.stiffness, material))
           {
             std::ostringstream message;
@@ -85,7 +93,12 @@ namespace Signorini
                     << data.element.corner(0) << "). Mend the mesh.";
             throw InputError(message.str());
           }
-        data.load.fill(Vector3());
+      }
+
+    private:
+      void add_load(CellData &data, const unsigned int index) const
+      {
+        const auto &material = bodies.material(space.cells()[index].material);
         if (const VectorField &force = loads.volume_forces[material.body])
           for (unsigned int q = 0; q < data.element.n_points(); ++q)
             {
@@ -107,7 +120,6 @@ namespace Signorini
           data.load[node->vertex] += node->force;
       }
 
-    private:
       /// Gives each force to one of the cells of this rank at its node, if the node belongs to this rank.
       void find_nodal_forces()
       {
@@ -330,7 +342,8 @@ namespace Signorini
       for (unsigned int cell = 0; cell < space.cells().size(); ++cell)
         if (space.cells()[cell].is_owned)
           {
-            assembler.compute(data, cell);
+            assembler.compute_load(data, cell);
+            assembler.compute_stiffness(data, cell);
             bool                   plain = true, lifted = false;
             std::array<Vector3, 8> lift;
             for (unsigned int v = 0; v < data.n(); ++v)
@@ -392,8 +405,15 @@ namespace Signorini
     for (unsigned int cell = 0; cell < space.cells().size(); ++cell)
       if (space.cells()[cell].is_owned)
         {
-          assembler.compute(data, cell);
-          subtract_stiffness(data, cell_values(data, partition, u));
+          assembler.compute_load(data, cell);
+          const auto values = cell_values(data, partition, u);
+          // A lift is zero in most cells.
+          if (std::any_of(values.begin(), values.begin() + data.n(),
+                          [](const Vector3 &value) { return value.norm_square() > 0.; }))
+            {
+              assembler.compute_stiffness(data, cell);
+              subtract_stiffness(data, values);
+            }
           for (unsigned int v = 0; v < data.n(); ++v)
             {
               const auto add = [&](const NodeIndex node, const double weight) {
@@ -422,7 +442,8 @@ namespace Signorini
     for (unsigned int cell = 0; cell < space.cells().size(); ++cell)
       if (space.cells()[cell].is_owned)
         {
-          assembler.compute(data, cell);
+          assembler.compute_load(data, cell);
+          assembler.compute_stiffness(data, cell);
           const std::array<Vector3, 8> load   = data.load;
           const std::array<Vector3, 8> cell_u = cell_values(data, partition, u);
           subtract_stiffness(data, cell_u);

@@ -1,6 +1,7 @@
 signorini_add_layer(output
   field_output.cc
   frd_output.cc
+  load_curve.cc
   output_folder.cc
   progress.cc
   summary.cc

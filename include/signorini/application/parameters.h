@@ -5,7 +5,7 @@
 #define signorini_application_parameters_h
 
 #include <signorini/application/deck_problem.h>
-#include <signorini/application/nested_iteration.h>
+#include <signorini/application/load_steps.h>
 #include <signorini/mesh/body_parameters.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -105,13 +105,16 @@ namespace Signorini
     /// Errors: InputError for texts that cannot be understood.
     NestedParameters nested() const;
 
+    /// Times of the load steps; empty for one load. Errors: those of parse_load_steps().
+    std::vector<double> load_steps() const;
+
     /// Prints all parameters, commented if `with_documentation`.
     void print(std::ostream &out, const bool with_documentation) const;
 
   private:
     struct TopLevel
     {
-      std::string title, bodies, pairs;
+      std::string title, bodies, pairs, load_steps;
 
       void add_parameters(dealii::ParameterHandler &prm);
     };
