@@ -39,8 +39,9 @@ namespace Signorini
       {
         double area = 0.;
         for (const auto &[a, b, c] : mesh.triangles)
-          area += .5 * cross_product_3d(mesh.vertices[b] - mesh.vertices[a], mesh.vertices[c] - mesh.vertices[a])
-                           .norm();
+          area +=
+              .5 * cross_product_3d(mesh.vertices[b] - mesh.vertices[a], mesh.vertices[c] - mesh.vertices[a])
+                       .norm();
         return std::sqrt(area / static_cast<double>(mesh.triangles.size()));
       }
 
@@ -60,8 +61,7 @@ namespace Signorini
           std::reverse(polygon.begin() + 1, polygon.end());
         for (unsigned int &v : polygon)
           {
-            const auto [it, is_new] =
-                number.insert({v, static_cast<unsigned int>(mesh.vertices.size())});
+            const auto [it, is_new] = number.insert({v, static_cast<unsigned int>(mesh.vertices.size())});
             if (is_new)
               {
                 mesh.vertices.push_back(x[v]);
@@ -81,9 +81,9 @@ namespace Signorini
 
   std::string adjust_nodes(DeckBody &first, const DeckBody &second, const DeckPair &pair)
   {
-    const NamedSurface             slave(first, pair.slave->name);
-    const NamedSurface             master(second, pair.master->name);
-    const TriangulatedShape        shape(master.mesh, "");
+    const NamedSurface              slave(first, pair.slave->name);
+    const NamedSurface              master(second, pair.master->name);
+    const TriangulatedShape         shape(master.mesh, "");
     const std::vector<unsigned int> chosen = vertices_within(pair.adjusted_nodes, *first.cells);
     // Nodes that are deeper than that are on the other side of a body.
     const double deepest = std::max(slave.width(), master.width());
@@ -91,13 +91,13 @@ namespace Signorini
     double       largest = 0.;
     for (unsigned int i = 0; i < slave.vertices.size(); ++i)
       {
-        const Point<3>    &x      = slave.mesh.vertices[i];
-        const Tensor<1, 3> facing = -slave.mesh.vertex_normals[i];
-        const Point<3>     foot   = shape.project(x);
-        const double       gap    = (x - foot) * shape.normal(x, facing);
-        const bool         is_chosen =
-            pair.adjust ? gap <= *pair.adjust
-                        : std::binary_search(chosen.begin(), chosen.end(), slave.vertices[i]);
+        const Point<3>    &x         = slave.mesh.vertices[i];
+        const Tensor<1, 3> facing    = -slave.mesh.vertex_normals[i];
+        const Point<3>     foot      = shape.project(x);
+        const double       gap       = (x - foot) * shape.normal(x, facing);
+        const bool         is_chosen = pair.adjust
+                                           ? gap <= *pair.adjust
+                                           : std::binary_search(chosen.begin(), chosen.end(), slave.vertices[i]);
         // Beyond the rim of the other surface there is nothing to be moved onto.
         const bool is_above = (x - foot).norm_square() <= 2. * gap * gap;
         if (!is_chosen || !is_above || gap < -deepest || gap == 0.)

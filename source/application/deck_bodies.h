@@ -37,9 +37,10 @@ namespace Signorini
   /// What can be a name of files and parameters, too.
   std::string plain_name(const std::string &name);
 
-  /// Adds what acts on the bodies at the end of the last step. Appends remarks.
-  void add_deck_loads(std::vector<DeckBody> &bodies, const DeckModel &model,
-                      std::vector<std::string> &remarks);
+  /// Adds what acts on the bodies; appends remarks. Returns how many steps the loads are given for: all of
+  /// the deck, or one.
+  unsigned int add_deck_loads(std::vector<DeckBody> &bodies, const DeckModel &model,
+                              std::vector<std::string> &remarks);
 } // namespace Signorini
 
 #endif

@@ -243,11 +243,6 @@ namespace Signorini
           deck.text().files()[0] +
           ": quadratic elements are cut into eight linear ones, which are stiffer where thin parts bend; "
           "--set \"Refinement/Initial global levels=1\" shows how much.");
-    if (model.steps().size() > 1)
-      model.remark_list.push_back(
-          deck.text().files()[0] + ": of " + std::to_string(model.steps().size()) +
-          " steps the last one is computed, with what the others leave; without friction the way there does "
-          "not matter.");
     std::string names;
     for (const std::string &name : std::set<std::string>(over.begin(), over.end()))
       names += (names.empty() ? "" : ", ") + name;

@@ -164,7 +164,12 @@ namespace Signorini
     result.nonlinear_geometry = model.steps().back().nonlinear_geometry;
     for (const DeckPair &pair : model.pairs())
       add_pair(result.problem, bodies, model, pair, result.remarks);
-    add_deck_loads(bodies, model, result.remarks);
+    result.n_steps = add_deck_loads(bodies, model, result.remarks);
+    if (result.n_steps < model.steps().size())
+      result.remarks.push_back(
+          model.deck().text().files()[0] + ": of " + std::to_string(model.steps().size()) +
+          " steps the last one is computed, with what the others leave: they hold other directions. Without "
+          "friction the way there does not matter.");
     for (DeckBody &body : bodies)
       {
         result.labels.push_back(labels_of(body, model.deck()));

@@ -12,6 +12,7 @@ signorini_add_layer(application
   deck_model.cc
   deck_problem.cc
   deck_results.cc
+  deck_series.cc
   discretization.cc
   error_estimate.cc
   free_bodies.cc

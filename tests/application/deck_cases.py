@@ -1,4 +1,5 @@
 """Decks of Abaqus and CalculiX: what is computed, refused and written."""
+import csv
 import json
 import math
 import os
@@ -282,6 +283,39 @@ def deck_ties(d):
         s, (_, _, fields) = d.solve(text.replace('*CONTACT PAIR, INTERACTION=hard, TYPE=SURFACE TO SURFACE\nSU, SL\n', tie))
         near(s['cycles'][-1]['energy'], -.025, 1e-8, 'energy')
         near(fields['DISP'][upper.plane(2, 1)[0]][2], .01, 1e-5, 'displacement')
+
+
+@in_folder
+def deck_steps(d):
+    """Steps of a deck are load steps: the force follows pressures, forces, displacements and amplitudes."""
+    text, upper, lower = two_blocks('C3D8', (2, 2, 2), (3, 3, 2), None)
+    amplitude = '*AMPLITUDE, NAME=wave\n0., 0., 1., 2., 2., 0.5\n'
+    head, tail = text.replace('*STEP', amplitude + '*STEP', 1).split('*STATIC\n')
+    steps = ('*STATIC\n' + LOAD.format(5.) + '*END STEP\n*STEP\n*STATIC\n1., 1.\n*DSLOAD, AMPLITUDE=wave\nSTOP, P, 5.\n*END STEP\n*STEP\n*STATIC\n' +
+             f'*CLOAD\n{upper.plane(2, 1)[0]}, 3, -1.\n*END STEP\n*STEP\n*STATIC\n*DSLOAD, OP=NEW\n')
+
+    def loads():
+        path = os.path.join(d.folder, f'out{d.n}', 'curve.csv')
+        if not os.path.exists(path):
+            return []
+        with open(path) as f:
+            return [float(row['SU-SL: load']) for row in csv.DictReader(f)]
+
+    s, _ = d.solve(head + steps + tail)
+    check(len(loads()) == 4, f'steps: {loads()}')
+    for force, expected in zip(loads(), (5, 10, 11, 1)):
+        near(force, expected, 1e-9, 'load of a step')
+    near(s['pairs'][0]['load'], 1, 1e-9, 'last load')
+    # By displacement; other directions than in the last step: that alone.
+    push = head + '*STATIC\n*BOUNDARY\nTOP, 3, 3, -0.01\n*END STEP\n*STEP\n*STATIC\n*BOUNDARY\nTOP, 3, 3, {}\n' + tail
+    s, _ = d.solve(push.format(-.02))
+    check(len(loads()) == 2, f'steps: {loads()}')
+    for force, expected in zip(loads(), (5, 10)):
+        near(force, expected, 1e-8, 'load of a displacement')
+    other = push.format(-.02).replace('*BOUNDARY\nTOP, 3, 3, -0.02\n', '*BOUNDARY\nTOP, 3, 3, -0.02\nTOP, 1, 1\n')
+    s, _ = d.solve(other)
+    check(not loads(), 'steps that hold other directions')
+    check(any('of 2 steps the last one' in note for note in s['notes']), f'notes: {s["notes"]}')
 
 
 @in_folder
