@@ -320,6 +320,7 @@ namespace Signorini
     forces *= -1.;
     ObstacleProblem &problem = algebraic->problem;
     problem.rhs              = d.transformation->restrict_forces(forces, unknowns);
+    add_rigid_forces(problem.rhs, unknowns, d.dirichlet());
     for (unsigned int i = 0; i < unknowns.n_owned(); ++i)
       project_free(finest.fixed[i], problem.rhs, i);
     problem.half_spaces = make_half_spaces(d, unknowns, d.transformation->reduce_gaps(d.gaps));

@@ -364,11 +364,20 @@ namespace Signorini
 
 
 
+  void add_rigid_forces(Vector &rhs, const NodePartition &partition, const DirichletData &dirichlet)
+  {
+    if (dirichlet.rigid != nullptr)
+      for (unsigned int f = 0; f < dirichlet.rigid->faces().size(); ++f)
+        dirichlet.rigid->add(rhs, partition, f, dirichlet.rigid->faces()[f].forces);
+  }
+
+
+
   LinearSystem assemble_elasticity(const Bodies &bodies, const NodalSpace &space, const Loads &loads,
                                    const DirichletData &dirichlet, const InterfaceCoupling &coupling,
                                    const std::vector<RowProjection> &projections)
   {
-    const VertexExpansion expansion(space, coupling, projections);
+    const VertexExpansion expansion(space, coupling, projections, dirichlet.rigid.get());
     LinearSystem          system;
     system.matrix.reinit(space.owned(), make_pattern(space, expansion), IndexSet(space.n_nodes()),
                          space.communicator());
@@ -388,6 +397,7 @@ namespace Signorini
     throw_everywhere(error, space.communicator());
     system.matrix.compress();
     system.rhs.compress(VectorOperation::add);
+    add_rigid_forces(system.rhs, system.matrix.partition(), dirichlet);
     for (unsigned int i = 0; i < system.matrix.n_rows(); ++i)
       project_free(system.fixed[i], system.rhs, i);
     return system;

@@ -97,6 +97,9 @@ namespace Signorini
       return std::find(tied.begin(), tied.end(), 1) != tied.end();
     }
 
+    /// Errors: InputError for nodes of the mortar sides that belong to rigid faces.
+    void refuse_rigid_mortar_nodes() const;
+
     /// Space and conditions.
     std::shared_ptr<const ConstrainedSpace> constrained;
     /// By pair: its surfaces, its own coupling.

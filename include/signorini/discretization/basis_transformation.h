@@ -48,6 +48,15 @@ namespace Signorini
     void interpolate_hanging_nodes(Vector &u) const;
 
   private:
+    /// u at the owned nodes of rigid faces, from the unknowns of the carriers.
+    void move_rigid_faces(Vector &u, const std::vector<Vector3> &carriers) const;
+
+    /// The unknowns of the carriers, from the motions that are nearest to u at the nodes of the faces.
+    void fit_rigid_faces(Vector &v, const Vector &u) const;
+
+    /// The part of Tᵀ f that belongs to rigid faces.
+    void gather_rigid_forces(Vector &result, const Vector &forces) const;
+
     const NodalSpace                 &space;
     const NodePartition              &partition;
     const DirichletData              &dirichlet;
