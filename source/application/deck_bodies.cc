@@ -55,7 +55,7 @@ namespace Signorini
         }
     }
 
-    void make_cells(DeckBody &body, const DeckModel &model)
+    void make_cells(DeckBody &body, const DeckModel &model, const std::vector<unsigned int> &part)
     {
       const Deck               &deck = model.deck();
       std::vector<unsigned int> volumes;
@@ -73,7 +73,7 @@ namespace Signorini
           if (it == body.materials.end())
             body.materials.push_back(m);
         }
-      body.cells = std::make_unique<DeckCells>(deck, body.elements, volumes);
+      body.cells = std::make_unique<DeckCells>(deck, body.elements, volumes, part);
       for (const unsigned int m : body.materials)
         body.cells->mesh.volume_names.push_back(model.materials()[m].name);
       body.boundary = find_boundary_faces(body.cells->mesh);
@@ -87,7 +87,6 @@ namespace Signorini
     const Deck                     &deck = model.deck();
     const std::vector<unsigned int> part = connected_deck_elements(deck);
     std::vector<DeckBody>           bodies;
-    std::set<std::string>           passed_over;
     for (unsigned int e = 0; e < part.size(); ++e)
       if (part[e] != Deck::none)
         {
@@ -99,7 +98,7 @@ namespace Signorini
       throw InputError(deck.text().files()[0] + ": there are no solid elements (C3D4, C3D8, ...).");
     name_bodies(bodies, deck);
     for (DeckBody &body : bodies)
-      make_cells(body, model);
+      make_cells(body, model, part);
     return bodies;
   }
 

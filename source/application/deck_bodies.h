@@ -30,12 +30,17 @@ namespace Signorini
   /// Names faces of a body for a surface, once; false if it has none of them.
   bool name_surface(DeckBody &body, const Deck &deck, const DeckSurface &surface);
 
+  /// Moves nodes of the dependent surface of a pair onto the other one, as ADJUST says. Returns a remark, or
+  /// nothing if none was moved.
+  std::string adjust_nodes(DeckBody &first, const DeckBody &second, const DeckPair &pair);
+
   /// What can be a name of files and parameters, too.
   std::string plain_name(const std::string &name);
 
-  /// Adds what acts on the bodies at the end of the last step. Appends remarks.
-  void add_deck_loads(std::vector<DeckBody> &bodies, const DeckModel &model,
-                      std::vector<std::string> &remarks);
+  /// Adds what acts on the bodies; appends remarks. Returns how many steps the loads are given for: all of
+  /// the deck, or one.
+  unsigned int add_deck_loads(std::vector<DeckBody> &bodies, const DeckModel &model,
+                              std::vector<std::string> &remarks);
 } // namespace Signorini
 
 #endif

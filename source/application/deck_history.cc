@@ -99,10 +99,15 @@ namespace Signorini
         pair.name    = pair.slave->name + "-" + pair.master->name;
         pair.is_tied = keyword.has("TIED");
         pair.place   = line.place;
+        if (const std::string &adjust = keyword.get("ADJUST"); !adjust.empty())
+          {
+            if (adjust.find_first_not_of("0123456789.+-eEdD") == std::string::npos)
+              pair.adjust = deck.text().number(adjust, keyword.place);
+            else
+              pair.adjusted_nodes = deck.nodes_of(adjust, keyword.place, instance);
+          }
         contact.emplace_back(pair, keyword.get("INTERACTION"));
       }
-    if (keyword.has("ADJUST"))
-      model.differ(keyword.place, "ADJUST: no nodes are moved; gaps and overlaps are as they are.");
   }
 
 

@@ -4,6 +4,7 @@
 // Conditions and forces of a deck on its bodies.
 
 #include "deck_bodies.h"
+#include "deck_series.h"
 
 #include <signorini/algebra/input_error.h>
 #include <signorini/mesh/cell_shape.h>
@@ -16,15 +17,14 @@ namespace Signorini
 
   namespace
   {
-    /// Components in the global directions, or nothing if the axes of the frame are oblique.
-    using Values = std::array<std::optional<double>, 3>;
+    using Values = std::array<std::optional<DeckSeries>, 3>;
 
     bool is_zero(const Values &values)
     {
-      return std::all_of(values.begin(), values.end(), [](const auto &v) { return v && *v == 0.; });
+      return std::all_of(values.begin(), values.end(), [](const auto &v) { return v && v->is_zero(); });
     }
 
-    /// Values along axes that are those of space in another order or direction.
+    /// Values along axes that are those of space in another order or direction; false for oblique ones.
     bool to_global(Values &result, const Values &values, const DeckFrame &frame)
     {
       if (is_zero(values))
@@ -44,36 +44,16 @@ namespace Signorini
               if (std::abs(std::abs(frame.axes[i][c]) - 1.) < 1e-12)
                 along = c;
             if (along == 3)
-              {
-                if (!values[0] || !values[1] || !values[2])
-                  return false;
-                // All three: the sum along the axes.
-                for (unsigned int c = 0; c < 3; ++c)
-                  {
-                    double sum = 0.;
-                    for (unsigned int k = 0; k < 3; ++k)
-                      sum += *values[k] * frame.axes[k][c];
-                    result[c] = sum;
-                  }
-                return true;
-              }
-            result[along] = *values[i] * frame.axes[i][along];
+              return false;
+            result[along] = values[i]->scaled(frame.axes[i][along]);
           }
       return true;
     }
 
-    /// The axes of a frame at a node.
-    std::array<Vector3, 3> axes_at(const DeckFrame &frame, const Point<3> &x)
+    ConditionFrame condition_frame(const DeckFrame &frame)
     {
-      if (!frame.is_cylindrical)
-        return frame.axes;
-      std::array<Vector3, 3> axes;
-      axes[2]        = (frame.second - frame.first) / frame.second.distance(frame.first);
-      Vector3 radial = x - frame.first;
-      radial -= (radial * axes[2]) * axes[2];
-      axes[0] = radial.norm() > 0. ? radial / radial.norm() : Vector3();
-      axes[1] = cross_product_3d(axes[2], axes[0]);
-      return axes;
+      return frame.is_cylindrical ? ConditionFrame::cylindrical(frame.first, frame.second - frame.first)
+                                  : ConditionFrame::rotated(frame.axes[0], frame.axes[1]);
     }
 
     class LoadsOfDeck
@@ -83,6 +63,7 @@ namespace Signorini
         : bodies(bodies)
         , model(model)
         , deck(model.deck())
+        , history(model)
         , state(model.steps().back())
         , remarks(remarks)
       {
@@ -92,16 +73,23 @@ namespace Signorini
       {
         add_forces();
         add_pressures();
-        for (const DeckSurfaceLoad &load : state.surface_loads)
+        for (const auto &[surface, load] : history.surface_loads())
           add_surface_load(load);
         // Sets of nodes get names that no surface has.
         for (const DeckBoundary &condition : state.boundaries)
           add_condition(condition);
         check_temperatures();
-        for (const DeckVolumeLoad &load : state.volume_loads)
-          add_volume_load(load);
+        for (unsigned int k = 0; k < history.n_steps(); ++k)
+          for (const DeckVolumeLoad &load : history.step(k).volume_loads)
+            add_volume_load(load, k);
         for (DeckBody &body : bodies)
           finish_volume_force(body);
+      }
+
+      /// The steps that the loads are given for.
+      unsigned int n_steps() const
+      {
+        return history.n_steps();
       }
 
     private:
@@ -117,15 +105,18 @@ namespace Signorini
         bool is_anywhere = condition.nodes.empty();
         for (const auto &[frame, nodes] : by_frame)
           {
-            Values values = condition.values;
-            if (frame != Deck::none && !to_global(values, condition.values, model.frames()[frame]))
-              deck.text().fail(condition.place, "directions of a TRANSFORM that are oblique (" +
-                                                    deck.text().where(model.frames()[frame].place) +
-                                                    ") need all three directions to be prescribed.");
+            const Values   given  = history.values(condition);
+            Values         values = given;
+            ConditionFrame axes;
+            if (frame != Deck::none && !to_global(values, given, model.frames()[frame]))
+              {
+                values = given;
+                axes   = condition_frame(model.frames()[frame]);
+              }
             std::string name = condition.set.empty() ? "nodes of line " + std::to_string(condition.place.line)
                                                      : condition.set;
             for (DeckBody &body : bodies)
-              is_anywhere = add_condition(body, name, nodes, values) || is_anywhere;
+              is_anywhere = add_condition(body, name, nodes, values, axes) || is_anywhere;
           }
         if (!is_anywhere)
           remarks.push_back(deck.text().where(condition.place) +
@@ -133,7 +124,7 @@ namespace Signorini
       }
 
       bool add_condition(DeckBody &body, std::string name, const std::vector<unsigned int> &nodes,
-                         const Values &values)
+                         const Values &values, const ConditionFrame &axes)
       {
         const std::vector<unsigned int> vertices = vertices_within(nodes, *body.cells);
         if (vertices.empty())
@@ -144,9 +135,10 @@ namespace Signorini
           sets.emplace_back(name, vertices);
         LoadDefinition::Displacement displacement;
         displacement.boundary = name;
+        displacement.frame    = axes;
         for (unsigned int c = 0; c < 3; ++c)
           if (values[c])
-            displacement.components[c] = [value = *values[c]](const Point<3> &) { return value; };
+            displacement.components[c] = values[c]->field();
         body.loads.displacements.push_back(displacement);
         return true;
       }
@@ -171,21 +163,20 @@ namespace Signorini
       void add_forces()
       {
         std::size_t n_lost = 0;
-        for (const auto &[where, load] : state.forces)
+        for (const auto &[where, force] : history.forces())
           {
             const auto [node, component] = where;
-            Vector3    force;
-            const auto frame = model.frame_of_node().find(node);
-            if (frame == model.frame_of_node().end())
-              force[component] = load.value;
-            else
-              force = load.value * axes_at(model.frames()[frame->second], deck.positions()[node])[component];
-            bool is_anywhere = load.value == 0.;
+            Vector3 direction;
+            direction[component] = 1.;
+            if (const auto frame = model.frame_of_node().find(node); frame != model.frame_of_node().end())
+              direction = condition_frame(model.frames()[frame->second])
+                              .axes(deck.positions()[node], Vector3())[component];
+            bool is_anywhere = force.is_zero();
             for (DeckBody &body : bodies)
               if (const unsigned int vertex = body.cells->vertex(node); vertex != VolumeMesh::no_vertex)
                 {
-                  if (load.value != 0.)
-                    body.loads.nodal_forces.push_back({vertex, [f = force](const Point<3> &) { return f; }});
+                  if (!force.is_zero())
+                    body.loads.nodal_forces.push_back({vertex, force.field(direction)});
                   is_anywhere = true;
                 }
             n_lost += is_anywhere ? 0 : 1;
@@ -198,10 +189,10 @@ namespace Signorini
       /// Faces with the same pressure are a boundary together.
       void add_pressures()
       {
-        std::map<double, std::map<unsigned int, std::vector<unsigned int>>> sides;
-        for (const auto &[where, load] : state.pressures)
-          if (load.value != 0.)
-            sides[load.value][where.first].push_back(where.second);
+        std::map<std::vector<double>, std::map<unsigned int, std::vector<unsigned int>>> sides;
+        for (const auto &[where, pressure] : history.pressures())
+          if (!pressure.is_zero())
+            sides[pressure.values][where.first].push_back(where.second);
         unsigned int n = 0;
         for (const auto &[pressure, of_elements] : sides)
           {
@@ -218,8 +209,7 @@ namespace Signorini
                   continue;
                 refuse_inner_faces(body, faces);
                 body.named.emplace_back(name, faces);
-                body.loads.surface_forces.push_back(
-                    {name, {}, [value = pressure](const Point<3> &) { return value; }});
+                body.loads.surface_forces.push_back({name, {}, DeckSeries{pressure}.field()});
               }
           }
       }
@@ -233,19 +223,23 @@ namespace Signorini
                            " of the loaded faces are inside of the body \"" + body.name + "\".");
       }
 
-      void add_surface_load(const DeckSurfaceLoad &load)
+      void add_surface_load(const DeckHistory::SurfaceLoad &load)
       {
         bool is_anywhere = false;
         for (DeckBody &body : bodies)
           if (name_surface(body, deck, *load.surface))
             {
               is_anywhere = true;
-              if (load.pressure != 0.)
-                body.loads.surface_forces.push_back(
-                    {load.surface->name, {}, [p = load.pressure](const Point<3> &) { return p; }});
-              if (load.traction.norm() > 0.)
-                body.loads.surface_forces.push_back(
-                    {load.surface->name, [t = load.traction](const Point<3> &) { return t; }, {}});
+              if (!load.pressure.is_zero())
+                body.loads.surface_forces.push_back({load.surface->name, {}, load.pressure.field()});
+              for (unsigned int c = 0; c < 3; ++c)
+                if (!load.traction[c].is_zero())
+                  {
+                    Vector3 direction;
+                    direction[c] = 1.;
+                    body.loads.surface_forces.push_back(
+                        {load.surface->name, load.traction[c].field(direction), {}});
+                  }
             }
         if (!is_anywhere)
           deck.text().fail(load.place, "no face of the surface \"" + load.surface->name +
@@ -270,13 +264,13 @@ namespace Signorini
           }
       }
 
-      void add_volume_load(const DeckVolumeLoad &load)
+      void add_volume_load(const DeckVolumeLoad &load, const unsigned int step)
       {
         const std::set<unsigned int> elements(load.elements.begin(), load.elements.end());
         for (DeckBody &body : bodies)
           {
             auto &forces = volume_forces[&body];
-            forces.resize(body.elements.size());
+            forces.resize(body.elements.size(), std::vector<Vector3>(history.n_steps()));
             for (std::size_t i = 0; i < body.elements.size(); ++i)
               if (elements.count(body.elements[i]) > 0)
                 {
@@ -290,7 +284,7 @@ namespace Signorini
                                          "GRAV needs the DENSITY of MATERIAL \"" + material.name + "\".");
                       factor = *material.density;
                     }
-                  forces[i] += factor * load.value;
+                  forces[i][step] += factor * load.value;
                 }
           }
       }
@@ -301,24 +295,41 @@ namespace Signorini
         const auto it = volume_forces.find(&body);
         if (it == volume_forces.end())
           return;
-        const std::vector<Vector3> &forces = it->second;
-        if (std::all_of(forces.begin(), forces.end(), [&](const Vector3 &f) { return f == forces[0]; }))
+        const std::vector<std::vector<Vector3>> &forces = it->second;
+        const auto component = [](const std::vector<Vector3> &f, const unsigned int c) {
+          DeckSeries series;
+          for (const Vector3 &v : f)
+            series.values.push_back(v[c]);
+          return series;
+        };
+        if (std::all_of(forces.begin(), forces.end(), [&](const auto &f) { return f == forces[0]; }))
           {
-            if (forces[0].norm() > 0.)
-              body.loads.volume_force = [force = forces[0]](const Point<3> &) { return force; };
+            body.loads.volume_force = [x = component(forces[0], 0), y = component(forces[0], 1),
+                                       z = component(forces[0], 2)](const Point<3> &, const double t) {
+              return Vector3({x.at(t), y.at(t), z.at(t)});
+            };
             return;
           }
-        std::map<unsigned int, Vector3> force_of;
+        std::map<unsigned int, const std::vector<Vector3> *> force_of;
         for (std::size_t i = 0; i < forces.size(); ++i)
-          force_of[body.elements[i]] = forces[i];
-        const VolumeMesh               &mesh = body.cells->mesh;
-        std::map<unsigned int, Vector3> nodal;
+          force_of[body.elements[i]] = &forces[i];
+        const VolumeMesh                            &mesh = body.cells->mesh;
+        std::map<unsigned int, std::vector<Vector3>> nodal;
         for (std::size_t c = 0; c < mesh.cells.size(); ++c)
-          if (const Vector3 &force = force_of[body.cells->element_of_cell()[c]]; force.norm() > 0.)
-            for (const auto &[vertex, volume] : nodal_volumes(mesh, mesh.cells[c]))
-              nodal[vertex] += volume * force;
+          for (const auto &[vertex, volume] : nodal_volumes(mesh, mesh.cells[c]))
+            for (unsigned int k = 0; k < history.n_steps(); ++k)
+              {
+                nodal[vertex].resize(history.n_steps());
+                nodal[vertex][k] += volume * (*force_of[body.cells->element_of_cell()[c]])[k];
+              }
         for (const auto &[vertex, force] : nodal)
-          body.loads.nodal_forces.push_back({vertex, [f = force](const Point<3> &) { return f; }});
+          for (unsigned int c = 0; c < 3; ++c)
+            if (const DeckSeries series = component(force, c); !series.is_zero())
+              {
+                Vector3 direction;
+                direction[c] = 1.;
+                body.loads.nodal_forces.push_back({vertex, series.field(direction)});
+              }
         remarks.push_back("body " + body.name +
                           ": forces per volume differ from element to element; they act at the nodes of the "
                           "deck, also where cells are refined.");
@@ -365,20 +376,24 @@ namespace Signorini
         return result;
       }
 
-      std::vector<DeckBody>                           &bodies;
-      const DeckModel                                 &model;
-      const Deck                                      &deck;
-      const DeckState                                 &state;
-      std::vector<std::string>                        &remarks;
-      std::map<const DeckBody *, std::vector<Vector3>> volume_forces;
+      std::vector<DeckBody>    &bodies;
+      const DeckModel          &model;
+      const Deck               &deck;
+      const DeckHistory         history;
+      const DeckState          &state;
+      std::vector<std::string> &remarks;
+      /// By element of the body and step.
+      std::map<const DeckBody *, std::vector<std::vector<Vector3>>> volume_forces;
     };
   } // namespace
 
 
 
-  void add_deck_loads(std::vector<DeckBody> &bodies, const DeckModel &model,
-                      std::vector<std::string> &remarks)
+  unsigned int add_deck_loads(std::vector<DeckBody> &bodies, const DeckModel &model,
+                              std::vector<std::string> &remarks)
   {
-    LoadsOfDeck(bodies, model, remarks).add();
+    LoadsOfDeck loads(bodies, model, remarks);
+    loads.add();
+    return loads.n_steps();
   }
 } // namespace Signorini

@@ -236,11 +236,13 @@ namespace Signorini
           fail(pair.place, "there is no SURFACE INTERACTION \"" + name + "\".");
         model.pair_list.back().is_tied = pair.is_tied || (it != interactions.end() && it->second.is_tied);
       }
-    if (model.steps().size() > 1)
+    if (std::any_of(deck.elements().begin(), deck.elements().end(), [](const DeckElement &element) {
+          return element.type->is_solid() && element.type->is_quadratic();
+        }))
       model.remark_list.push_back(
-          deck.text().files()[0] + ": of " + std::to_string(model.steps().size()) +
-          " steps the last one is computed, with what the others leave; without friction the way there does "
-          "not matter.");
+          deck.text().files()[0] +
+          ": quadratic elements are cut into eight linear ones, which are stiffer where thin parts bend; "
+          "--set \"Refinement/Initial global levels=1\" shows how much.");
     std::string names;
     for (const std::string &name : std::set<std::string>(over.begin(), over.end()))
       names += (names.empty() ? "" : ", ") + name;

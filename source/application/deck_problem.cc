@@ -74,7 +74,7 @@ namespace Signorini
     }
 
     void add_pair(ProblemDefinition &problem, std::vector<DeckBody> &bodies, const DeckModel &model,
-                  const DeckPair &pair)
+                  const DeckPair &pair, std::vector<std::string> &remarks)
     {
       const Deck &deck  = model.deck();
       const auto  first = bodies_with(bodies, deck, *pair.slave, pair.place),
@@ -102,6 +102,9 @@ namespace Signorini
               if (other.name == definition.name)
                 deck.text().fail(pair.place, "there are two pairs \"" + definition.name + "\".");
             problem.pairs.push_back(definition);
+            if (pair.adjust || !pair.adjusted_nodes.empty())
+              if (const std::string text = adjust_nodes(bodies[a], bodies[b], pair); !text.empty())
+                remarks.push_back(deck.text().where(pair.place) + ": " + text);
           }
       if (n == 0)
         deck.text().fail(pair.place, "the surfaces \"" + pair.slave->name + "\" and \"" + pair.master->name +
@@ -160,8 +163,13 @@ namespace Signorini
       result.largest_node_label = std::max(result.largest_node_label, label);
     result.nonlinear_geometry = model.steps().back().nonlinear_geometry;
     for (const DeckPair &pair : model.pairs())
-      add_pair(result.problem, bodies, model, pair);
-    add_deck_loads(bodies, model, result.remarks);
+      add_pair(result.problem, bodies, model, pair, result.remarks);
+    result.n_steps = add_deck_loads(bodies, model, result.remarks);
+    if (result.n_steps < model.steps().size())
+      result.remarks.push_back(
+          model.deck().text().files()[0] + ": of " + std::to_string(model.steps().size()) +
+          " steps the last one is computed, with what the others leave: they hold other directions. Without "
+          "friction the way there does not matter.");
     for (DeckBody &body : bodies)
       {
         result.labels.push_back(labels_of(body, model.deck()));

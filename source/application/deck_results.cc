@@ -121,12 +121,19 @@ namespace Signorini
       return field;
     }
 
-    void write(std::ostream &out, const DeckProblem &deck, const Bodies &bodies, const Discretization &d,
-               const ContactSolution &solution, const std::vector<NodeRow> &rows,
-               const std::vector<std::vector<NodeIndex>> &cells)
+    /// What the ranks have gathered.
+    struct Gathered
     {
-      const auto labels     = label_nodes(deck, bodies, rows);
-      bool       is_refined = false;
+      std::vector<NodeRow>                rows;
+      std::vector<std::vector<NodeIndex>> cells;
+    };
+
+    void write(std::ostream &out, const DeckProblem &deck, const ContactModel &model, const Discretization &d,
+               const ContactSolution &solution, const Gathered &gathered)
+    {
+      const auto &[rows, cells] = gathered;
+      const auto labels         = label_nodes(deck, model.bodies(), rows);
+      bool       is_refined     = false;
       for (const NodeRow &row : rows)
         is_refined = is_refined || row.start_vertex == StartNodes::none;
       FrdMesh  mesh;
@@ -208,14 +215,13 @@ namespace Signorini
     const auto     cells = Utilities::MPI::gather(comm, owned_cells(d.nodal()));
     if (Utilities::MPI::this_mpi_process(comm) != 0)
       return;
-    std::vector<NodeRow>                all_rows;
-    std::vector<std::vector<NodeIndex>> all_cells;
+    Gathered all;
     for (const auto &part : rows)
-      all_rows.insert(all_rows.end(), part.begin(), part.end());
+      all.rows.insert(all.rows.end(), part.begin(), part.end());
     for (const auto &part : cells)
-      all_cells.insert(all_cells.end(), part.begin(), part.end());
+      all.cells.insert(all.cells.end(), part.begin(), part.end());
     std::ofstream out(folder + "results.frd");
-    write(out, deck, model.bodies(), d, solution, all_rows, all_cells);
+    write(out, deck, model, d, solution, all);
     out.close();
     if (!out)
       throw InputError("the file \"" + folder + "results.frd\" cannot be written: is the disk full?");

@@ -483,7 +483,10 @@ namespace Signorini
 
   std::vector<double> ParameterFile::load_steps() const
   {
-    return parse_load_steps(top_level.load_steps, "Load steps");
+    const std::vector<double> times = parse_load_steps(top_level.load_steps, "Load steps");
+    return times.empty() && deck_problem && deck_problem->n_steps > 1
+               ? parse_load_steps(std::to_string(deck_problem->n_steps), "Load steps")
+               : times;
   }
 
 

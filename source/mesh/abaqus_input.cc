@@ -70,11 +70,11 @@ namespace Signorini
         elements.push_back(e);
     if (elements.empty())
       throw InputError("Mesh file \"" + file + "\": it contains no solid elements (C3D4, C3D8, ...).");
-    std::vector<std::string>                                       names;
-    const std::vector<unsigned int>                                volume = volumes(names, deck, elements);
-    DeckCells                                                      cells(deck, elements, volume);
-    const BoundaryOfCells                                          boundary = find_boundary_faces(cells.mesh);
-    const NamedFaces                                               named    = name_all(deck, cells, boundary);
+    std::vector<std::string>        names;
+    const std::vector<unsigned int> volume = volumes(names, deck, elements);
+    DeckCells                       cells(deck, elements, volume, connected_deck_elements(deck));
+    const BoundaryOfCells           boundary = find_boundary_faces(cells.mesh);
+    const NamedFaces                named    = name_all(deck, cells, boundary);
     std::vector<std::pair<std::string, std::vector<unsigned int>>> node_sets;
     for (const DeckSet &set : deck.node_sets())
       node_sets.emplace_back(set.name, vertices_within(set.members, cells));

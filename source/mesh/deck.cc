@@ -387,11 +387,10 @@ namespace Signorini
     surface.place = keyword.place;
     if (keyword.get("NAME").empty())
       source.fail(keyword.place, "SURFACE needs a name: *SURFACE, NAME=NAME.");
-    if (!surface_index.insert({deck_upper(surface.name), static_cast<unsigned int>(surface_list.size())})
-             .second)
-      source.fail(keyword.place, "there are two surfaces \"" + surface.name + "\".");
-    surface_list.push_back(surface);
-    surface_instance.push_back(instance);
-    surface_keywords.push_back(&keyword);
+    const auto [it, is_new] =
+        surface_index.insert({deck_upper(surface.name), static_cast<unsigned int>(surface_list.size())});
+    if (is_new)
+      surface_list.push_back(surface);
+    surface_keywords.push_back({it->second, {&keyword, instance}});
   }
 } // namespace Signorini

@@ -166,13 +166,11 @@ namespace Signorini
 
 
   DeckCells::DeckCells(const Deck &deck, const std::vector<unsigned int> &elements,
-                       const std::vector<unsigned int> &volumes)
+                       const std::vector<unsigned int> &volumes, const std::vector<unsigned int> &part)
     : deck(deck)
-    , vertex_of_node(deck.positions().size(), VolumeMesh::no_vertex)
   {
     // Parts of hexahedra alone stay as they are.
-    const std::vector<unsigned int> part = connected_deck_elements(deck);
-    std::set<unsigned int>          to_tetrahedra;
+    std::set<unsigned int> to_tetrahedra;
     for (const unsigned int e : elements)
       if (deck.elements()[e].type->shape != DeckElementType::hexahedron)
         to_tetrahedra.insert(part[e]);
@@ -184,7 +182,8 @@ namespace Signorini
 
   unsigned int DeckCells::vertex(const unsigned int node) const
   {
-    return vertex_of_node[node];
+    const auto it = vertex_of_node.find(node);
+    return it == vertex_of_node.end() ? VolumeMesh::no_vertex : it->second;
   }
 
 
@@ -193,6 +192,8 @@ namespace Signorini
   {
     mesh.vertices.push_back(position);
     vertex_support.push_back(support);
+    if (support.size() > 1)
+      centre_vertices.push_back(static_cast<unsigned int>(mesh.vertices.size() - 1));
     return static_cast<unsigned int>(mesh.vertices.size() - 1);
   }
 
@@ -200,9 +201,10 @@ namespace Signorini
 
   unsigned int DeckCells::vertex_at(const unsigned int node)
   {
-    if (vertex_of_node[node] == VolumeMesh::no_vertex)
-      vertex_of_node[node] = add_vertex(deck.positions()[node], {node});
-    return vertex_of_node[node];
+    const auto [it, is_new] = vertex_of_node.insert({node, VolumeMesh::no_vertex});
+    if (is_new)
+      it->second = add_vertex(deck.positions()[node], {node});
+    return it->second;
   }
 
 

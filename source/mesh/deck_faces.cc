@@ -7,6 +7,7 @@
 #include <signorini/mesh/mesh_input.h>
 
 #include <algorithm>
+#include <unordered_set>
 
 namespace Signorini
 {
@@ -43,7 +44,7 @@ namespace Signorini
     Corners                       v;
     for (const unsigned int node : nodes)
       {
-        v.push_back(vertex_of_node[node]);
+        v.push_back(vertex(node));
         if (v.back() == VolumeMesh::no_vertex)
           return {};
       }
@@ -115,12 +116,22 @@ namespace Signorini
 
   std::vector<unsigned int> vertices_within(const std::vector<unsigned int> &nodes, const DeckCells &cells)
   {
-    const std::set<unsigned int> set(nodes.begin(), nodes.end());
-    std::vector<unsigned int>    vertices;
-    for (unsigned int v = 0; v < cells.mesh.vertices.size(); ++v)
-      if (const auto &support = cells.support(v); std::all_of(
-              support.begin(), support.end(), [&](const unsigned int node) { return set.count(node) > 0; }))
+    std::vector<unsigned int> vertices;
+    for (const unsigned int node : nodes)
+      if (const unsigned int v = cells.vertex(node); v != VolumeMesh::no_vertex)
         vertices.push_back(v);
+    // Centres of faces have four nodes at least.
+    if (vertices.size() >= 4)
+      {
+        const std::unordered_set<unsigned int> set(nodes.begin(), nodes.end());
+        for (const unsigned int v : cells.centres())
+          if (const auto &support = cells.support(v);
+              std::all_of(support.begin(), support.end(),
+                          [&](const unsigned int node) { return set.count(node) > 0; }))
+            vertices.push_back(v);
+      }
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
     return vertices;
   }
 

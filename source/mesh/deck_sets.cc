@@ -176,10 +176,10 @@ namespace Signorini
 
   void Deck::resolve_surfaces()
   {
-    for (unsigned int s = 0; s < surface_list.size(); ++s)
+    for (const auto &[s, other] : surface_keywords)
       {
-        const DeckKeyword &keyword  = *surface_keywords[s];
-        const unsigned int instance = surface_instance[s];
+        const DeckKeyword &keyword  = *other.keyword;
+        const unsigned int instance = other.instance;
         DeckSurface       &surface  = surface_list[s];
         const std::string  type     = deck_upper(keyword.get("TYPE"));
         const std::string  combine  = deck_upper(keyword.get("COMBINE"));
@@ -187,7 +187,7 @@ namespace Signorini
           source.fail(keyword.place, "surfaces of TYPE=" + type + " are not supported; use ELEMENT or NODE.");
         if (!combine.empty() && combine != "UNION")
           source.fail(keyword.place, "of surfaces that combine others only COMBINE=UNION is supported.");
-        surface.is_of_nodes = type == "NODE";
+        surface.is_of_nodes = surface.is_of_nodes || type == "NODE";
         for (const DeckLine &line : keyword.lines)
           {
             const std::vector<std::string> words = deck_words(line.text);
@@ -195,12 +195,12 @@ namespace Signorini
               continue;
             if (!combine.empty())
               {
-                const DeckSurface &other = this->surface(words[0], line.place, instance);
-                surface.faces.insert(surface.faces.end(), other.faces.begin(), other.faces.end());
-                surface.nodes.insert(surface.nodes.end(), other.nodes.begin(), other.nodes.end());
-                surface.is_of_nodes = surface.is_of_nodes || other.is_of_nodes;
+                const DeckSurface part = this->surface(words[0], line.place, instance);
+                surface.faces.insert(surface.faces.end(), part.faces.begin(), part.faces.end());
+                surface.nodes.insert(surface.nodes.end(), part.nodes.begin(), part.nodes.end());
+                surface.is_of_nodes = surface.is_of_nodes || part.is_of_nodes;
               }
-            else if (surface.is_of_nodes)
+            else if (type == "NODE")
               for (const unsigned int node : nodes_of(words[0], line.place, instance))
                 surface.nodes.push_back(node);
             else

@@ -82,7 +82,7 @@ namespace Signorini
 
   void NodalSpace::add_to_sets(const NodeIndex node, const Sets &sets)
   {
-    if (owned_nodes.is_element(node) && !constraints.is_constrained(node))
+    if (relevant_nodes.is_element(node) && !constraints.is_constrained(node))
       for (const unsigned int set : sets)
         nodes_of_set[set].push_back(node);
   }

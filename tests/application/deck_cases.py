@@ -1,5 +1,7 @@
 """Decks of Abaqus and CalculiX: what is computed, refused and written."""
+import csv
 import json
+import math
 import os
 import shutil
 import subprocess
@@ -177,6 +179,72 @@ def deck_words(d):
                                       '*BOUNDARY\nY1, 2\nYX, 3\nBX, 1\nB1, 3\n*STEP', 1))
 
 
+def turned(x, axis=(1, 2, 3), angle=25):
+    """A point turned about an axis through the origin (degrees)."""
+    a = [t / math.hypot(*axis) for t in axis]
+    c, s = math.cos(math.radians(angle)), math.sin(math.radians(angle))
+    along = sum(t * q for t, q in zip(a, x))
+    return [c * x[i] + s * (a[i - 2] * x[i - 1] - a[i - 1] * x[i - 2]) + (1 - c) * along * a[i] for i in range(3)]
+
+
+@in_folder
+def deck_transform(d):
+    """Rollers along the axes of TRANSFORM: the blocks turned by any angle; a ring with rollers along its radius and tangents."""
+    for kind in ('C3D8', 'C3D10'):
+        text, upper, lower = two_blocks(kind, (2, 2, 2), (3, 3, 2), move=turned)
+        axes = ', '.join(f'{c:.16g}' for x in ((1, 0, 0), (0, 1, 0)) for c in turned(x))
+        frame = nset('ALL', list(upper.nodes) + list(lower.nodes)) + f'*TRANSFORM, NSET=ALL, TYPE=R\n{axes}\n'
+        force = ''.join(f'{n}, 3, -0.05\n' for n in upper.plane(2, 1))
+        for refined in ([], ['--set', 'Refinement/Initial global levels=1']):
+            s, _ = d.solve(text.replace('*BOUNDARY', frame + '*BOUNDARY'), *refined)
+            constant_pressure(s, 5., 1e-8)
+            certificate(s)
+            near(s['certificate']['potential_energy'], -.025, 1e-8, 'energy')
+        s, _ = d.solve(text.replace('*BOUNDARY', frame + '*BOUNDARY').replace(LOAD.format(5.), '*CLOAD\n' + force))
+        near(s['pairs'][0]['load'], .05 * len(upper.plane(2, 1)), 1e-9, 'forces along the axes')
+    # A quarter of a ring whose inner side is moved out by u and whose outer side is held: radial displacement a r + b / r.
+    block = Block('C3D20', (1, 0, 0), (2, 90, 1), (12, 6, 1),
+                  move=lambda x: [x[0] * math.cos(math.radians(x[1])), x[0] * math.sin(math.radians(x[1])), x[2]])
+    text = block.text_nodes() + block.text_elements('RING') + nset('ALL', block.nodes) + nset('IN', block.plane(0, 1)) + nset('OUT', block.plane(0, 2))
+    text += nset('ENDS', block.plane(1, 0) + block.plane(1, 90)) + nset('FLAT', block.plane(2, 0) + block.plane(2, 1))
+    text += '*TRANSFORM, NSET=ALL, TYPE=C\n0., 0., -1., 0., 0., 5.\n' + MATERIAL + '*SOLID SECTION, ELSET=RING, MATERIAL=steel\n'
+    text += '*STEP\n*STATIC\n*BOUNDARY\nIN, 1, 1, 0.01\nOUT, 1, 1\nENDS, 2, 2\nFLAT, 3, 3\n*END STEP\n'
+    s, (nodes, _, fields) = d.solve(text)
+    for label in block.plane(0, 1.5):
+        x, u = nodes[label], fields['DISP'][label]
+        r = math.hypot(x[0], x[1])
+        near((u[0] * x[0] + u[1] * x[1]) / r, .01 / 3 * (4 / r - r), 5e-3, 'radial displacement')
+
+
+@in_folder
+def deck_refined(d):
+    """Sets of nodes, forces at nodes and result files on refined meshes; the same on any number of ranks."""
+    for kind in ('C3D8', 'C3D6'):
+        text, upper, lower = two_blocks(kind, (2, 2, 2), (3, 3, 2))
+        s, (nodes, elements, fields) = d.solve(text, '--set', 'Refinement/Global cycles=1', '--set', 'Refinement/Regions=ball: (0.4, 0.5, 0.3), 0.3, 1')
+        constant_pressure(s, 5., 1e-8)
+        certificate(s)
+        near(s['certificate']['potential_energy'], -.025, 1e-8, 'energy')
+        check(all(v in nodes for _, element in elements.values() for v in element), 'nodes of the elements')
+        for block in (upper, lower):
+            for label, (x, _) in block.nodes.items():
+                check(max(abs(a - b) for a, b in zip(nodes[label], x)) < 1e-5, f'node {label}')
+        for label, x in nodes.items():
+            check(abs(fields['DISP'][label][2] + .005 * (x[2] + 1)) < 1e-7, f'node {label}: {fields["DISP"][label]}')
+    # An edge that is held, and forces at corners.
+    text, upper, lower = two_blocks('C3D8', (1, 1, 1), (2, 2, 2), None)
+    corners = ''.join(f'{n}, 3, -1.\n' for n in upper.plane(2, 1))
+    edge = sorted(set(upper.plane(2, 1)) & set(upper.plane(0, 0)))
+    text = text.replace('*STEP', nset('EDGE', edge) + '*STEP', 1).replace('*STATIC\n', f'*STATIC\n*CLOAD\n{corners}*BOUNDARY\nEDGE, 1, 1, 0.001\n')
+    s, (nodes, _, fields) = d.solve(text, '--set', 'Refinement/Initial global levels=2')
+    near(s['pairs'][0]['load'], 4., 1e-9, 'forces at corners')
+    certificate(s)
+    on_edge = [label for label, x in nodes.items() if x[0] == 0 and x[2] == 1]
+    check(len(on_edge) == 5, f'nodes on the edge: {on_edge}')
+    for label in on_edge:
+        near(fields['DISP'][label][0], .001, 1e-5, 'held edge')
+
+
 @in_folder
 def deck_parts(d):
     """PART and INSTANCE: the upper block is the lower one, turned and moved."""
@@ -215,6 +283,57 @@ def deck_ties(d):
         s, (_, _, fields) = d.solve(text.replace('*CONTACT PAIR, INTERACTION=hard, TYPE=SURFACE TO SURFACE\nSU, SL\n', tie))
         near(s['cycles'][-1]['energy'], -.025, 1e-8, 'energy')
         near(fields['DISP'][upper.plane(2, 1)[0]][2], .01, 1e-5, 'displacement')
+
+
+@in_folder
+def deck_steps(d):
+    """Steps of a deck are load steps: the force follows pressures, forces, displacements and amplitudes."""
+    text, upper, lower = two_blocks('C3D8', (2, 2, 2), (3, 3, 2), None)
+    amplitude = '*AMPLITUDE, NAME=wave\n0., 0., 1., 2., 2., 0.5\n'
+    head, tail = text.replace('*STEP', amplitude + '*STEP', 1).split('*STATIC\n')
+    steps = ('*STATIC\n' + LOAD.format(5.) + '*END STEP\n*STEP\n*STATIC\n1., 1.\n*DSLOAD, AMPLITUDE=wave\nSTOP, P, 5.\n*END STEP\n*STEP\n*STATIC\n' +
+             f'*CLOAD\n{upper.plane(2, 1)[0]}, 3, -1.\n*END STEP\n*STEP\n*STATIC\n*DSLOAD, OP=NEW\n')
+
+    def loads():
+        path = os.path.join(d.folder, f'out{d.n}', 'curve.csv')
+        if not os.path.exists(path):
+            return []
+        with open(path) as f:
+            return [float(row['SU-SL: load']) for row in csv.DictReader(f)]
+
+    s, _ = d.solve(head + steps + tail)
+    check(len(loads()) == 4, f'steps: {loads()}')
+    for force, expected in zip(loads(), (5, 10, 11, 1)):
+        near(force, expected, 1e-9, 'load of a step')
+    near(s['pairs'][0]['load'], 1, 1e-9, 'last load')
+    # By displacement; other directions than in the last step: that alone.
+    push = head + '*STATIC\n*BOUNDARY\nTOP, 3, 3, -0.01\n*END STEP\n*STEP\n*STATIC\n*BOUNDARY\nTOP, 3, 3, {}\n' + tail
+    s, _ = d.solve(push.format(-.02))
+    check(len(loads()) == 2, f'steps: {loads()}')
+    for force, expected in zip(loads(), (5, 10)):
+        near(force, expected, 1e-8, 'load of a displacement')
+    other = push.format(-.02).replace('*BOUNDARY\nTOP, 3, 3, -0.02\n', '*BOUNDARY\nTOP, 3, 3, -0.02\nTOP, 1, 1\n')
+    s, _ = d.solve(other)
+    check(not loads(), 'steps that hold other directions')
+    check(any('of 2 steps the last one' in note for note in s['notes']), f'notes: {s["notes"]}')
+
+
+@in_folder
+def deck_adjust(d):
+    """Dependent nodes with a gap, or an overlap, are moved onto the other surface without strain."""
+    for gap, moved in ((.003, True), (-.003, True), (.02, False)):
+        upper = Block('C3D20', (0, 0, gap), (1, 1, 1), (2, 2, 2))
+        text, _, lower = two_blocks('C3D20', (2, 2, 2), (3, 3, 2))
+        text = text.replace(two_blocks('C3D20', (2, 2, 2), (3, 3, 2))[1].text_nodes(), upper.text_nodes())
+        for adjust in ('ADJUST=0.01', 'ADJUST=NADJUST') if moved else ('ADJUST=0.01',):
+            changed = text.replace('TO SURFACE\n', f'TO SURFACE, {adjust}\n').replace('*STEP', nset('NADJUST', upper.plane(2, gap)) + '*STEP', 1)
+            s, (nodes, _, _) = d.solve(changed)
+            constant_pressure(s, 5., 1e-8)
+            check(any('ADJUST: 25 nodes' in note for note in s['notes']) == moved, f'notes: {s["notes"]}')
+            # The free way down is part of the energy where nothing was moved.
+            near(s['certificate']['potential_energy'], -.025 if moved else -5 * gap - .5 * 25e-3 * (2 - gap), 1e-8, f'energy with {adjust}, gap {gap}')
+            for n in upper.plane(2, gap):
+                near(nodes[n][2] + 1, 1 if moved else 1 + gap, 1e-6, f'node {n}')
 
 
 @in_folder
@@ -284,16 +403,35 @@ def deck_refused(d):
                                ('*STEP\n*STATIC\n' + LOAD.format(5.) + '*END STEP\n', '', ['no STEP']), ('*STATIC\n', '*STATIC\n*DLOAD\n1, P7, 5.\n', ['P7', 'P1 to P6']),
                                ('*STATIC\n', '*STATIC\n*DLOAD\nUpper, GRAV, 9.8, 0., 0., -1.\n', ['DENSITY', 'steel']),
                                ('*HEADING', '*INCLUDE, INPUT=gone.txt\n*HEADING', ['gone.txt', 'line 2']),
-                               ('*STEP', '*TRANSFORM, NSET=TOP\n1., 1., 0., -1., 1., 0.\n*BOUNDARY\nTOP, 1, 1\n*STEP', ['TRANSFORM', 'oblique']),
+                               ('*STEP', '*TRANSFORM, NSET=TOP\n1., 1., 0., 2., 2., 0.\n*BOUNDARY\nTOP, 1, 1\n*STEP', ['parallel']),
                                ('TYPE=C3D8, ELSET=Upper', 'TYPE=C3D5, ELSET=Upper', ['C3D5', 'C3D10'])]:
         check(text.replace(where, what, 1) != text, f'{words}: nothing was changed')
         d.refuses(text.replace(where, what, 1), *words)
+    # Every keyword that is refused says why, and how to pass over it.
+    for word, keywords in (('elastic', ['PLASTIC', 'CYCLIC HARDENING', 'HYPERELASTIC', 'HYPERFOAM', 'CREEP', 'VISCOELASTIC', 'DEFORMATION PLASTICITY',
+                                        'CONCRETE', 'DRUCKER PRAGER', 'MOHR COULOMB', 'USER MATERIAL', 'DEPVAR', 'RATE DEPENDENT']),
+                           ('solid elements', ['SHELL SECTION', 'BEAM SECTION', 'MEMBRANE SECTION', 'BEAM GENERAL SECTION', 'SHELL GENERAL SECTION', 'SPRING',
+                                               'DASHPOT', 'MASS', 'GAP', 'CONNECTOR SECTION']),
+                           ('STATIC', ['DYNAMIC', 'FREQUENCY', 'BUCKLE', 'HEAT TRANSFER', 'COUPLED TEMPERATURE-DISPLACEMENT',
+                                       'UNCOUPLED TEMPERATURE-DISPLACEMENT', 'VISCO', 'MODAL DYNAMIC', 'STEADY STATE DYNAMICS', 'COMPLEX FREQUENCY']),
+                           ('nodes', ['EQUATION', 'MPC', 'KINEMATIC COUPLING', 'DISTRIBUTING COUPLING', 'COUPLING', 'KINEMATIC', 'DISTRIBUTING']),
+                           ('rigid bodies', ['RIGID BODY']), ('pretension', ['PRE-TENSION SECTION']), ('cyclic', ['CYCLIC SYMMETRY MODEL']),
+                           ('CONTACT PAIR', ['CONTACT']), ('are those of the nodes', ['CLEARANCE', 'CONTACT INTERFERENCE']), ('frictionless', ['CHANGE FRICTION']),
+                           ('the same in all steps', ['CHANGE CONTACT TYPE', 'MODEL CHANGE']), ('heat', ['GAP CONDUCTANCE']), ('held', ['INERTIA RELIEF'])):
+        for keyword in keywords:
+            path = d.path('refused.inp', text.replace('*STEP', f'*{keyword}\n1., 2.\n*STEP'))
+            line = line_of(text, 'STEP')
+            run = d.p.call(path, '--check')
+            expected = f'refused.inp, line {line}: {keyword}: '
+            check(run.returncode == 1 and expected in run.stderr and word in run.stderr and f'--ignore "{keyword}"' in run.stderr,
+                  f'{keyword}: {run.returncode}, {run.stderr}')
+            run = d.p.call(path, '--check', '--ignore', keyword)
+            check(run.returncode == 0 and f'{keyword} is passed over' in run.stdout, f'{keyword}: {run.returncode}, {run.stdout} {run.stderr}')
     # What is taken differently is said, or refused.
-    soft = text.replace('OVERCLOSURE=HARD\n', 'OVERCLOSURE=LINEAR\n1e5, \n').replace('TO SURFACE\n', 'TO SURFACE, ADJUST=0.1\n')
+    soft = text.replace('OVERCLOSURE=HARD\n', 'OVERCLOSURE=LINEAR\n1e5, \n')
     s, _ = d.solve(soft)
     constant_pressure(s, 5., 1e-8)
-    for word in ('LINEAR is taken as hard contact', 'ADJUST'):
-        check(any(word in note for note in s['notes']), f'{word}: {s["notes"]}')
+    check(any('LINEAR is taken as hard contact' in note for note in s['notes']), f'notes: {s["notes"]}')
     d.refuses(soft, 'LINEAR', '--strict', arguments=['--strict'])
     # A large rotation under NLGEOM is no answer.
     large = text.replace('*STEP\n', '*STEP, NLGEOM\n').replace('1000., 0.3', '20., 0.3')

@@ -113,7 +113,11 @@ namespace Signorini
     std::string        name;
     const DeckSurface *slave = nullptr, *master = nullptr;
     bool               is_tied = false;
-    DeckPlace          place;
+    /// Nodes of the slave surface that are moved onto the other one at first: those with smaller gaps
+    /// (length), or these.
+    std::optional<double>     adjust;
+    std::vector<unsigned int> adjusted_nodes;
+    DeckPlace                 place;
   };
 
   /// What a deck says beside its mesh, as plain data. What differs from the deck is in the remarks. Errors:

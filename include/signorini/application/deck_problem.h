@@ -37,11 +37,14 @@ namespace Signorini
     long largest_node_label = 0;
     /// What was taken differently, what was passed over.
     std::vector<std::string> remarks;
+    /// The load steps; step k (from 0) ends at t = (k + 1) / n_steps.
+    unsigned int n_steps = 1;
     /// Whether the deck asks for geometrical nonlinearity.
     bool nonlinear_geometry = false;
   };
 
-  /// The problem of the last step. The same on all ranks. Errors: InputError with file and line.
+  /// The problem of its steps, where they hold the same directions, or else of the last one. The same on all
+  /// ranks. Errors: InputError with file and line.
   DeckProblem make_deck_problem(const DeckModel &model);
 } // namespace Signorini
 

@@ -227,13 +227,13 @@ namespace Signorini
     RawSets                                                    raw_node_sets, raw_element_sets;
     std::vector<DeckSet>                                       node_set_list, element_set_list;
     std::vector<DeckSurface>                                   surface_list;
-    std::vector<unsigned int>                                  surface_instance;
-    std::vector<const DeckKeyword *>                           surface_keywords;
-    std::vector<Other>                                         element_keywords;
-    std::map<std::string, unsigned int>                        surface_index;
-    std::vector<Other>                                         other_list;
-    std::vector<std::string>                                   remark_list;
-    long                                                       largest_node = 0, largest_element = 0;
+    /// Of each keyword the surface that it makes or adds to.
+    std::vector<std::pair<unsigned int, Other>> surface_keywords;
+    std::vector<Other>                          element_keywords;
+    std::map<std::string, unsigned int>         surface_index;
+    std::vector<Other>                          other_list;
+    std::vector<std::string>                    remark_list;
+    long                                        largest_node = 0, largest_element = 0;
     /// Of nodes that belong to the assembly itself.
     long assembly_offset = 0;
   };

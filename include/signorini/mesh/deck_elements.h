@@ -11,6 +11,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 namespace Signorini
@@ -67,8 +68,9 @@ namespace Signorini
   {
   public:
     /// @param elements indices; @param volumes for each of them the index of its volume name
+    /// @param part of connected_deck_elements()
     DeckCells(const Deck &deck, const std::vector<unsigned int> &elements,
-              const std::vector<unsigned int> &volumes);
+              const std::vector<unsigned int> &volumes, const std::vector<unsigned int> &part);
 
     /// Vertices and cells; no faces. May be taken out.
     VolumeMesh mesh;
@@ -87,6 +89,12 @@ namespace Signorini
     const std::vector<unsigned int> &support(const unsigned int vertex) const
     {
       return vertex_support[vertex];
+    }
+
+    /// The vertices that are centres of faces and cells.
+    const std::vector<unsigned int> &centres() const
+    {
+      return centre_vertices;
     }
 
     /// Whether it has an element.
@@ -125,7 +133,8 @@ namespace Signorini
 
     const Deck                                       &deck;
     std::vector<unsigned int>                         cell_element;
-    std::vector<unsigned int>                         vertex_of_node;
+    std::unordered_map<unsigned int, unsigned int>    vertex_of_node;
+    std::vector<unsigned int>                         centre_vertices;
     std::vector<std::vector<unsigned int>>            vertex_support;
     std::map<std::vector<unsigned int>, unsigned int> centre_of_face;
     /// By element: whether it became tetrahedra.

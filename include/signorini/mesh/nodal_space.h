@@ -172,8 +172,8 @@ namespace Signorini
       return start_vertex;
     }
 
-    /// By set of nodes: its owned nodes that are not hanging, ascending. New nodes on an edge, a face or in a
-    /// cell of the start mesh belong to the sets to which all of its vertices belong.
+    /// By set of nodes: its nodes at the cells of this rank that are not hanging, ascending. New nodes on an
+    /// edge, a face or in a cell of the start mesh belong to the sets to which all of its vertices belong.
     const std::vector<std::vector<NodeIndex>> &node_sets() const
     {
       return nodes_of_set;
