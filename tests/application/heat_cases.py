@@ -197,7 +197,7 @@ subsection Body bolt
   set Mesh = bolt.msh
   set Young modulus = 2e5
   set Dirichlet = symmetry x: (0, *, *); symmetry y: (*, 0, *)
-  set Pretension = shank: axis (0, 0, 2), force 5000*t
+  set Pretension = shank: axis (0, 0, 2), force 500*t
 end
 subsection Body upper
   set Mesh = upper.msh
@@ -263,21 +263,21 @@ def pretension(p):
             check(s['converged'], f'{settings}: not converged')
             bolt = s['pretension'][0]
             print(settings, bolt, 'joint', s['pairs'][0]['force'][2])
-            near(bolt['force'], 5000, 1e-6, f'{settings}: section force')
+            near(bolt['force'], 500, 1e-6, f'{settings}: section force')
             near(abs(s['pairs'][0]['force'][2]), bolt['force'], 1e-6, f'{settings}: clamping force')
             near(s['pairs'][0]['load'], bolt['force'], 1e-6, f'{settings}: clamping force')
             near(bolt['shortening'], 4 * bolt['strain'], 1e-10, f'{settings}: shortening')
             # Plates give way.
-            check(bolt['strain'] > 5000 / 2e5, f'{settings}: strain {bolt["strain"]}')
+            check(bolt['strain'] > 500 / 2e5, f'{settings}: strain {bolt["strain"]}')
             check(len(bolt['iterations']) <= 6, f'{settings}: {bolt["iterations"]}')
             check(not s['certificate']['objections'], f'{settings}: {s["certificate"]["objections"]}')
             with open(os.path.join(out, 'signorini.log')) as f:
-                check('pretension bolt: shank: section force 5000' in f.read(), 'no line of the bolt at the end')
+                check('pretension bolt: shank: section force 500' in f.read(), 'no line of the bolt at the end')
             if 'Load steps=3' in settings:
                 with open(os.path.join(out, 'curve.csv')) as f:
                     for row in csv.DictReader(f):
-                        near(float(row['bolt: shank: section force']), 5000 * float(row['t']), 1e-6, 'section force of a step')
-                        near(abs(float(row['joint: force z'])), 5000 * float(row['t']), 1e-6, 'clamping force of a step')
+                        near(float(row['bolt: shank: section force']), 500 * float(row['t']), 1e-6, 'section force of a step')
+                        near(abs(float(row['joint: force z'])), 500 * float(row['t']), 1e-6, 'clamping force of a step')
             # Other plates were softer in compression: the strain at which the section would carry the force between rigid plates is known.
 
 
