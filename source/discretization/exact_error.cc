@@ -34,13 +34,14 @@ namespace Signorini
 
 
 
-  ExactError compute_exact_error(const Bodies &bodies, const unsigned int body, const NodalSpace &space,
+  ExactError compute_exact_error(const Bodies &bodies, const Loads &loads, const NodalSpace &space,
                                  const NodePartition &partition, const Vector &displacement,
-                                 const VectorField &exact)
+                                 const KnownDisplacement &known_displacement)
   {
-    std::array<double, 4> sums = {{0., 0., 0., 0.}};
+    const VectorField    &exact = known_displacement.displacement;
+    std::array<double, 4> sums  = {{0., 0., 0., 0.}};
     for (const NodalSpace::Cell &cell : space.cells())
-      if (cell.is_owned && bodies.body_of_material(cell.material) == body)
+      if (cell.is_owned && bodies.body_of_material(cell.material) == known_displacement.body)
         {
           const Element                                element(space, cell);
           const auto                                   nodes    = space.nodes(cell);
@@ -49,15 +50,16 @@ namespace Signorini
           for (unsigned int v = 0; v < nodes.size(); ++v)
             for (unsigned int c = 0; c < dim; ++c)
               u[v][c] = displacement.local_element(dim * partition.to_local(nodes[v]) + c);
-          const CellDisplacement discrete(element, material, u);
+          const CellDisplacement discrete(element, material, u, loads.eigenstrain(space, cell));
           for (unsigned int q = 0; q < element.n_points(); ++q)
             {
               const auto [weight, point]   = element.volume_element(q);
               const auto    shape          = element.shape_at_point(q);
               const Vector3 known          = exact(point);
-              const Block   known_gradient = gradient_of(exact, point, 1e-3 * element.diameter());
-              Vector3       error          = known;
-              const Block   gradient       = known_gradient - discrete.gradient(element.reference_point(q));
+              const Block   known_gradient = gradient_of(exact, point, 1e-3 * element.diameter()) -
+                                           discrete.eigenstrain.value(shape);
+              Vector3     error    = known;
+              const Block gradient = known_gradient - discrete.elastic_gradient(element.reference_point(q));
               for (unsigned int v = 0; v < nodes.size(); ++v)
                 error -= shape[v] * u[v];
               sums[0] += weight * error.norm_square();

@@ -132,7 +132,11 @@ def shrink_fit(p):
         near(pair[key], expected, .01, f'shaft: {key}')
     check(len(curve) == 4, 'four steps')
     for row in curve:
-        near(row['fit: largest pressure'], row['t'] * pair['max_pressure'], 1e-8, f'pressure at t = {row["t"]}')
+        near(row['fit: largest pressure'], row['t'] * expected, .01, f'pressure at t = {row["t"]}')
+    # Contact does not change: the pressure is a line, but for what the gap of the meshes is off at the start.
+    steps = [row['fit: largest pressure'] for row in curve]
+    for k in (1, 2):
+        near(2 * steps[k], steps[k - 1] + steps[k + 1], 1e-9, f'pressure at t = {curve[k]["t"]}')
     s = p.solve(SHELLS, 'Body inner/Pressures=', 'Body inner/Thermal expansion=1e-5', 'Body inner/Temperature=100', 'Refinement/Global cycles=2')
     certificate(s, 1e-7)
     expected = 1e-3 / (shell_compliance(1000, .3, 1.5, 1) + shell_compliance(2000, .25, 1.5, 2.5))
