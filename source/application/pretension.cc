@@ -76,8 +76,8 @@ namespace Signorini
               std::array<Vector3, CellShape::max_vertices> u;
               for (unsigned int v = 0; v < cell.n_vertices && displacement.size() > 0; ++v)
                 for (unsigned int c = 0; c < dim; ++c)
-                  u[v][c] = displacement.local_element(
-                      dim * d.partition().to_local(space.nodes(cell)[v]) + c);
+                  u[v][c] =
+                      displacement.local_element(dim * d.partition().to_local(space.nodes(cell)[v]) + c);
               add_cell(shanks[i], bolts[i],
                        CellDisplacement(Element(space, cell), model.bodies().material(cell.material), u,
                                         model.loads().eigenstrain(space, cell)));
@@ -154,7 +154,7 @@ namespace Signorini
             forces[i]           = wanted - present[i];
             // Bolts that should be loose are compared with the others.
             const double scale = wanted > 0. ? wanted : largest;
-            is_small = is_small && std::abs(forces[i]) <= PretensionRule().tolerance * scale;
+            is_small           = is_small && std::abs(forces[i]) <= PretensionRule().tolerance * scale;
           }
       }
     };
@@ -233,6 +233,7 @@ namespace Signorini
           }
         before    = solution.displacement;
         last_step = step;
+        journal.show("tightening bolts");
         solver.change_loads(d, start);
         solution = solver.solve(d);
         iterations.push_back(solution.report.iterations);
@@ -251,7 +252,6 @@ namespace Signorini
                                " solutions: does anything hold the ends of the bolts?";
       }
     solution.pretensions = results_of(model, shanks, iterations);
-    journal.show("pretension");
     return solution;
   }
 } // namespace Signorini

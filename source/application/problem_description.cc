@@ -110,6 +110,11 @@ namespace Signorini
             describe_load(out, model, d, one, "body " + bodies.body_name(b) + ", volume");
             one.volume_forces[b] = {};
           }
+      for (const Pretension &bolt : model.loads().pretensions)
+        out << "pretension of body " << bodies.body_name(bolt.body) << ", " << bolt.name << ": section force "
+            << bolt.force(Point<3>(), model.loads().time) << " along " << text(bolt.axis) << std::endl;
+      if (!model.loads().eigenstrains.empty())
+        out << "temperatures or initial strains, which have no resultant" << std::endl;
       const auto all = load_resultants(model, d, model.loads());
       for (unsigned int b = 0; b < bodies.n_bodies(); ++b)
         out << "all loads on body " << bodies.body_name(b) << ": force " << text(all[b].force)

@@ -115,8 +115,7 @@ namespace Signorini
   void LoadParameters::parse_pretensions(LoadDefinition &result, const std::string &section) const
   {
     for (const auto &[name, text] : split_named_entries(pretension, section + "Pretension"))
-      result.pretensions.push_back(
-          parse_pretension(name, text, section + "Pretension, \"" + name + "\""));
+      result.pretensions.push_back(parse_pretension(name, text, section + "Pretension, \"" + name + "\""));
   }
 
 
@@ -153,8 +152,7 @@ namespace Signorini
   {
     for (const LoadDefinition::Pretension &bolt : definition.pretensions)
       {
-        const std::string where =
-            "Body " + bodies.body_name(body) + "/Pretension, \"" + bolt.name + "\"";
+        const std::string where = "Body " + bodies.body_name(body) + "/Pretension, \"" + bolt.name + "\"";
         if (!(bolt.axis.norm() > 0.) || !std::isfinite(bolt.axis.norm()))
           throw InputError(where + ": the axis must not be zero.");
         if (!bolt.force)
