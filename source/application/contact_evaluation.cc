@@ -334,8 +334,8 @@ namespace Signorini
     Vector         residual =
         physical_residual(model.bodies(), d.nodal(), d.partition(), model.loads(), solution.displacement);
     Equilibrium result;
-    result.largest_nodal_force                   = residual.l2_norm();
-    const Vector initial = model.loads().has_eigenstrains() ? eigenstrain_forces(model, d) : Vector();
+    result.largest_nodal_force = residual.l2_norm();
+    const Vector initial       = model.loads().has_eigenstrains() ? eigenstrain_forces(model, d) : Vector();
     if (model.loads().has_eigenstrains())
       result.largest_nodal_force = std::max(result.largest_nodal_force, initial.l2_norm());
     const std::vector<unsigned int> body_of_node = bodies_of_nodes(d, model.bodies());

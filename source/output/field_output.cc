@@ -295,9 +295,8 @@ namespace Signorini
 
 
 
-  std::vector<OutputField>
-  nodal_stress(const NodalSpace &space, const std::vector<double> &displacement, const Bodies &bodies,
-               const Loads &loads)
+  std::vector<OutputField> nodal_stress(const NodalSpace &space, const std::vector<double> &displacement,
+                                        const Bodies &bodies, const Loads &loads)
   {
     NodalMeans means(space);
     for (const NodalSpace::Cell &cell : space.cells())

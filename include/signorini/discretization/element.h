@@ -81,7 +81,8 @@ namespace Signorini
     Hexahedron::Corners corners;
   };
 
-  /// The strain without stress in a cell: symmetric values at the vertices, in between by the shape functions.
+  /// The strain without stress in a cell: symmetric values at the vertices, in between by the shape
+  /// functions.
   struct CellEigenstrain
   {
     bool                                       is_zero = true;
@@ -135,7 +136,7 @@ namespace Signorini
     bool plain_gradient(Block &gradient, const dealii::Point<3> &reference) const;
 
     bool   has_mean_dilatation = false;
-    double mean_dilatation     = 0., mean_of_eigenstrain = 0.;
+    double mean_dilatation = 0., mean_of_eigenstrain = 0.;
   };
 
   /// A face of a cell: its corners (in the order of CellShape::face), and Gauss points (2x2 on

@@ -266,8 +266,8 @@ namespace Signorini
     std::vector<BodyPart>                                            parts;
     std::vector<std::vector<std::string>>                            boundaries;
     /// By body: names of its volumes.
-    std::vector<std::vector<std::string>>                            volumes;
-    std::vector<dealii::types::boundary_id>                          first_boundary;
+    std::vector<std::vector<std::string>>   volumes;
+    std::vector<dealii::types::boundary_id> first_boundary;
     /// By body: groups of boundaries by name, as numbers of its boundaries.
     std::vector<std::vector<std::pair<std::string, std::vector<unsigned int>>>> groups;
     /// By body: number of its first vertex among those of all, and numbers of its sets of nodes.

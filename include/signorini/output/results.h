@@ -214,7 +214,7 @@ namespace Signorini
     ConvergenceReport report;
     std::size_t       active_nodes = 0;
     /// As in Results.
-    std::vector<PairResult>     pairs;
+    std::vector<PairResult>       pairs;
     std::vector<BoundaryResult>   boundaries;
     std::vector<ProbeResult>      probes;
     std::vector<PretensionResult> pretensions;
@@ -230,13 +230,13 @@ namespace Signorini
     bool   converged = true;
     double wall_time = 0., peak_memory = 0.;
     /// A line for each mesh, and the results on the last one.
-    std::vector<CycleResult>    cycles;
-    std::vector<PairResult>     pairs;
-    std::vector<MappingResult>  mappings;
-    std::vector<BoundaryResult> boundaries;
-    std::vector<BodyResult>     bodies;
-    std::vector<ProbeResult>    probes;
-    Certificate                 certificate;
+    std::vector<CycleResult>      cycles;
+    std::vector<PairResult>       pairs;
+    std::vector<MappingResult>    mappings;
+    std::vector<BoundaryResult>   boundaries;
+    std::vector<BodyResult>       bodies;
+    std::vector<ProbeResult>      probes;
+    Certificate                   certificate;
     std::vector<PretensionResult> pretensions;
     /// Load steps, if there were any; the last is what is in the rest of the results.
     std::vector<StepResult> steps;

@@ -53,9 +53,8 @@ TEST(NodalStress, OfTheMeanDilatation)
                 change[node] += (element[2] - element[0]) / 2e-4;
               }
           }
-      const auto fields =
-          nodal_stress(space, u, bodies, Loads());
-      double worst = 0., largest = 0.;
+      const auto fields = nodal_stress(space, u, bodies, Loads());
+      double     worst = 0., largest = 0.;
       for (const NodeIndex node : space.owned())
         {
           const double *s        = fields[0].values.data() + 6 * space.relevant().index_within_set(node);
