@@ -65,8 +65,8 @@ namespace Signorini
         const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
         const double                        left    = elapsed.count() * std::max(0., all - done) / done;
         text << "   about "
-             << (left < 100. ? std::to_string(std::lround(left)) + " s" :
-                               std::to_string(std::lround(left / 60.)) + " min")
+             << (left < 100. ? std::to_string(std::lround(left)) + " s"
+                             : std::to_string(std::lround(left / 60.)) + " min")
              << " left";
       }
     dealii::Utilities::System::MemoryStats memory;
