@@ -113,7 +113,7 @@ namespace
     for (const std::string &text : model.bodies().notes())
       journal.note(text);
     model.note_movement(journal);
-    model.refine_globally(file.n_initial_refinements());
+    model.refine_globally(file.initial_levels());
     return model;
   }
 

@@ -5,9 +5,7 @@
 
 #include <signorini/algebra/input_error.h>
 #include <signorini/application/contact_checks.h>
-#include <signorini/mortar/geometric_penetration.h>
-
-#include <Eigen/Dense>
+#include <signorini/mortar/surface_values.h>
 
 #include <iomanip>
 
@@ -23,8 +21,13 @@ namespace Signorini
       /// Covered area whose multipliers other pairs take away, as a share of the covered area. A strip of one
       /// face between two neighbours on one surface is less on all but the coarsest meshes.
       double lost_share = .25;
-      /// Initial overlap as a share of the narrowest extent of a body. Linear elasticity ends at a tenth.
-      double overlap = .5;
+      /// Initial overlap as a share of the extent of a body along the normal: what is no interference fit, and what is
+      /// taken for one unless it is asked for. Fits of shafts are a thousandth; linear elasticity ends at a
+      /// tenth.
+      double overlap = .5, small_overlap = .01;
+      /// Product of the normals from where on surfaces do not face each other: 60 degrees, as for obstacles.
+      /// Gaps at grazing angles are no distances.
+      double facing = -.5;
       /// What prescribed displacements add to the overlap of two surfaces, as a share of the largest of them:
       /// more than different meshes make of the same field.
       double held_overlap = .02;
@@ -296,79 +299,115 @@ namespace Signorini
 
   namespace
   {
-    double width_of(const unsigned int body, const Bodies &bodies, const NodalSpace &space)
+    /// The extent of a body along a direction (length).
+    double width_of(const unsigned int body, const Bodies &bodies, const NodalSpace &space,
+                    const Vector3 &direction)
     {
-      const MPI_Comm comm = space.communicator();
-      // The extents along the principal axes of the nodes.
-      std::set<NodeIndex> nodes;
+      double low = std::numeric_limits<double>::max(), high = -low;
       for (const NodalSpace::Cell &cell : space.cells())
         if (cell.is_owned && bodies.body_of_material(cell.material) == body)
-          nodes.insert(space.nodes(cell).begin(), space.nodes(cell).end());
-      const double    n        = Utilities::MPI::sum(static_cast<double>(nodes.size()), comm);
-      Eigen::Vector3d centre   = Eigen::Vector3d::Zero();
-      const auto      position = [&](const NodeIndex node) {
-        const Point<3> &x = space.position(node);
-        return Eigen::Vector3d(x[0], x[1], x[2]);
-      };
-      for (const NodeIndex node : nodes)
-        centre += position(node) / n;
-      for (unsigned int c = 0; c < dim; ++c)
-        centre[c] = Utilities::MPI::sum(centre[c], comm);
-      Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
-      for (const NodeIndex node : nodes)
-        second += (position(node) - centre) * (position(node) - centre).transpose();
-      for (unsigned int i = 0; i < 9; ++i)
-        second.data()[i] = Utilities::MPI::sum(second.data()[i], comm);
-      const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(second);
-      double                                               width = std::numeric_limits<double>::max();
-      for (unsigned int i = 0; i < 3; ++i)
-        {
-          double low = std::numeric_limits<double>::max(), high = -low;
-          for (const NodeIndex node : nodes)
+          for (const NodeIndex node : space.nodes(cell))
             {
-              const double x = eigen.eigenvectors().col(i).dot(position(node) - centre);
+              const double x = direction * space.position(node);
               low            = std::min(low, x);
               high           = std::max(high, x);
             }
-          width = std::min(width, Utilities::MPI::max(high, comm) - Utilities::MPI::min(low, comm));
-        }
-      return width;
-    }
-
-    // Weighted gaps may be far below all gaps where the surfaces bend within a face: what counts is the gap
-    // itself.
-    double initial_overlap(const ContactPair &pair, const MPI_Comm comm)
-    {
-      const ContactSurface      &non = pair.nonmortar.surface, &mor = pair.mortar.surface;
-      const std::vector<Vector3> at_rest(non.mesh.vertices.size()), mortar_at_rest(mor.mesh.vertices.size());
-      const auto                 penetration =
-          pair.obstacle ? sample_rigid_penetration(non, *pair.obstacle, at_rest, comm)
-                                        : sample_geometric_penetration({non, mor, pair.mapping->overlay()}, at_rest,
-                                                                       mortar_at_rest, pair.prescribed_gap, comm);
-      return -penetration.min_initial_gap;
+      const MPI_Comm comm = space.communicator();
+      return Utilities::MPI::max(high, comm) - Utilities::MPI::min(low, comm);
     }
   } // namespace
 
 
 
-  void refuse_large_overlap(const CoupledPairs &coupled, const ContactPair &pair, const double overlap)
+  namespace
   {
-    const Bodies     &bodies = coupled.model.bodies();
-    const NodalSpace &space  = coupled.constrained.nodal();
-    for (const unsigned int body : {pair.nonmortar.body, pair.mortar.body})
-      if (body != numbers::invalid_unsigned_int)
-        if (const double limit = ContactRule().overlap * width_of(body, bodies, space);
-            overlap > limit && initial_overlap(pair, space.communicator()) > limit)
+    /// Calls f(vertex or point of the nonmortar surface, its normal, gap) where surfaces face each other: at the
+    /// corners of the overlay cells of this rank.
+    template <typename F>
+    void for_each_gap(const ContactPair &pair, const F &f)
+    {
+      const ContactSurface &non = pair.nonmortar.surface, &mor = pair.mortar.surface;
+      if (pair.obstacle)
+        for (std::size_t v = 0; v < non.mesh.vertices.size(); ++v)
           {
-            std::ostringstream text;
-            text << "Pair " << pair.name << ": \"" << pair.nonmortar.name << "\" and \"" << pair.mortar.name
-                 << "\" overlap by " << overlap << " at the beginning, and body " << bodies.body_name(body)
-                 << " is only " << limit / ContactRule().overlap
-                 << " wide. Check the units and the place of the bodies (Body/Mesh, "
-                 << "Translation, Rotation), the boundaries of the pair (First, Second)"
-                 << (pair.obstacle ? ", the obstacle" : "")
-                 << (pair.prescribed_gap ? ", and \"Initial gap\"." : ".");
-            throw InputError(text.str());
+            const Point<3> &x = non.mesh.vertices[v];
+            const Vector3  &n = non.mesh.vertex_normals[v];
+            if (double gap; pair.obstacle->gap(gap, x, n, surface_size(non)))
+              f(x, n, gap);
           }
+      if (!pair.mapping)
+        return;
+      const SurfaceValues on_nonmortar(non), on_mortar(mor);
+      for (const OverlayTriangle &cell : pair.mapping->overlay())
+        for (unsigned int c = 0; c < 3; ++c)
+          {
+            std::array<double, 3> corner = {{0., 0., 0.}};
+            corner[c]                    = 1.;
+            const Point<3> x     = on_nonmortar.point(cell.nonmortar_triangle, cell.nonmortar[c]);
+            const Point<3> image = on_mortar.point(cell.mortar_triangle, cell.mortar[c]);
+            const Vector3  n     = on_nonmortar.normal(cell.nonmortar_triangle, cell.nonmortar[c]);
+            const Vector3  other = on_mortar.normal(cell.mortar_triangle, cell.mortar[c]);
+            if (pair.prescribed_gap)
+              f(x, n, pair.prescribed_gap(x));
+            else if (n * other < ContactRule().facing)
+              f(x, n, initial_gap(non, mor, cell, corner, x, image) * n);
+          }
+    }
+  } // namespace
+
+
+
+  SmallestGap smallest_initial_gap(const ContactPair &pair, const MPI_Comm comm)
+  {
+    SmallestGap result;
+    for_each_gap(pair, [&](const Point<3> &x, const Vector3 &n, const double gap) {
+      if (gap < result.value)
+        result = {gap, x, n};
+    });
+    const auto all = Utilities::MPI::all_gather(comm, std::make_tuple(result.value, result.place, result.normal));
+    for (const auto &[value, place, normal] : all)
+      if (value < result.value)
+        result = {value, place, normal};
+    // The same on all ranks, also where several of them have it.
+    for (const auto &[value, place, normal] : all)
+      if (value == result.value)
+        return {value, place, normal};
+    return result;
+  }
+
+
+
+  void refuse_large_overlap(const CoupledPairs &coupled, const unsigned int p)
+  {
+    const ContactPair    &pair   = coupled.pairs[p];
+    const PairDefinition &wanted = coupled.model.pairs()[p].definition;
+    const Bodies         &bodies = coupled.model.bodies();
+    const NodalSpace     &space  = coupled.constrained.nodal();
+    // Weighted gaps may be far below all gaps where the surfaces bend within a face: what counts is the gap
+    // itself.
+    const SmallestGap gap = smallest_initial_gap(pair, space.communicator());
+    if (!(gap.value < 0.))
+      return;
+    const double share = wanted.penetration == InitialPenetration::automatic ? ContactRule().small_overlap :
+                                                                               ContactRule().overlap;
+    for (const unsigned int body : {pair.nonmortar.body, pair.mortar.body})
+      {
+        if (body == numbers::invalid_unsigned_int)
+          continue;
+        const double width = width_of(body, bodies, space, gap.normal);
+        if (-gap.value <= share * width)
+          continue;
+        std::ostringstream text;
+        text << "Pair " << pair.name << ": \"" << pair.nonmortar.name << "\" and \"" << pair.mortar.name
+             << "\" overlap by " << -gap.value << " at the beginning, most at (" << gap.place << "), and body "
+             << bodies.body_name(body) << " is only " << width
+             << " wide there. Check the units and the place of the bodies (Body/Mesh, Translation, Rotation), the "
+                "boundaries of the pair (First, Second)"
+             << (pair.obstacle ? ", the obstacle" : "")
+             << (pair.prescribed_gap ? ", and \"Initial gap\"." : ".");
+        if (-gap.value <= ContactRule().overlap * width)
+          text << " If an interference fit is meant, write \"Initial penetration = resolve\".";
+        throw InputError(text.str());
+      }
   }
 } // namespace Signorini

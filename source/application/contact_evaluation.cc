@@ -187,6 +187,7 @@ namespace Signorini
         const auto [least, largest] = std::minmax_element(stress.pressure.begin(), stress.pressure.end());
         result.min_pressure         = *least;
         result.max_pressure         = *largest;
+        result.max_pressure_at      = coupling.positions[largest - stress.pressure.begin()];
       }
     const std::vector<bool> is_active = sum_active(result, pair, coupling, stress);
     const ContactForces     forces =

@@ -88,12 +88,16 @@ namespace Signorini
 
 
 
-  void ContactModel::refine_globally(const unsigned int times)
+  void ContactModel::refine_globally(const std::vector<unsigned int> &times)
   {
-    for (unsigned int i = 0; i < times; ++i)
+    AssertDimension(times.size(), the_bodies.n_bodies());
+    for (unsigned int i = 0; i < *std::max_element(times.begin(), times.end()); ++i)
       {
-        const NodalSpace space(communicator(), the_bodies.mesh());
-        refine(space, std::vector<bool>(space.cells().size(), true));
+        const NodalSpace  space(communicator(), the_bodies.mesh());
+        std::vector<bool> marked;
+        for (const NodalSpace::Cell &cell : space.cells())
+          marked.push_back(i < times[the_bodies.body_of_material(cell.material)]);
+        refine(space, marked);
       }
   }
 

@@ -316,7 +316,7 @@ namespace Signorini
       // Faceted curved surfaces overlap by rounding and by their sagitta; report what exceeds rounding.
       if (!(smallest < -1e-12 * size) || coupled.pairs[p].is_tied)
         return;
-      refuse_large_overlap(coupled, coupled.pairs[p], -smallest);
+      refuse_large_overlap(coupled, p);
       std::ostringstream text;
       text << "pair " << definition.name << ": initial penetration of " << -smallest << " (weighted gap)";
       if (definition.penetration == InitialPenetration::refuse)

@@ -1,4 +1,5 @@
 signorini_add_layer(application
+  body_evaluation.cc
   certificate.cc
   constrained_space.cc
   contact_checks.cc

@@ -62,7 +62,8 @@ namespace Signorini
     std::string describe(const CycleResult &result, const bool has_indicator)
     {
       std::ostringstream line;
-      line << "  " << result.nonlinear.iterations << " iterations";
+      line << "cycle " << result.cycle << ": " << result.cells << " cells, " << result.dofs << " unknowns, "
+           << result.nonlinear.iterations << " iterations";
       if (result.has_linear)
         line << " (linear multigrid " << result.linear.iterations << ", with conjugate gradients "
              << result.linear_cg.iterations << ", difference " << result.difference << ")";
@@ -70,6 +71,20 @@ namespace Signorini
       if (has_indicator)
         line << ", error indicator " << result.indicator;
       return line.str();
+    }
+
+    /// After an iteration that did not converge.
+    std::string what_may_help(const SolverParameters &solver)
+    {
+      std::string text = " What may help:";
+      if (solver.method != SolverMethod::accelerated)
+        text += " Solver/Method = accelerated;";
+      else if (!solver.safety_net)
+        text += " Solver/Safety net = true;";
+      if (solver.max_iterations < 100)
+        text += " more Maximal iterations;";
+      return text + " the softer body as Pair/Nonmortar; cells that are less stretched (contrib/plots/render.py shows "
+                    "them); a condition that stops bodies from sliding where only contact holds them.";
     }
 
     std::string describe(const SafetyNetReport &net)
@@ -149,7 +164,7 @@ namespace Signorini
         if (!model.refine(old, refinement.is_adaptive(cycle)
                                    ? mark_adaptively(old, indicator, last.results.cycles.back(), cycle,
                                                      parameters.refinement, journal)
-                                   : refinement.mark(old, cycle)))
+                                   : refinement.mark(model.bodies(), old, cycle)))
           return false;
         model.note_movement(journal);
         carry_over(std::make_shared<const ConstrainedSpace>(model, is_adaptive));
@@ -176,8 +191,10 @@ namespace Signorini
         result.movement = model.bodies().movement();
         result.cells    = space->nodal().n_global_cells();
         result.dofs     = dim * space->nodal().n_conforming_nodes();
-        journal.print("cycle " + std::to_string(cycle) + ": " + std::to_string(result.cells) + " cells, " +
-                      std::to_string(result.dofs) + " dofs");
+        expect(result);
+        if (journal.wants_iterations())
+          journal.print("cycle " + std::to_string(cycle) + ": " + std::to_string(result.cells) + " cells, " +
+                        std::to_string(result.dofs) + " unknowns");
         journal.show("contact mapping and mortar integrals");
         last.discretization     = discretize(model, space, turned, cycle, journal);
         SolveParameters how_to  = parameters.solve;
@@ -188,7 +205,8 @@ namespace Signorini
         const ConvergenceReport &report = last.solution.report;
         last.results.converged          = last.results.converged && report.converged;
         if (!report.converged || report.stagnated)
-          journal.note("cycle " + std::to_string(cycle) + ": " + report.note + ".");
+          journal.note("cycle " + std::to_string(cycle) + ": " + report.note + "." +
+                       (report.converged ? "" : what_may_help(parameters.solve.solver)));
         if (report.safety_net.after > 0)
           journal.note("cycle " + std::to_string(cycle) + ": " + describe(report.safety_net));
         if (report.needed_patches && report.before_patches > 0)
@@ -204,6 +222,23 @@ namespace Signorini
         result.times = journal.take_times();
         journal.print(describe(result, is_adaptive));
         last.results.cycles.push_back(result);
+      }
+
+      /// Work is in proportion to the unknowns; those of the meshes to come are guessed.
+      void expect(const CycleResult &present)
+      {
+        double before = 0., next = static_cast<double>(present.dofs), growth = 2.;
+        for (const CycleResult &cycle : last.results.cycles)
+          before += static_cast<double>(cycle.dofs);
+        if (!last.results.cycles.empty())
+          growth = next / static_cast<double>(last.results.cycles.back().dofs);
+        double all = before + next;
+        for (unsigned int cycle = present.cycle + 1; cycle <= refinement.n_cycles(); ++cycle)
+          {
+            next *= refinement.is_global(cycle) ? 8. : growth;
+            all += next;
+          }
+        journal.expect(before, static_cast<double>(present.dofs), all);
       }
 
       void estimate(CycleResult &result)
@@ -285,7 +320,7 @@ namespace Signorini
     const Refinement refinement(parameters.refinement);
     auto             space = std::make_shared<const ConstrainedSpace>(model);
     for (unsigned int c = 1; c <= refinement.n_cycles(); ++c)
-      if (!refinement.is_adaptive(c) && model.refine(space->nodal(), refinement.mark(space->nodal(), c)))
+      if (!refinement.is_adaptive(c) && model.refine(space->nodal(), refinement.mark(model.bodies(), space->nodal(), c)))
         {
           model.note_movement(journal);
           space = std::make_shared<const ConstrainedSpace>(model);

@@ -5,6 +5,7 @@
 #include <signorini/algebra/parameter_choice.h>
 #include <signorini/application/parameters.h>
 #include <signorini/mesh/expression.h>
+#include <signorini/mesh/size_limit.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -59,9 +60,12 @@ namespace Signorini
         "smooth surface, and its facets elsewhere. smooth: curved patches wherever there is no boundary "
         "shape. faceted: the facets of the mesh. Flat parts and creases stay as they are.");
     add_choice(prm, "Initial penetration", penetration,
-               {{InitialPenetration::resolve, "resolve"}, {InitialPenetration::refuse, "refuse"}},
-               "What to do where the surfaces overlap at the start: resolve it as an interference fit, or "
-               "refuse to compute.");
+               {{InitialPenetration::automatic, "automatic"},
+                {InitialPenetration::resolve, "resolve"},
+                {InitialPenetration::refuse, "refuse"}},
+               "What to do where the surfaces overlap at the start. resolve: an interference fit, the bodies "
+               "push each other away. refuse: do not compute. automatic: resolve what is at most a percent "
+               "of the extents of both bodies along the normal, refuse what is more.");
     prm.add_parameter("First region", first_region,
                       "Expression in x, y, z that is positive where the first surface may touch (a face "
                       "belongs to it if a corner or its centre does); "
@@ -120,7 +124,8 @@ namespace Signorini
   {
     prm.add_parameter("Folder", folder, "Where the results go; --output on the command line overrides it.");
     prm.add_parameter("Verbosity", verbosity,
-                      "0: errors only, 1: a line per cycle, 2: also a line per iteration.",
+                      "0: errors only, 1: a line per cycle and the results in words, 2: also a line per "
+                      "iteration, the table of all cycles and the whole certificate.",
                       Patterns::Integer(0, 2));
     prm.add_parameter("Bodies", bodies, "Write the bodies for ParaView (.pvtu).");
     prm.add_parameter("Contact surfaces", surfaces, "Write the contact surfaces for ParaView (.pvtu).");
@@ -144,6 +149,11 @@ namespace Signorini
         {
           if (name.empty())
             continue;
+          // They are parts of file names, of "Section/Name" and of "body: boundary".
+          if (const std::size_t bad = name.find_first_of("/\\:;\"\t"); bad != std::string::npos || name[0] == '.')
+            throw InputError(where + ": the name \"" + name + "\" must not " +
+                             (bad != std::string::npos ? "contain \"" + name.substr(bad, 1) + "\"." :
+                                                         std::string("begin with a dot.")));
           if (std::find(result.begin(), result.end(), name) != result.end())
             throw InputError(where + ": the name \"" + name + "\" appears twice.");
           result.push_back(name);
@@ -197,6 +207,8 @@ namespace Signorini
       if (equals == std::string::npos)
         throw InputError("--set \"" + text + "\": expected \"Section/Name=value\".");
       std::vector<std::string> path = Utilities::split_string_list(text.substr(0, equals), '/');
+      if (path.empty() || std::find(path.begin(), path.end(), "") != path.end())
+        throw InputError("--set \"" + text + "\": expected \"Section/Name=value\".");
       const std::string        name = path.back();
       path.pop_back();
       if (skip_unknown && !(path.empty() && (name == "Bodies" || name == "Contact pairs")))
@@ -265,6 +277,9 @@ namespace Signorini
     prm.add_parameter(
         "Probes", probes,
         "Points whose displacement is reported, \"name: (x, y, z); ...\" (length, undeformed).");
+    prm.add_parameter("Initial levels", initial_levels,
+                      "How often the cells of this body are halved before the first cycle; empty for "
+                      "Refinement/Initial global levels.");
     prm.add_parameter("Exact displacement", exact_displacement,
                       "A known solution \"(u, v, w)\" in x, y, z; the distance from it is reported for every "
                       "cycle (L2 and energy norms).");
@@ -375,6 +390,45 @@ namespace Signorini
 
 
 
+  std::vector<unsigned int> ParameterFile::initial_levels() const
+  {
+    std::vector<unsigned int> result;
+    for (const BodySection &section : bodies)
+      {
+        const std::string where = "Body " + section.body.name + "/Initial levels";
+        const std::string text  = Utilities::trim(section.initial_levels);
+        if (text.find_first_not_of("0123456789") != std::string::npos || text.size() > 2 ||
+            (!text.empty() && std::stoi(text) > 20))
+          throw InputError(where + ": \"" + text + "\" should be a number of levels between 0 and 20.");
+        result.push_back(text.empty() ? refinement.initial_global :
+                                        static_cast<unsigned int>(std::stoi(text)));
+      }
+    return result;
+  }
+
+
+
+  void ParameterFile::check_size(const ProblemDefinition &problem, const MPI_Comm communicator) const
+  {
+    const std::vector<unsigned int> levels = initial_levels();
+    const double                    later  = refinement.global_cycles + refinement.final_global_cycles;
+    // Hexahedra count six times as much as tetrahedra.
+    double cells = 0., weighted = 0.;
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+      {
+        const BodyDefinition &body = problem.bodies[b].body;
+        const double n = static_cast<double>(body.mesh.cells.size()) * std::pow(8., levels[b] + later);
+        cells += n;
+        weighted += n * (body.mesh.cells[0].n_vertices == 8 ? 3. : SizeRule().unknowns_per_cell);
+      }
+    refuse_too_many_cells(cells, "The bodies",
+                          "Take fewer levels and cycles (Body/Initial levels, Refinement/Initial global "
+                          "levels, Global cycles, Final global cycles), or a coarser mesh.",
+                          communicator, cells > 0. ? weighted / cells : 0.);
+  }
+
+
+
   ProblemDefinition ParameterFile::problem(const MPI_Comm communicator) const
   {
     ProblemDefinition result;
@@ -388,6 +442,7 @@ namespace Signorini
     for (const BodySection &section : bodies)
       result.bodies.push_back({section.body.definition(communicator, base_folder),
                                section.loads.definition("Body " + section.body.name + "/")});
+    check_size(result, communicator);
     for (const PairParameters &pair : pairs)
       {
         result.pairs.push_back(pair.definition());
@@ -402,6 +457,13 @@ namespace Signorini
   {
     NestedParameters result;
     result.refinement = refinement;
+    result.refinement.initial_of_body = initial_levels();
+    for (const RefinementRegion &region : refinement.regions)
+      if (!region.body.empty() && std::none_of(bodies.begin(), bodies.end(), [&](const BodySection &section) {
+            return section.body.name == region.body;
+          }))
+        throw InputError("Refinement/Regions: there is no body \"" + region.body + "\"; the bodies are " +
+                         top_level.bodies + ".");
     result.solve      = {solver, compare_linear, the_output.measure_sweeps, coarse_levels};
     if (deck_problem)
       result.exact_displacements.resize(deck_problem->problem.bodies.size());

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/application/body_evaluation.h>
+#include <signorini/application/contact_checks.h>
 #include <signorini/application/problem_description.h>
 #include <signorini/discretization/element.h>
 
@@ -51,8 +53,13 @@ namespace Signorini
       return extents;
     }
 
-    void describe_pair(std::ostream &out, const ContactPair &pair, const PairCoupling &coupling)
+    /// Collective.
+    void describe_pair(std::ostream &out, const ContactPair &pair, const PairCoupling &coupling,
+                       const MPI_Comm comm)
     {
+      const SmallestGap smallest = smallest_initial_gap(pair, comm);
+      if (coupling.gaps.empty())
+        return;
       std::vector<double> gaps;
       for (std::size_t row = 0; row < coupling.gaps.size(); ++row)
         gaps.push_back(coupling.mean_gap(row, coupling.gaps[row]));
@@ -60,6 +67,117 @@ namespace Signorini
           << ", " << gaps.size() << " contact nodes, gap " << *std::min_element(gaps.begin(), gaps.end())
           << " to " << *std::max_element(gaps.begin(), gaps.end()) << ", coverage "
           << coupling.covered_area / coupling.area << std::endl;
+      if (smallest.value < std::numeric_limits<double>::max())
+        out << "  smallest distance of the true surfaces: " << smallest.value
+            << (smallest.value < 0. ? " (they overlap)" : "") << ", at (" << smallest.place << ")" << std::endl;
+    }
+
+    std::string text(const Vector3 &v)
+    {
+      std::ostringstream out;
+      out << '(' << v[0] << ", " << v[1] << ", " << v[2] << ')';
+      return out.str();
+    }
+
+    /// Collective. One line for each load that acts on a body.
+    void describe_load(std::ostream &out, const ContactModel &model, const Discretization &d, const Loads &loads,
+                       const std::string &what)
+    {
+      const auto resultants = load_resultants(model, d, loads);
+      for (const Resultant &r : resultants)
+        if (r.force.norm() > 0. || r.moment.norm() > 0.)
+          out << "load on " << what << ": force " << text(r.force) << ", moment about the origin "
+              << text(r.moment) << std::endl;
+    }
+
+    /// Collective.
+    void describe_loads(std::ostream &out, const ContactModel &model, const Discretization &d)
+    {
+      const Bodies &bodies = model.bodies();
+      Loads         one;
+      one.time = model.loads().time;
+      one.volume_forces.resize(bodies.n_bodies());
+      for (const Traction &traction : model.loads().tractions)
+        {
+          one.tractions = {traction};
+          describe_load(out, model, d, one, bodies.boundary_name(*traction.ids.begin()));
+        }
+      one.tractions.clear();
+      for (unsigned int b = 0; b < bodies.n_bodies(); ++b)
+        if (model.loads().volume_forces[b])
+          {
+            one.volume_forces[b] = model.loads().volume_forces[b];
+            describe_load(out, model, d, one, "body " + bodies.body_name(b) + ", volume");
+            one.volume_forces[b] = {};
+          }
+      const auto all = load_resultants(model, d, model.loads());
+      for (unsigned int b = 0; b < bodies.n_bodies(); ++b)
+        out << "all loads on body " << bodies.body_name(b) << ": force " << text(all[b].force)
+            << ", moment about the origin " << text(all[b].moment) << std::endl;
+    }
+
+    /// Prescribed displacements of a condition at its nodes, as far as this rank has them.
+    struct Prescribed
+    {
+      double                n_nodes = 0., n_directions = 0.;
+      std::array<double, 3> low = {{1e300, 1e300, 1e300}}, high = {{-1e300, -1e300, -1e300}};
+    };
+
+    /// Collective.
+    void describe_constraints(std::ostream &out, const ContactModel &model, const Discretization &d)
+    {
+      const MPI_Comm          comm = model.communicator();
+      std::vector<Prescribed> conditions(model.loads().dirichlet.size());
+      for (unsigned int i = 0; i < d.partition().n_owned(); ++i)
+        {
+          const auto r = d.nodal().relevant().index_within_set(d.partition().to_global(i));
+          for (unsigned int c = 0; c < dim; ++c)
+            if (const int k = d.dirichlet().condition[r][c]; k >= 0)
+              {
+                conditions[k].n_nodes += 1.;
+                conditions[k].low[c]  = std::min(conditions[k].low[c], d.dirichlet().value[r][c]);
+                conditions[k].high[c] = std::max(conditions[k].high[c], d.dirichlet().value[r][c]);
+              }
+          if (const auto node = d.dirichlet().held.find(r); node != d.dirichlet().held.end())
+            for (const HeldNode::Hold &hold : node->second.holds)
+              conditions[hold.condition].n_directions += 1.;
+        }
+      for (std::size_t k = 0; k < conditions.size(); ++k)
+        {
+          const DirichletCondition &condition = model.loads().dirichlet[k];
+          out << "constraint on body " << model.bodies().body_name(condition.body) << ", boundary "
+              << condition.boundary << ":";
+          const double n = Utilities::MPI::sum(conditions[k].n_nodes, comm);
+          for (unsigned int c = 0; c < dim; ++c)
+            {
+              const double low = Utilities::MPI::min(conditions[k].low[c], comm),
+                           high = Utilities::MPI::max(conditions[k].high[c], comm);
+              if (low <= high)
+                {
+                  out << " u_" << "xyz"[c] << " = " << low;
+                  if (high > low)
+                    out << " to " << high;
+                  out << ",";
+                }
+            }
+          if (n > 0.)
+            out << ' ' << n << " components of nodes";
+          if (const double m = Utilities::MPI::sum(conditions[k].n_directions, comm); m > 0.)
+            out << ' ' << m << " directions of nodes";
+          out << std::endl;
+        }
+    }
+
+    void describe_free_motions(std::ostream &out, const ContactModel &model, const Discretization &d)
+    {
+      std::map<unsigned int, unsigned int> n_free;
+      for (const FreeMotion &motion : d.free_motions())
+        ++n_free[motion.part];
+      for (const auto &[part, n] : n_free)
+        out << model.bodies().part_name(part) << ": the constraints leave " << n
+            << " rigid motion(s) free, which contact must hold" << std::endl;
+      if (n_free.empty())
+        out << "free motions: none, the constraints hold all bodies" << std::endl;
     }
   } // namespace
 
@@ -88,6 +206,9 @@ namespace Signorini
           }
       }
     for (unsigned int p = 0; p < d.pairs.size(); ++p)
-      describe_pair(out, d.pairs[p], d.couplings[p]);
+      describe_pair(out, d.pairs[p], d.couplings[p], comm);
+    describe_loads(out, model, d);
+    describe_constraints(out, model, d);
+    describe_free_motions(out, model, d);
   }
 } // namespace Signorini

@@ -3,12 +3,14 @@
 
 #include <signorini/algebra/input_error.h>
 #include <signorini/application/deck_results.h>
+#include <signorini/application/body_evaluation.h>
 #include <signorini/application/write_results.h>
 #include <signorini/mesh/surface_extraction.h>
 #include <signorini/mortar/contact_forces.h>
 #include <signorini/mortar/surface_values.h>
 #include <signorini/output/field_output.h>
 #include <signorini/output/load_curve.h>
+#include <signorini/output/final_words.h>
 #include <signorini/output/summary.h>
 
 #include <deal.II/base/config.h>
@@ -198,6 +200,26 @@ namespace Signorini
       return results;
     }
 
+    /// What the results say of bodies and slip, which wants the displacement.
+    void evaluate(NestedSolution &nested, const ContactModel &model)
+    {
+      const Discretization &d       = *nested.discretization;
+      Results              &results = nested.results;
+      const auto            stress  = nodal_stress(d.nodal(), relevant_values(d, nested.solution.displacement),
+                                                   [&](const types::material_id id) -> const Material & {
+                                         return model.bodies().material(id);
+                                       });
+      results.bodies = evaluate_bodies(model, d, nested.solution.displacement, stress[1].values, results);
+      for (unsigned int p = 0; p < results.pairs.size(); ++p)
+        {
+          const Slip slip                = largest_slip(d, nested.solution, p);
+          results.pairs[p].slip          = slip.length;
+          results.pairs[p].slip_in_faces = slip.in_faces;
+        }
+      for (const std::string &line : large_displacements(results))
+        results.notes.push_back("warning: " + line);
+    }
+
     /// On rank 0.
     void write_texts(const Results &results, const ParameterFile &file, const std::string &path)
     {
@@ -217,6 +239,7 @@ namespace Signorini
           o << "note: " << note << "\n";
         write_table(o, results);
         print_certificate(o, results);
+        print_final_words(o, results);
         print_mappings(o, results);
       });
     }
@@ -313,6 +336,8 @@ namespace Signorini
     write_fields(model, d, nested.solution, output, folder);
     if (file.deck() != nullptr && !mesh_only)
       write_deck_results(*file.deck(), model, d, nested.solution, folder.path());
+    if (!mesh_only)
+      evaluate(nested, model);
     results.mappings = mapping_results(d);
 
     Utilities::System::MemoryStats memory;
@@ -334,8 +359,12 @@ namespace Signorini
       print_mappings(std::cout, results);
     else
       {
-        write_table(std::cout, results);
-        print_certificate(std::cout, results);
+        if (output.verbosity > 1)
+          {
+            write_table(std::cout, results);
+            print_certificate(std::cout, results);
+          }
+        print_final_words(std::cout, results);
       }
   }
 } // namespace Signorini

@@ -43,7 +43,9 @@ namespace Signorini
         "of which each may be left out. Force and moment act at the point behind about (the middle of the "
         "boundary); displacement and rotation (radian) of it have * for free components; with along it moves "
         "in "
-        "that direction only and does not turn. Symmetry planes that meet the boundary hold it too.");
+        "that direction only and does not turn. Conditions at its edges (symmetry planes) hold it, too, but "
+        "for tilts about these "
+        "edges: rotation (0, 0, 0) excludes them.");
     prm.add_parameter("Volume force", volume_force, "Force per volume, \"(fx, fy, fz)\"; empty for none.");
   }
 

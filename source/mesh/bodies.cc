@@ -9,6 +9,8 @@
 
 #include <deal.II/grid/grid_tools.h>
 
+#include <optional>
+
 namespace Signorini
 {
   using namespace dealii;
@@ -22,6 +24,28 @@ namespace Signorini
       placed.push_back(add_body(definition));
     create(placed);
   }
+
+
+
+  namespace
+  {
+    /// Refuses what leaves the range of numbers when it is squared and multiplied with a modulus.
+    void check_extent(const VolumeMesh &mesh, const std::string &section)
+    {
+      double width = 0., largest = 0.;
+      for (const Point<3> &v : mesh.vertices)
+        {
+          width   = std::max(width, v.distance(mesh.vertices[0]));
+          largest = std::max(largest, v.norm());
+        }
+      if (width > 1e-60 && largest < 1e60)
+        return;
+      std::ostringstream text;
+      text << section << "Mesh: the body is " << width << " wide and reaches " << largest
+           << " away from the origin. Choose another unit.";
+      throw InputError(text.str());
+    }
+  } // namespace
 
 
 
@@ -50,6 +74,7 @@ namespace Signorini
       v = definition.placement(v);
     for (Point<3> &v : start_surfaces.back().mesh.vertices)
       v = definition.placement(v);
+    check_extent(body.mesh, section);
     check_shapes(body, section + "Boundary shapes", definition.snap);
     find_parts(body, b);
     for (const unsigned int material : body.material_of_cell)
@@ -307,6 +332,38 @@ namespace Signorini
 
 
 
+  namespace
+  {
+    /// The axis of "+x", "-x", "+y", ... (0, 1 or 2, with its sign), or nothing.
+    std::optional<std::pair<unsigned int, double>> parse_direction(const std::string &name)
+    {
+      if (name.size() != 2 || (name[0] != '+' && name[0] != '-') || name[1] < 'x' || name[1] > 'z')
+        return {};
+      return std::make_pair(static_cast<unsigned int>(name[1] - 'x'), name[0] == '+' ? 1. : -1.);
+    }
+
+    /// The boundaries of a surface that are flat and face a direction, within a tenth of a degree.
+    std::set<types::boundary_id> boundaries_facing(const std::string &name, const SurfaceMesh &mesh,
+                                                   const std::vector<types::boundary_id> &boundary)
+    {
+      const auto direction = parse_direction(name);
+      if (!direction)
+        return {};
+      std::set<types::boundary_id> result(boundary.begin(), boundary.end());
+      for (std::size_t t = 0; t < boundary.size(); ++t)
+        {
+          const auto        &[a, b, c] = mesh.triangles[t];
+          const Tensor<1, 3> normal    = cross_product_3d(mesh.vertices[b] - mesh.vertices[a],
+                                                          mesh.vertices[c] - mesh.vertices[a]);
+          if (!(direction->second * normal[direction->first] > (1. - 1e-6) * normal.norm()))
+            result.erase(boundary[t]);
+        }
+      return result;
+    }
+  } // namespace
+
+
+
   std::set<types::boundary_id> Bodies::boundary_ids(const unsigned int body, const std::string &name,
                                                     const std::string &where) const
   {
@@ -319,6 +376,10 @@ namespace Signorini
           return ids;
         }
     const auto it = std::find(boundaries[body].begin(), boundaries[body].end(), name);
+    if (it == boundaries[body].end())
+      if (const StartSurface &start = start_surfaces[body];
+          !boundaries_facing(name, start.mesh, start.boundary).empty())
+        return boundaries_facing(name, start.mesh, start.boundary);
     if (it == boundaries[body].end())
       throw InputError((where.empty() ? "Body " : where + ": body ") + names[body] + " has no boundary \"" +
                        name + "\"; it has " + listed(names_to_show(boundaries[body], groups[body])) + ".");

@@ -9,6 +9,7 @@
 #include <signorini/mesh/expression.h>
 #include <signorini/mesh/generated_mesh.h>
 #include <signorini/mesh/mesh_input.h>
+#include <signorini/mesh/size_limit.h>
 
 #include <deal.II/base/utilities.h>
 #include <deal.II/grid/manifold_lib.h>
@@ -30,13 +31,27 @@ namespace Signorini
                       "Cuts each tetrahedron of the mesh into four hexahedra.");
     prm.add_parameter("Convert to tetrahedra", convert_to_tetrahedra,
                       "Cuts each hexahedron of the mesh into twelve tetrahedra.");
-    prm.add_parameter("Radius", radius, "Radius of balls and cylinders, outer radius of shells (length).");
-    prm.add_parameter("Inner radius", inner_radius, "Inner radius of shells (length).");
-    prm.add_parameter("Height", height, "Height of cylinders (length).");
+    prm.add_parameter("Radius", radius,
+                      "Radius of balls and cylinders, outer radius of shells and tubes (length).");
+    prm.add_parameter("Inner radius", inner_radius, "Inner radius of shells and tubes (length).");
+    prm.add_parameter("Height", height,
+                      "Height of cylinders, length of tubes, half cylinders and prisms along their axis.");
     prm.add_parameter("Lower corner", lower_corner, "Corner of a block, \"x, y, z\" (length).");
     prm.add_parameter("Upper corner", upper_corner, "Opposite corner of a block (length).");
     prm.add_parameter("Divisions", divisions, "Cells of a block in x, y, z.",
                       Patterns::List(Patterns::Integer(1, 1000000), 3, 3));
+    prm.add_parameter("Round divisions", round_divisions,
+                      "Cells of tubes, annuli, half cylinders and prisms in radial direction, around and along "
+                      "the axis; 0 where edges should be about equal.",
+                      Patterns::List(Patterns::Integer(0, 1000000), 3, 3));
+    prm.add_parameter("Corners", corners,
+                      "Corners of the base of a prism, convex, with the inside on the left: \"(x, y); (x, y); "
+                      "(x, y); ...\".");
+    prm.add_parameter("Grading", grading,
+                      "Where the cells of a generated block, tube, annulus, half cylinder or prism are small, "
+                      "and width of the largest / width of the smallest cells in each direction: \"(x, y, z), "
+                      "ratio\" in the frame of the mesh, or \"boundary, ratio\"; empty for cells of one "
+                      "size.");
     prm.add_parameter(
         "Boundary shapes", shapes,
         "True shapes that new nodes of boundaries move to, in the frame of the mesh: \"boundary: sphere: "
@@ -201,7 +216,49 @@ namespace Signorini
               std::make_shared<const CylindricalManifold<3>>(axis, centre)};
     }
 
-    void generate(BodyDefinition &body, const BodyParameters &p, const std::string &kind)
+    std::vector<Point<2>> parse_corners(const std::string &text)
+    {
+      std::vector<Point<2>> corners;
+      for (const std::string &entry : split_list(text, ';', "Corners"))
+        if (!entry.empty())
+          {
+            const bool framed  = entry.size() > 2 && entry.front() == '(' && entry.back() == ')';
+            const auto numbers = split_list(framed ? entry.substr(1, entry.size() - 2) : "", ',', "Corners");
+            if (numbers.size() != 2)
+              throw InputError("Corners: \"" + entry + "\" should be a point in the plane, like (1, 0).");
+            corners.emplace_back(parse_number(numbers[0], "Corners"), parse_number(numbers[1], "Corners"));
+          }
+      return corners;
+    }
+
+    MeshGrading parse_grading(const std::string &text)
+    {
+      MeshGrading grading;
+      if (Utilities::trim(text).empty())
+        return grading;
+      const auto parts = split_list(text, ',', "Grading");
+      if (parts.size() != 2 || parts[0].empty())
+        throw InputError("Grading: \"" + text + "\" should read \"(x, y, z), ratio\" or \"boundary, ratio\".");
+      if (parts[0][0] == '(')
+        grading.point = parse_point(parts[0], "Grading");
+      else
+        grading.boundary = parts[0];
+      grading.ratio = parse_number(parts[1], "Grading");
+      return grading;
+    }
+
+    /// Before they are made.
+    void check_number_of_cells(const GeneratedMeshParameters &g, const std::string &where, const MPI_Comm comm)
+    {
+      const bool block = g.kind == "block";
+      double     n     = 1.;
+      for (const unsigned int d : block ? g.divisions : g.round_divisions)
+        n *= std::max(1u, d);
+      refuse_too_many_cells(n, where, std::string("Take fewer \"") + (block ? "Divisions" : "Round divisions") + "\".",
+                            comm, 3.);
+    }
+
+    void generate(BodyDefinition &body, const BodyParameters &p, const std::string &kind, const MPI_Comm comm)
     {
       GeneratedMeshParameters g;
       g.kind         = kind;
@@ -212,6 +269,10 @@ namespace Signorini
       g.upper_corner = p.upper_corner;
       AssertDimension(p.divisions.size(), 3);
       std::copy(p.divisions.begin(), p.divisions.end(), g.divisions.begin());
+      std::copy(p.round_divisions.begin(), p.round_divisions.end(), g.round_divisions.begin());
+      g.corners = parse_corners(p.corners);
+      g.grading = parse_grading(p.grading);
+      check_number_of_cells(g, "Mesh: it", comm);
       GeneratedMesh generated = generate_mesh(g);
       body.mesh               = std::move(generated.mesh);
       for (const CurvedBoundary &curved : generated.curved)
@@ -226,7 +287,7 @@ namespace Signorini
       try
         {
           if (("|" + generated_mesh_kinds() + "|").find("|" + kind + "|") != std::string::npos)
-            return generate(body, p, kind);
+            return generate(body, p, kind, communicator);
         }
       catch (const InputError &e)
         {

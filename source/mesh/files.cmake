@@ -14,6 +14,7 @@ signorini_add_layer(mesh
   deck_sets.cc
   deck_text.cc
   expression.cc
+  extruded_mesh.cc
   generated_mesh.cc
   gmsh_file.cc
   material.cc
@@ -22,6 +23,7 @@ signorini_add_layer(mesh
   node_movement.cc
   refinement.cc
   start_nodes.cc
+  size_limit.cc
   surface_extraction.cc
   surface_file.cc
   surface_normals.cc

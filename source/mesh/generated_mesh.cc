@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include "extruded_mesh.h"
+
 #include <signorini/algebra/input_error.h>
 #include <signorini/mesh/generated_mesh.h>
 
@@ -111,8 +113,36 @@ namespace Signorini
           p = Point<3>(p[1], p[0], -p[2]);
     }
 
+    /// Places of the vertices of a block in one direction, from 0 to 1.
+    std::vector<double> block_places(const GeneratedMeshParameters &p, const unsigned int c)
+    {
+      static const std::array<std::array<const char *, 2>, 3> names = {
+          {{{"left", "right"}}, {{"front", "back"}}, {{"bottom", "top"}}}};
+      const MeshGrading &grading = p.grading;
+      if (grading.boundary == names[c][0] || grading.boundary == names[c][1])
+        return graded_places(p.divisions[c], grading.boundary == names[c][0] ? 0. : 1., grading.ratio);
+      const double at = (grading.point[c] - p.lower_corner[c]) / (p.upper_corner[c] - p.lower_corner[c]);
+      return graded_places(p.divisions[c], std::clamp(at, 0., 1.), grading.boundary.empty() ? grading.ratio : 1.);
+    }
+
+    void check_grading_of_block(const MeshGrading &grading)
+    {
+      if (!(grading.ratio >= 1. && grading.ratio <= 1e4))
+        throw InputError("Grading: the ratio of the largest and the smallest cells must be between 1 and "
+                         "10000.");
+      for (const char *name : {"", "left", "right", "front", "back", "bottom", "top"})
+        if (grading.boundary == name)
+          return;
+      throw InputError("Grading: a block has no boundary \"" + grading.boundary +
+                       "\"; it has left, right, front, back, bottom, top.");
+    }
+
     Cells block(const GeneratedMeshParameters &p)
     {
+      check_grading_of_block(p.grading);
+      std::array<std::vector<double>, 3> places;
+      for (unsigned int c = 0; c < 3; ++c)
+        places[c] = block_places(p, c);
       Cells cells;
       for (unsigned int k = 0; k < p.divisions[2]; ++k)
         for (unsigned int j = 0; j < p.divisions[1]; ++j)
@@ -124,7 +154,7 @@ namespace Signorini
                   const unsigned int at[] = {i + (v & 1), j + (v >> 1 & 1), k + (v >> 2)};
                   for (unsigned int c = 0; c < 3; ++c)
                     cells.back()[v][c] =
-                        p.lower_corner[c] + (p.upper_corner[c] - p.lower_corner[c]) * at[c] / p.divisions[c];
+                        p.lower_corner[c] + (p.upper_corner[c] - p.lower_corner[c]) * places[c][at[c]];
                 }
             }
       return cells;
@@ -289,6 +319,17 @@ namespace Signorini
         result.curved.push_back({"inner", CurvedBoundary::sphere});
       return result;
     }
+
+    GeneratedMesh generate_extruded(const GeneratedMeshParameters &p)
+    {
+      const ShapedCells shaped = extruded_cells(p);
+      VolumeMesh        mesh   = join(shaped.cells, shaped.size);
+      name_boundaries(mesh, first_match(shaped.boundaries, shaped.size));
+      GeneratedMesh result{mesh, {}};
+      for (const CurvedBoundary &curved : shaped.curved)
+        result.curved.push_back(curved);
+      return result;
+    }
   } // namespace
 
 
@@ -297,7 +338,8 @@ namespace Signorini
   {
     return "block|ball|half ball|quarter of ball|quarter of half ball|eighth of ball|cylinder|quarter of "
            "cylinder|"
-           "spherical shell|quarter of spherical shell|eighth of spherical shell";
+           "spherical shell|quarter of spherical shell|eighth of spherical shell|annulus|half annulus|"
+           "quarter of annulus|tube|half tube|quarter of tube|half cylinder|half of half cylinder|prism";
   }
 
 
@@ -306,6 +348,10 @@ namespace Signorini
   {
     if (p.kind == "block")
       return generate_block(p);
+    if (is_extruded(p.kind))
+      return generate_extruded(p);
+    if (p.grading.ratio != 1.)
+      throw InputError("Grading: a " + p.kind + " cannot be graded; refine it where that is needed.");
     return has(p, "cylinder") ? generate_cylinder(p) : generate_ball(p);
   }
 } // namespace Signorini

@@ -18,6 +18,9 @@ namespace Signorini
     };
     if (!(material.young > 0.) || !std::isfinite(material.young))
       refuse("Young modulus", material.young, "be positive.");
+    // Energies are squares of lengths times it.
+    if (!(material.young > 1e-60 && material.young < 1e60))
+      refuse("Young modulus", material.young, "lie between 1e-60 and 1e60: choose another unit.");
     if (!(material.poisson > -1. && material.poisson < .5))
       refuse("Poisson ratio", material.poisson, "lie between -1 and 0.5 (0.5 would be incompressible).");
   }

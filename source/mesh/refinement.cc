@@ -14,17 +14,20 @@ namespace Signorini
 
   void RefinementParameters::add_parameters(ParameterHandler &prm)
   {
-    prm.add_parameter("Initial global levels", initial_global, "Global refinements before the first cycle.");
+    prm.add_parameter("Initial global levels", initial_global, "Global refinements before the first cycle, of bodies without Initial levels of their own.",
+                      Patterns::Integer(0, 20));
     prm.add_parameter("Global cycles", global_cycles,
-                      "Cycles, each with one global refinement, after the first one.");
+                      "Cycles, each with one global refinement, after the first one.", Patterns::Integer(0, 20));
     prm.declare_entry(
         "Regions", "", Patterns::Anything(),
         "Balls and boxes with the number of levels their cells are refined beyond the global levels, one "
-        "level per cycle: \"ball: (x, y, z), radius, levels; box: (x, y, z), (x, y, z), levels; ...\".");
+        "level per cycle: \"ball: (x, y, z), radius, levels; box: (x, y, z), (x, y, z), levels; ...\"; with the "
+        "name of a body in front, \"punch: ball: (x, y, z), radius, levels\", only cells of this body.");
     prm.add_action("Regions", [this](const std::string &text) { regions = parse_regions(text); });
     prm.add_parameter("Adaptive cycles", adaptive_cycles,
                       "Cycles, after the regions have been worked through, that refine where the residual "
-                      "error indicator is large.");
+                      "error indicator is large.",
+                      Patterns::Integer(0, 100));
     add_choice(prm, "Marking", marking, {{Marking::error, "error"}, {Marking::cells, "cells"}},
                "What an adaptive cycle refines: the cells with the largest indicators that have the "
                "marking fraction of the (squared) error together, or that fraction of all cells.");
@@ -41,7 +44,8 @@ namespace Signorini
         "Final global cycles", final_global_cycles,
         "Cycles, each with one global refinement, after the regions have been worked through. "
         "They keep the nested iteration cheap: each mesh has about eight times the cells of the "
-        "one before.");
+        "one before.",
+        Patterns::Integer(0, 20));
   }
 
 
@@ -81,8 +85,15 @@ namespace Signorini
   std::vector<RefinementRegion> parse_regions(const std::string &text)
   {
     std::vector<RefinementRegion> regions;
-    for (const auto &[kind, entry] : split_named_entries(text, "Refinement/Regions"))
-      regions.push_back(parse_region(kind, entry));
+    for (const auto &[first, entry] : split_named_entries(text, "Refinement/Regions"))
+      if (const std::size_t colon = entry.find(':'); colon != std::string::npos)
+        {
+          regions.push_back(
+              parse_region(Utilities::trim(entry.substr(0, colon)), Utilities::trim(entry.substr(colon + 1))));
+          regions.back().body = first;
+        }
+      else
+        regions.push_back(parse_region(first, entry));
     return regions;
   }
 
@@ -118,7 +129,8 @@ namespace Signorini
 
 
 
-  std::vector<bool> Refinement::mark(const NodalSpace &space, const unsigned int cycle) const
+  std::vector<bool> Refinement::mark(const Bodies &bodies, const NodalSpace &space,
+                                     const unsigned int cycle) const
   {
     std::vector<bool> marked(space.cells().size(), false);
     if (cycle > cycles)
@@ -130,8 +142,6 @@ namespace Signorini
       }
     // Local refinement follows the global cycles. Regions may be nested: each cycle brings every region one
     // level further until it has its levels.
-    const unsigned int base   = parameters.initial_global + parameters.global_cycles;
-    const unsigned int wanted = base + (cycle - parameters.global_cycles);
     for (std::size_t c = 0; c < marked.size(); ++c)
       {
         const auto nodes = space.nodes(space.cells()[c]);
@@ -142,8 +152,14 @@ namespace Signorini
               low[d]  = std::min(low[d], space.position(node)[d]);
               high[d] = std::max(high[d], space.position(node)[d]);
             }
+        const NodalSpace::Cell &cell    = space.cells()[c];
+        const unsigned int      b       = bodies.body_of_material(cell.material);
+        const unsigned int      initial = b < parameters.initial_of_body.size() ? parameters.initial_of_body[b] :
+                                                                                  parameters.initial_global;
         for (const RefinementRegion &region : parameters.regions)
-          if (space.cells()[c].level < std::min(wanted, base + region.levels) && region.touches(low, high))
+          if ((region.body.empty() || region.body == bodies.body_name(b)) &&
+              cell.level < initial + std::min(cycle, parameters.global_cycles + region.levels) &&
+              region.touches(low, high))
             marked[c] = true;
       }
     return marked;

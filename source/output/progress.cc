@@ -3,8 +3,13 @@
 
 #include <signorini/output/progress.h>
 
+#include <deal.II/base/utilities.h>
+
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
+#include <sstream>
+
 #include <unistd.h>
 
 namespace Signorini
@@ -41,20 +46,54 @@ namespace Signorini
 
 
 
+  void Progress::expect(const double before, const double present, const double all)
+  {
+    this->before  = before;
+    this->present = present;
+    this->all     = all;
+  }
+
+
+
+  std::string Progress::outlook(const double fraction) const
+  {
+    std::ostringstream text;
+    const double       done = before + fraction * present;
+    // The first hundredth says nothing about the rest.
+    if (done > .01 * all)
+      {
+        const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+        const double                        left    = elapsed.count() * std::max(0., all - done) / done;
+        text << "   about "
+             << (left < 100. ? std::to_string(std::lround(left)) + " s" :
+                               std::to_string(std::lround(left / 60.)) + " min")
+             << " left";
+      }
+    dealii::Utilities::System::MemoryStats memory;
+    dealii::Utilities::System::get_memory_stats(memory);
+    text << "   " << std::setprecision(2) << static_cast<double>(memory.VmRSS) / 1e6 << " GB";
+    return text.str();
+  }
+
+
+
   void Progress::show(const std::string &phase)
   {
-    write("  " + phase + " ...");
+    if (enabled)
+      write("  " + phase + " ..." + outlook(0.));
   }
 
 
 
   void Progress::show(const std::string &phase, const double fraction)
   {
-    constexpr unsigned int length = 30;
+    if (!enabled)
+      return;
+    constexpr unsigned int length = 20;
     const double           part   = std::isfinite(fraction) ? std::clamp(fraction, 0., 1.) : 0.;
     const auto             filled = static_cast<unsigned int>(part * length);
-    write("  " + phase + " [" + std::string(filled, '#') + std::string(length - filled, '.') + "] " +
-          std::to_string(static_cast<int>(100. * part)) + " %");
+    write("  " + phase + " [" + std::string(filled, '#') + std::string(length - filled, '.') + "]" +
+          outlook(part));
   }
 
 

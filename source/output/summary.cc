@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/output/final_words.h>
 #include <signorini/output/json_writer.h>
 #include <signorini/output/summary.h>
 
@@ -156,6 +157,26 @@ namespace Signorini
       json.number("initial_penetration", pair.initial_penetration);
       json.number("area_without_multiplier", pair.lost_area);
       json.number("dropped_nodes", pair.dropped_nodes);
+      json.vector("max_pressure_at", Vector3(pair.max_pressure_at));
+      json.number("slip", pair.slip);
+      json.number("slip_in_faces", pair.slip_in_faces);
+      json.end('}');
+    }
+
+    void write_body(JsonWriter &json, const BodyResult &body)
+    {
+      json.begin('{');
+      json.text("name", body.name);
+      json.number("largest_displacement", body.largest_displacement);
+      json.vector("largest_displacement_at", Vector3(body.displacement_at));
+      json.number("largest_von_mises", body.largest_von_mises);
+      json.vector("largest_von_mises_at", Vector3(body.von_mises_at));
+      json.vector("load", body.load);
+      json.vector("load_moment", body.load_moment);
+      json.vector("reaction", body.reaction);
+      json.vector("contact_force", body.contact);
+      json.number("largest_rotation", body.largest_rotation);
+      json.number("largest_strain", body.largest_strain);
       json.end('}');
     }
 
@@ -267,6 +288,8 @@ namespace Signorini
     write_list(json, "cycles", results.cycles, write_cycle);
     write_list(json, "pairs", results.pairs, write_pair);
     write_list(json, "mappings", results.mappings, write_mapping);
+    write_list(json, "bodies", results.bodies, write_body);
+    json.boolean("displacements_are_small", large_displacements(results).empty());
     write_list(json, "boundaries", results.boundaries, write_boundary);
     write_list(json, "probes", results.probes, write_probe);
     write_certificate(json, results.certificate);
@@ -354,13 +377,5 @@ namespace Signorini
         << "  bodies           " << std::max(c.body_force_balance, c.body_moment_balance)
         << "   (what is left of forces and moments on a body)\n"
         << "  energy           " << std::setprecision(10) << c.energy << '\n';
-    for (const PairResult &p : results.pairs)
-      out << std::setprecision(6) << "pair " << p.name << ": force on " << p.nonmortar << " (" << p.force[0]
-          << ", " << p.force[1] << ", " << p.force[2] << "), largest pressure " << p.max_pressure
-          << ", contact area " << p.contact_area << ", approach " << p.approach << '\n';
-    if (c.objections.empty())
-      out << "contact conditions hold: yes\n";
-    for (const std::string &text : c.objections)
-      out << "contact conditions hold: NO: " << text << '\n';
   }
 } // namespace Signorini

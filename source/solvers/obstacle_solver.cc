@@ -53,8 +53,9 @@ namespace Signorini
     LevelZeroMethod level_zero_method(const std::string &name)
     {
       const auto &names = level_zero_names();
-      if (const auto it = names.find(name); it != names.end())
-        return it->second;
+      for (const auto &entry : names)
+        if (plain_word(entry.first) == plain_word(name))
+          return entry.second;
       std::string known;
       for (const auto &entry : names)
         known += (known.empty() ? "" : ", ") + entry.first;
@@ -90,24 +91,27 @@ namespace Signorini
           "Solver of the coarsest level. automatic: Cholesky while the level is small, else amg. cholesky: "
           "sparse factors. amg: algebraic multigrid (Trilinos ML with rigid motions) to three digits. "
           "algebraic shortened: a few steps of algebraic multigrid, each shortened as a whole to what the "
-          "obstacles of the level admit.");
+          "obstacles of the level admit. One of: automatic, cholesky, amg, algebraic shortened.");
       prm.add_action("Level 0", [&p](const std::string &value) { p.level_zero = level_zero_method(value); });
       prm.add_parameter("Level 0 steps", p.level_zero_steps, "Number of steps of algebraic shortened.",
-                        Patterns::Integer(1));
+                        Patterns::Integer(1, 10000));
     }
 
 
 
     void add_smoothing(ParameterHandler &prm, SmoothingParameters &p)
     {
-      prm.add_parameter("Pre-smoothing steps", p.n_pre, "Gauss-Seidel sweeps before the coarse correction.");
-      prm.add_parameter("Post-smoothing steps", p.n_post, "Gauss-Seidel sweeps after the coarse correction.");
+      prm.add_parameter("Pre-smoothing steps", p.n_pre, "Gauss-Seidel sweeps before the coarse correction.",
+                        Patterns::Integer(0, 10000));
+      prm.add_parameter("Post-smoothing steps", p.n_post, "Gauss-Seidel sweeps after the coarse correction.",
+                        Patterns::Integer(0, 10000));
       prm.add_parameter(
           "Interface sweeps", p.n_interface_sweeps,
           "Extra sweeps over the contact nodes of both sides and one layer of neighbours, on "
           "every level, after the pre- and before the post-smoothing; "
           "after a good start accelerated leaves them out on the finest level while the active set "
-          "rests, until an iteration is slow (leaves more than a quarter of the correction, for V(3,3)).");
+          "rests, until an iteration is slow (leaves more than a quarter of the correction, for V(3,3)).",
+          Patterns::Integer(0, 10000));
     }
   } // namespace
 
@@ -128,7 +132,7 @@ namespace Signorini
         Patterns::Double(0.));
     prm.add_parameter("Maximal iterations", max_iterations,
                       "Applications of the V-cycle (of a symmetric sweep, for projected gauss seidel).",
-                      Patterns::Integer(1));
+                      Patterns::Integer(1, 1000000000));
     prm.add_parameter("Safety net", safety_net,
                       "Whether accelerated goes on with active-set steps where it stays slow, with sparse "
                       "factors while the mesh is small. A note says when.");
@@ -195,9 +199,29 @@ namespace Signorini
 
 
 
+  namespace
+  {
+    /// When an iteration gets nowhere.
+    struct PlateauRule
+    {
+      /// So many iterations without a smaller correction than any before: four times what bodies that only
+      /// contact holds take altogether.
+      std::size_t patience = 100;
+    };
+
+    bool is_on_plateau(const std::vector<double> &history)
+    {
+      const std::size_t n = PlateauRule().patience;
+      return history.size() > n && *std::min_element(history.end() - static_cast<long>(n), history.end()) >=
+                                       *std::min_element(history.begin(), history.end() - static_cast<long>(n));
+    }
+  } // namespace
+
+
+
   bool ObstacleSolver::goes_on(const ConvergenceReport &report) const
   {
-    return report.iterations < parameters.max_iterations && !report.converged;
+    return report.iterations < parameters.max_iterations && !report.converged && !is_on_plateau(report.history);
   }
 
 
@@ -218,7 +242,8 @@ namespace Signorini
     report.energy = -.5 * (problem.rhs * v + residual * v);
     report.rate   = convergence_rate(report.history);
     if (!report.converged)
-      report.note = "stopped after " + std::to_string(report.iterations) + " iterations without convergence";
+      report.note = "stopped after " + std::to_string(report.iterations) + " iterations without convergence" +
+                    (is_on_plateau(report.history) ? ", the last of which brought nothing" : "");
   }
 
 

@@ -110,8 +110,15 @@ def overlaps(p):
     refused(p, PATCH_TEST, ['Body upper/Translation=0, 0, -0.8'], 'interface', 'overlap by 0.8', 'Translation')
     refused(p, PATCH_TEST, ['Pair interface/Initial gap=-0.9'], 'interface', 'Initial gap')
     refused(p, 'obstacle/paraboloid.prm', ['Pair bottom/Obstacle=plane: (0, 0, 0.7), (0, 0, 1)'], 'bottom', 'obstacle')
-    s = p.solve(PATCH_TEST, 'Body upper/Translation=0, 0, -0.05', 'Body upper/Dirichlet=left: (0, *, *); front: (*, 0, *); top: (*, *, 0)')
+    held = 'Body upper/Dirichlet=left: (0, *, *); front: (*, 0, *); top: (*, *, 0)'
+    # More than a percent has to be asked for, less is taken for a fit.
+    refused(p, PATCH_TEST, ['Body upper/Translation=0, 0, -0.05', held], 'interface', 'overlap by 0.05', 'most at (', '"Initial penetration = resolve"')
+    s = p.solve(PATCH_TEST, 'Body upper/Translation=0, 0, -0.05', held, 'Pair interface/Initial penetration=resolve')
     constant_pressure(s, 25.)
+    s = p.solve(PATCH_TEST, 'Body upper/Translation=0, 0, -0.005', held)
+    constant_pressure(s, 2.5)
+    check(any('resolved as an interference fit' in note for note in s['notes']), f'notes: {s["notes"]}')
+    refused(p, PATCH_TEST, ['Body upper/Translation=0, 0, -0.005', held, 'Pair interface/Initial penetration=refuse'], '"Initial penetration = refuse"')
 
 
 def parts(p):

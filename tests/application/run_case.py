@@ -16,6 +16,7 @@ import finished_mesh_cases
 import geometry_cases
 import load_cases
 import random_pair_cases
+import shape_cases
 import tool_cases
 import true_gap_cases
 import verification_cases
@@ -346,7 +347,7 @@ def robust(p):
     run('a single node', 15, 'Pair interface/Initial gap=10*((x-0.5)^2 + (y-0.5)^2) - 0.001', 'Body upper/Divisions=2, 2, 2',
         'Body upper/Dirichlet=top: (0, 0, 0)', two)
     run('separation', 15, 'Pair interface/Initial gap=1', two)
-    run('initial penetration', 15, 'Pair interface/Initial gap=-0.1', two)
+    run('initial penetration', 15, 'Pair interface/Initial gap=-0.1', 'Pair interface/Initial penetration=resolve', two)
     run('fixed border', 15, 'Body upper/Dirichlet=top: (0, 0, -0.05); left: (0, 0, 0)', 'Body lower/Dirichlet=bottom: (0, 0, 0); left: (0, 0, 0)', two)
 
 
@@ -374,7 +375,7 @@ def from_zero(p):
                 ('soft below', 15, 'cubes/cubes.prm', 2, ('Body upper/Young modulus=1', 'Body lower/Young modulus=1e-6', 'Pair interface/Nonmortar=auto')),
                 ('soft above', 15, 'cubes/cubes.prm', 2, ('Body upper/Young modulus=1', 'Body lower/Young modulus=1e6')),
                 ('separation', 15, 'cubes/cubes.prm', 2, ('Pair interface/Initial gap=1',)),
-                ('initial penetration', 15, 'cubes/cubes.prm', 2, ('Pair interface/Initial gap=-0.1',)),
+                ('initial penetration', 15, 'cubes/cubes.prm', 2, ('Pair interface/Initial gap=-0.1', 'Pair interface/Initial penetration=resolve')),
                 ('rough gap', 15, 'cubes/cubes.prm', 2, ('Pair interface/Initial gap=0.01*sin(50*x)*sin(70*y)',)),
                 ('fixed border', 15, 'cubes/cubes.prm', 2, ('Body upper/Dirichlet=top: (0, 0, -0.05); left: (0, 0, 0)', 'Body lower/Dirichlet=bottom: (0, 0, 0); left: (0, 0, 0)')))
     for text, bound, prm, levels, settings in problems:
@@ -666,7 +667,7 @@ def surface_map(p):
 
 
 if __name__ == '__main__':
-    modules = (sys.modules[__name__], deck_cases, geometry_cases, finished_mesh_cases, load_cases, random_pair_cases, tool_cases, true_gap_cases,
+    modules = (sys.modules[__name__], deck_cases, geometry_cases, finished_mesh_cases, load_cases, random_pair_cases, shape_cases, tool_cases, true_gap_cases,
                verification_cases)
     case = next(getattr(m, sys.argv[2]) for m in modules if hasattr(m, sys.argv[2]))
     case(Program(sys.argv[1], int(sys.argv[3])))

@@ -1,14 +1,19 @@
 """How the program behaves as a tool: results are never lost, input that makes no sense is refused, and the end of a run
 says what a person looks for."""
+import base64
 import json
+import math
 import os
+import re
 import resource
 import signal
 import subprocess
 import tempfile
 import time
+import xml.etree.ElementTree
+import zlib
 
-from harness import TOP, check
+from harness import TOP, check, near
 
 PATCH_TEST = os.path.join(TOP, 'prm', 'patch_test', 'patch_test.prm')
 CUBES = os.path.join(TOP, 'prm', 'cubes', 'cubes.prm')
@@ -134,3 +139,196 @@ def results_kept(p):
         check(tree(out) == good, 'results that did not converge have replaced others')
         with open(os.path.join(folder, 'out-not-converged', 'summary.json')) as f:
             check(not json.load(f)['converged'], 'summary of the run that did not converge')
+
+
+def senseless_numbers(p):
+    """One clear message, at once, for what makes no sense."""
+    cases = [(['=', ], 'Section/Name=value'), (['=5'], 'Section/Name=value'), (['Title'], 'Section/Name=value'), (['/Title=a'], 'Section/Name=value'),
+             (['Refinement/Global cycles=-1'], 'Global cycles'), (['Refinement/Adaptive cycles=-1'], 'Adaptive cycles'),
+             (['Refinement/Final global cycles=-3'], 'Final global cycles'), (['Refinement/Initial global levels=-1'], 'Initial global levels'),
+             (['Refinement/Global cycles=1e3'], 'Global cycles'), (['Solver/Pre-smoothing steps=-1'], 'Pre-smoothing steps'),
+             (['Solver/Post-smoothing steps=-1'], 'Post-smoothing steps'), (['Solver/Interface sweeps=-1'], 'Interface sweeps'),
+             (['Solver/Maximal iterations=-1'], 'Maximal iterations'), (['Solver/Maximal iterations=99999999999'], 'Maximal iterations'),
+             (['Solver/Level 0 steps=-1'], 'Level 0 steps'), (['Solver/Tolerance=-1'], 'Tolerance'), (['Refinement/Max dofs=-1'], 'Max dofs'),
+             (['Output/Verbosity=3'], 'Verbosity'), (['Body upper/Initial levels=-1'], 'Initial levels'), (['Body upper/Initial levels=two'], 'Initial levels'),
+             (['Body upper/Young modulus=1e300'], 'Young modulus'), (['Body upper/Young modulus=-1'], 'Young modulus'),
+             (['Body upper/Young modulus=nan'], 'Young modulus'), (['Body upper/Upper corner=1e300, 1e300, 1e300'], 'Body upper'),
+             (['Body upper/Translation=1e200, 0, 0'], 'Body upper/Mesh'),
+             (['Body upper/Divisions=-1, 1, 1'], 'Divisions'), (['Body upper/Divisions=1000, 1000, 1000'], 'GB of memory'),
+             (['Refinement/Initial global levels=20'], 'GB of memory'), (['Refinement/Global cycles=20'], 'GB of memory'),
+             (['Body upper/Initial levels=20'], 'GB of memory'), (['Refinement/Initial global levels=21'], 'Initial global levels'),
+             (['Refinement/Regions=ball: (0, 0, 0), 1, -1'], 'levels must be between'), (['Refinement/Regions=ball: (0, 0, 0), 1, 30'], 'levels must be between'),
+             (['Refinement/Regions=middle: ball: (0, 0, 0), 1, 1'], 'there is no body "middle"'),
+             (['Contact pairs=a/b'], 'must not contain "/"'), (['Contact pairs=../../b'], 'must not contain'), (['Bodies=a:b, lower'], 'must not contain ":"'),
+             (['Contact pairs=.hidden'], 'begin with a dot'), (['Output/Folder='], 'Output folder')]
+    with tempfile.TemporaryDirectory() as folder:
+        for settings, word in cases:
+            output = [] if settings == ['Output/Folder='] else ['--output', os.path.join(folder, 'out')]
+            begin = time.time()
+            run = p.call(PATCH_TEST, *[a for s in settings for a in ('--set', s)], *output)
+            check(run.returncode == 1, f'{settings}: exit code {run.returncode}')
+            check(word in run.stderr, f'{settings}: the message does not name "{word}": {run.stderr}')
+            check(run.stderr.count('signorini: error:') == 1, f'{settings}: not one message: {run.stderr}')
+            check(len(run.stderr) < 1000, f'{settings}: a long message: {run.stderr}')
+            check(time.time() - begin < 20, f'{settings}: {time.time() - begin} s')
+            check(os.listdir(folder) == [], f'{settings}: left {os.listdir(folder)}')
+
+
+def described_options(text):
+    """(section, name, description) of all options that --print-parameters prints."""
+    section, words = '', ''
+    for line in text.splitlines():
+        line = line.strip()
+        if line.startswith('subsection '):
+            section = line[len('subsection '):] + '/'
+        elif line == 'end':
+            section = ''
+        elif line.startswith('#'):
+            words += ' ' + line[1:].strip()
+        elif line.startswith('set '):
+            yield section, line[4:].split('=')[0].strip(), words.strip()
+            words = ''
+
+
+def own_words(p):
+    """Every alternative that the description of an option names is accepted, with small letters or capital ones."""
+    text = p.call('--print-parameters', PATCH_TEST).stdout
+    n_words = n_options = 0
+    for section, name, description in described_options(text):
+        if 'One of: ' not in description:
+            continue
+        n_options += 1
+        words = description[description.index('One of: ') + 8:].rstrip('.').split(', ')
+        # What is explained, "word: ..." at the beginning of a sentence or after a semicolon, is one of them.
+        explained = re.findall(r'(?:^|[.;] )([A-Za-z0-9 ]+?): ', description[:description.index('One of: ')])
+        explained = [w for phrase in explained for w in phrase.split(' and ')]
+        every = words + explained + [w.upper() for w in words]
+        n_words += len(every)
+        run = p.call('--print-parameters', PATCH_TEST, *[a for w in every for a in ('--set', f'{section}{name}={w}')])
+        check(run.returncode == 0, f'{section}{name} = {every}: {run.stderr}')
+        run = p.call('--print-parameters', PATCH_TEST, '--set', f'{section}{name}=nonsense')
+        check(run.returncode == 1 and words[0] in run.stderr, f'{section}{name} = nonsense: {run.stderr}')
+    check(n_options >= 10 and n_words > 60, f'{n_options} options with {n_words} words')
+    for word in ('auto', 'automatic', 'Automatic'):
+        run = p.call('--print-parameters', PATCH_TEST, '--set', f'Pair interface/Nonmortar={word}')
+        check(run.returncode == 0, f'Nonmortar = {word}: {run.stderr}')
+    # Generated meshes, as the description lists them.
+    description = next(d for s, n, d in described_options(text) if n == 'Mesh')
+    kinds = description[description.index('generated mesh: ') + len('generated mesh: '):].rstrip('.').split(', ')
+    check(len(kinds) >= 20, f'kinds: {kinds}')
+    with tempfile.TemporaryDirectory() as folder:
+        prm = os.path.join(folder, 'all.prm')
+        with open(prm, 'w') as f:
+            f.write('set Bodies = ' + ', '.join(kinds) + '\n')
+            for kind in kinds:
+                f.write(f'subsection Body {kind}\n set Mesh = {kind}\n set Corners = (0, 0); (1, 0); (0, 1)\nend\n')
+        run = p.call('--check', prm)
+        for kind in kinds:
+            check(f'body {kind}: ' in run.stdout, f'Mesh = {kind}: {run.stderr}')
+    # Obstacles, shapes and regions, as theirs have them.
+    for setting in ('Pair bottom/Obstacle=plane: (0, 0, 0), (0, 0, 1)', 'Pair bottom/Obstacle=sphere: (0.5, 0.5, -5), 5',
+                    'Pair bottom/Obstacle=cylinder: (0.5, 0, -5), (0, 1, 0), 5', 'Pair bottom/Obstacle=paraboloid: (0.5, 0.5, 0), (0, 0, 1), 2',
+                    'Pair bottom/Obstacle=function: z + 0.01', 'Pair bottom/Obstacle=hollow sphere: (0.5, 0.5, 50), 50',
+                    'Pair bottom/Obstacle=hollow cylinder: (0.5, 0, 50), (0, 1, 0), 50', 'Body cube/Boundary shapes=top: plane: (0, 0, 1), (0, 0, 1)',
+                    'Body cube/Boundary shapes=top: sphere: (0.5, 0.5, -99), 100.0025', 'Refinement/Regions=ball: (0, 0, 0), 0.1, 1; box: (0, 0, 0), (1, 1, 1), 1',
+                    'Refinement/Regions=cube: ball: (0, 0, 0), 0.1, 1', 'Pair bottom/Initial gap=geometry'):
+        run = p.call('--check', os.path.join(TOP, 'prm', 'obstacle', 'paraboloid.prm'), '--set', setting)
+        check(run.returncode == 0, f'{setting}: {run.stderr}')
+
+
+def arrays_of(path):
+    """The point arrays of a .vtu file of deal.II (base64, compressed), by name, with "points"; lists of numbers."""
+    import numpy
+    kinds = {'Float32': numpy.float32, 'Float64': numpy.float64, 'Int32': numpy.int32, 'UInt8': numpy.uint8, 'Int64': numpy.int64, 'UInt64': numpy.uint64}
+    result = {}
+    for array in xml.etree.ElementTree.parse(path).iter('DataArray'):
+        text = ''.join(array.text.split())
+        head = numpy.frombuffer(base64.b64decode(text[:24])[:16], numpy.uint32)
+        n = 4 * (3 + int(head[0]))
+        length = 4 * math.ceil(n / 3)
+        sizes = numpy.frombuffer(base64.b64decode(text[:length])[:n], numpy.uint32)[3:]
+        data, at, raw = base64.b64decode(text[length:]), 0, b''
+        for size in sizes:
+            raw += zlib.decompress(data[at:at + int(size)])
+            at += int(size)
+        values = numpy.frombuffer(raw, kinds[array.get('type')])
+        name = array.get('Name') or 'points'
+        result[name] = values.reshape(-1, int(array.get('NumberOfComponents') or 1))
+    return result
+
+
+def check_body_words(s, folder, name):
+    """Largest displacement and stress of the summary against those of the files."""
+    import numpy
+    pieces = [arrays_of(os.path.join(folder, f)) for f in os.listdir(folder) if re.fullmatch(r'bodies\.\d+\.vtu', f)]
+    data = {key: numpy.concatenate([piece[key] for piece in pieces]) for key in ('points', 'displacement', 'von_Mises', 'body')}
+    for number, body in enumerate(s['bodies']):
+        mine = data['body'][:, 0] == number
+        points = data['points'][mine]
+        for key, values in (('largest_displacement', numpy.linalg.norm(data['displacement'][mine].astype(float), axis=1)),
+                            ('largest_von_mises', data['von_Mises'][mine, 0].astype(float))):
+            # The files have single precision.
+            near(body[key], values.max(), 1e-6, f'{name}, {body["name"]}, {key}')
+            place = numpy.array(body[key + '_at'])
+            size = numpy.linalg.norm(points.max(axis=0) - points.min(axis=0))
+            at = numpy.linalg.norm(points - place, axis=1).argmin()
+            check(numpy.linalg.norm(points[at] - place) < 1e-6 * size, f'{name}, {body["name"]}: no node at {place}')
+            check(values[at] > (1 - 1e-6) * values.max(), f'{name}, {body["name"]}, {key}: {values[at]} at {place}')
+
+
+# An example; what is changed; whether all forces must balance (obstacles are no bodies).
+FIVE = (('patch_test/patch_test.prm', ['Body upper/Pressures=back: 1'], True), ('cubes/cubes.prm', ['Refinement/Global cycles=2'], True),
+        ('obstacle/paraboloid.prm', ['Refinement/Global cycles=2', 'Body cube/Volume force=(0, 0, -0.01)'], False),
+        ('shapes/press-fit.prm', [], True), ('hertz/hertz.prm', ['Refinement/Final global cycles=0', 'Refinement/Global cycles=0'], True))
+
+
+def words_at_the_end(p):
+    """The summary of five examples: extrema are those of the files, loads and reactions balance, and the terminal says so."""
+    for prm, settings, closed in FIVE:
+        with tempfile.TemporaryDirectory() as folder:
+            out = os.path.join(folder, 'results')
+            run = p.call(os.path.join(TOP, 'prm', prm), '--output', out, *[a for t in settings for a in ('--set', t)])
+            check(run.returncode == 0, f'{prm}: exit code {run.returncode}: {run.stderr}')
+            with open(os.path.join(out, 'summary.json')) as f:
+                s = json.load(f)
+            check_body_words(s, out, prm)
+        total = [0., 0., 0.]
+        for body in s['bodies']:
+            scale = max(abs(f) for key in ('load', 'reaction', 'contact_force') for f in body[key])
+            check(scale > 0, f'{prm}: no force on {body["name"]}')
+            for c in range(3):
+                rest = body['load'][c] + body['reaction'][c] + body['contact_force'][c]
+                check(abs(rest) <= 1e-9 * scale, f'{prm}, {body["name"]}: {rest} of {scale} is left in direction {c}')
+                total[c] += body['load'][c] + body['reaction'][c]
+        if closed:
+            for c in range(3):
+                check(abs(total[c]) <= 1e-9 * scale, f'{prm}: loads and reactions leave {total}')
+        check(s['displacements_are_small'], f'{prm}: displacements are large')
+        for words in ('largest displacement', 'largest von Mises stress', 'reactions', 'contact area', 'largest pressure', 'displacements are small: yes',
+                      'contact conditions hold: yes'):
+            check(words in run.stdout, f'{prm}: "{words}" is not said: {run.stdout}')
+        check('iteration ' not in run.stdout and len(run.stdout.splitlines()) < 30, f'{prm}: {len(run.stdout.splitlines())} lines')
+    # Iterations on request.
+    run = p.call('--check', PATCH_TEST, '--set', 'Output/Verbosity=2')
+    with tempfile.TemporaryDirectory() as folder:
+        run = p.call(PATCH_TEST, '--output', os.path.join(folder, 'out'), '--set', 'Output/Verbosity=2')
+        check('iteration ' in run.stdout and 'equilibrium' in run.stdout, f'Verbosity 2: {run.stdout}')
+        # A body that is turned by 20 degrees.
+        turned = ['Contact pairs=', 'Bodies=upper', 'Body upper/Dirichlet=bottom: (0, 0, 0); top: (-0.35*(y-0.5), 0.35*(x-0.5), 0)',
+                  'Solver/Method=multigrid cg']
+        run = p.call(PATCH_TEST, '--output', os.path.join(folder, 'out'), *[a for t in turned for a in ('--set', t)])
+        check('displacements are small: NO' in run.stdout, f'turned: {run.stdout} {run.stderr}')
+
+
+def check_says(p):
+    """--check: loads with their resultants, constraints, free motions, and the smallest distance."""
+    run = p.call('--check', PATCH_TEST, '--set', 'Body upper/Pressures=right: 2', '--set', 'Body lower/Volume force=(0, 0, -3)', '--set',
+                 'Body upper/Translation=0, 0, 0.25')
+    check(run.returncode == 0, f'--check: {run.stderr}')
+    for line in ('load on body upper, boundary "right": force (-2, 0, 0), moment about the origin (0, -1.5, 1)', 'load on body lower, volume: force (0, 0, -3)',
+                 'all loads on body upper: force (-2, 0, 0)', 'constraint on body upper, boundary top: u_z = -0.01, ', 'free motions: none',
+                 'smallest distance of the true surfaces: 0.25'):
+        found = re.sub(r'[-+0-9.]+e-1[5-9]', '0', run.stdout)
+        check(line in found, f'--check does not say "{line}": {found}')
+    run = p.call('--check', PATCH_TEST, '--set', 'Body upper/Dirichlet=')
+    check('body upper: the constraints leave 6 rigid motion(s) free' in run.stdout, f'--check: {run.stdout}')

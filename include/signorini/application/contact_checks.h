@@ -32,9 +32,22 @@ namespace Signorini
   /// the matrix.
   void refuse_dense_coupling(const CoupledPairs &coupled);
 
-  /// Collective. Errors: InputError for an initial overlap of the order of a body.
-  /// @param overlap largest negative weighted gap of the pair
-  void refuse_large_overlap(const CoupledPairs &coupled, const ContactPair &pair, const double overlap);
+  /// The smallest distance of two surfaces: its length along the normal, negative where they overlap, and where
+  /// that is on the nonmortar side.
+  struct SmallestGap
+  {
+    double           value = std::numeric_limits<double>::max();
+    dealii::Point<3> place;
+    Vector3          normal;
+  };
+
+  /// Collective. That of the true surfaces before anything moves, at the corners of the overlay (with an
+  /// obstacle, at the vertices) where they face each other.
+  SmallestGap smallest_initial_gap(const ContactPair &pair, const MPI_Comm comm);
+
+  /// Collective. Errors: InputError for an initial overlap that is more than the definition of a pair allows,
+  /// or of the order of a body.
+  void refuse_large_overlap(const CoupledPairs &coupled, const unsigned int pair);
 } // namespace Signorini
 
 #endif

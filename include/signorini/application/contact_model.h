@@ -87,8 +87,8 @@ namespace Signorini
       return the_bodies.refine(space, marked);
     }
 
-    /// Collective. Halves all cells of all bodies so many times.
-    void refine_globally(const unsigned int times);
+    /// Collective. Halves all cells of each body so many times.
+    void refine_globally(const std::vector<unsigned int> &times);
 
     /// The connected parts of bodies with faces on a side of a pair.
     std::set<unsigned int> parts_of(const PairModel::Side &side) const;

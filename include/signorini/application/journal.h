@@ -25,7 +25,7 @@ namespace Signorini
     }
 
     /// @param is_root whether this rank may print
-    /// @param verbosity 0: nothing, 1: a line per cycle, 2: also a line per iteration
+    /// @param verbosity 0: nothing, 1: a line per cycle, 2: also one per iteration
     Journal(const bool is_root, const unsigned int verbosity)
       : prints(is_root && verbosity > 0)
       , prints_iterations(verbosity > 1)
@@ -67,6 +67,12 @@ namespace Signorini
     void show(const std::string &phase, const double fraction)
     {
       progress.show(phase, fraction);
+    }
+
+    /// For the time that is left: Progress::expect().
+    void expect(const double before, const double present, const double all)
+    {
+      progress.expect(before, present, all);
     }
 
     /// Removes what show() has left on the terminal.

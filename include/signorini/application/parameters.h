@@ -33,7 +33,7 @@ namespace Signorini
     GapKind            gap         = GapKind::weighted;
     NonmortarChoice    nonmortar   = NonmortarChoice::automatic;
     SurfaceKind        surface     = SurfaceKind::automatic;
-    InitialPenetration penetration = InitialPenetration::resolve;
+    InitialPenetration penetration = InitialPenetration::automatic;
 
     /// Declares the parameters in the current subsection.
     void add_parameters(dealii::ParameterHandler &prm);
@@ -48,7 +48,7 @@ namespace Signorini
     /// Relative to where the program runs.
     std::string folder = "output";
     /// See Journal.
-    unsigned int verbosity = 2;
+    unsigned int verbosity = 1;
     /// Files of bodies, of contact surfaces, with stresses in them, of the mapping; times of sweeps.
     bool bodies = true, surfaces = true, stress = true, mapping = false, measure_sweeps = true;
 
@@ -93,11 +93,9 @@ namespace Signorini
       return the_output;
     }
 
-    /// So often all cells are halved before the first solve.
-    unsigned int n_initial_refinements() const
-    {
-      return refinement.initial_global;
-    }
+    /// How often the cells of each body are halved before the first solve. Errors: InputError for texts that
+    /// are no such number.
+    std::vector<unsigned int> initial_levels() const;
 
     /// Collective. Reads the meshes. Errors: InputError for texts and meshes that cannot be understood.
     ProblemDefinition problem(const MPI_Comm communicator) const;
@@ -125,11 +123,16 @@ namespace Signorini
       LoadParameters loads;
       /// "name: (x, y, z); ...".
       std::string probes;
+      /// A number, or empty for that of all bodies.
+      std::string initial_levels;
       /// "(u, v, w)", or empty.
       std::string exact_displacement;
 
       void add_parameters(dealii::ParameterHandler &prm);
     };
+
+    /// Collective. Errors: InputError for more cells than fit into the memory.
+    void check_size(const ProblemDefinition &problem, const MPI_Comm communicator) const;
 
     /// The names of bodies and pairs decide which subsections exist.
     void declare(const std::vector<std::string> &body_names, const std::vector<std::string> &pair_names);

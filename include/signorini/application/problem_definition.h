@@ -57,6 +57,8 @@ namespace Signorini
   /// What to do where surfaces overlap at the start.
   enum class InitialPenetration
   {
+    /// An interference fit where it is small against the bodies, else InputError.
+    automatic,
     /// An interference fit.
     resolve,
     /// InputError.
@@ -90,7 +92,7 @@ namespace Signorini
     GapKind            gap         = GapKind::weighted;
     NonmortarChoice    nonmortar   = NonmortarChoice::automatic;
     SurfaceKind        surface     = SurfaceKind::automatic;
-    InitialPenetration penetration = InitialPenetration::resolve;
+    InitialPenetration penetration = InitialPenetration::automatic;
   };
 
   /// A body and what acts on it.

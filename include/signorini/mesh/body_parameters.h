@@ -26,7 +26,8 @@ namespace Signorini
     std::string               mesh   = "block";
     double                    radius = 1., inner_radius = .5, height = 1.;
     dealii::Point<3>          lower_corner, upper_corner = dealii::Point<3>(1., 1., 1.);
-    std::vector<unsigned int> divisions = {1, 1, 1};
+    std::vector<unsigned int> divisions = {1, 1, 1}, round_divisions = {0, 0, 0};
+    std::string               corners, grading;
     dealii::Tensor<1, 3>      translation, rotation_axis = dealii::Tensor<1, 3>({0., 0., 1.});
     /// Degrees.
     double                   rotation_angle = 0.;

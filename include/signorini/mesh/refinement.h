@@ -4,6 +4,7 @@
 #ifndef signorini_mesh_refinement_h
 #define signorini_mesh_refinement_h
 
+#include <signorini/mesh/bodies.h>
 #include <signorini/mesh/nodal_space.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -21,12 +22,14 @@ namespace Signorini
     dealii::Point<3> centre_or_lower, upper;
     double           radius;
     unsigned int     levels;
+    /// Only the cells of this body; empty for all.
+    std::string body;
 
     /// Whether a cell may intersect the region: by the bounding box of its vertices.
     bool touches(const dealii::Point<3> &lower_corner, const dealii::Point<3> &upper_corner) const;
   };
 
-  /// "ball: (x, y, z), radius, levels; box: (x, y, z), (x, y, z), levels; ...". Errors: InputError for
+  /// "ball: (x, y, z), radius, levels; box: (x, y, z), (x, y, z), levels; BODY: ball: ...". Errors: InputError for
   /// regions that cannot be understood.
   std::vector<RefinementRegion> parse_regions(const std::string &text);
 
@@ -43,6 +46,8 @@ namespace Signorini
 
     /// As the parameters of the same names say (add_parameters()).
     unsigned int initial_global = 0, global_cycles = 0, adaptive_cycles = 0, final_global_cycles = 0;
+    /// Levels before the first cycle by body; empty for initial_global everywhere.
+    std::vector<unsigned int>     initial_of_body;
     std::vector<RefinementRegion> regions;
     Marking                       marking          = Marking::error;
     double                        marking_fraction = .5;
@@ -73,8 +78,15 @@ namespace Signorini
       return cycle >= first_adaptive_cycle && cycle < first_final_cycle;
     }
 
-    /// Which cells of a space cycle `cycle` (1, 2, ...), if it is not adaptive, refines (Bodies::refine()).
-    std::vector<bool> mark(const NodalSpace &space, const unsigned int cycle) const;
+    /// Whether a cycle refines all cells.
+    bool is_global(const unsigned int cycle) const
+    {
+      return cycle <= parameters.global_cycles || (cycle >= first_final_cycle && cycle <= cycles);
+    }
+
+    /// Which cells of a space of the bodies cycle `cycle` (1, 2, ...), if it is not adaptive, refines
+    /// (Bodies::refine()).
+    std::vector<bool> mark(const Bodies &bodies, const NodalSpace &space, const unsigned int cycle) const;
 
   private:
     RefinementParameters parameters;

@@ -4,6 +4,7 @@
 #ifndef signorini_output_progress_h
 #define signorini_output_progress_h
 
+#include <chrono>
 #include <ostream>
 #include <string>
 
@@ -29,15 +30,23 @@ namespace Signorini
     /// Shows a phase with a bar; fraction between 0 and 1.
     void show(const std::string &phase, const double fraction);
 
+    /// How much work there is, for the time that is left: what was done before the present part, the part (of
+    /// which show() tells how much is done), and all, in any unit. Without it no time is shown.
+    void expect(const double before, const double present, const double all);
+
     /// Takes the line away; to be called before anything else is printed.
     void clear();
 
   private:
     void write(const std::string &text);
+    /// Time that is left and memory of this rank, in words.
+    std::string outlook(const double fraction) const;
 
-    std::ostream &out;
-    const bool    enabled;
-    std::size_t   width = 0;
+    std::ostream                               &out;
+    const bool                                  enabled;
+    std::size_t                                 width  = 0;
+    double                                      before = 0., present = 0., all = 0.;
+    const std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
   };
 } // namespace Signorini
 

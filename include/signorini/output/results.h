@@ -73,6 +73,38 @@ namespace Signorini
     double moment_balance = 0.;
     /// Nodes without a multiplier although covered.
     std::size_t dropped_nodes = 0;
+    /// Where the pressure is largest.
+    dealii::Point<3> max_pressure_at;
+    /// How far the surfaces slide on each other where they touch (length), and in multiples of the width of
+    /// the faces there.
+    double slip = 0., slip_in_faces = 0.;
+  };
+
+  /// What happens to a body, after the last solve.
+  struct BodyResult
+  {
+    /// As the parameter file names it.
+    std::string name;
+    /// Length of the displacement and von Mises stress, the largest at nodes; where.
+    double           largest_displacement = 0., largest_von_mises = 0.;
+    dealii::Point<3> displacement_at, von_mises_at;
+    /// Sums of what acts on it: loads (and their moment about the origin), reactions of prescribed
+    /// displacements, contact.
+    Vector3 load, load_moment, reaction, contact;
+    /// Largest angle (radians) and largest entry of the strain, at the centres of cells.
+    double largest_rotation = 0., largest_strain = 0.;
+  };
+
+  /// From where on displacements are large for a theory of small ones. Pure numbers.
+  struct SmallnessRule
+  {
+    /// A rotation by an angle changes lengths by half its square: 0.5 %.
+    double rotation = .1;
+    /// The gap is that of the points that face each other before the bodies move: a shift by a face is an
+    /// error of the order of the mesh.
+    double slip_in_faces = 1.;
+    /// Strains whose squares count: 0.25 % in strain.
+    double strain = .05;
   };
 
   /// The forces that hold a boundary with prescribed displacements.
@@ -188,6 +220,7 @@ namespace Signorini
     std::vector<PairResult>     pairs;
     std::vector<MappingResult>  mappings;
     std::vector<BoundaryResult> boundaries;
+    std::vector<BodyResult>     bodies;
     std::vector<ProbeResult>    probes;
     Certificate                 certificate;
     /// Load steps, if there were any; the last is what is in the rest of the results.

@@ -90,10 +90,52 @@ TEST(Refinement, WorksThroughTheCycles)
   for (unsigned int cycle = 1; cycle <= refinement.n_cycles(); ++cycle)
     {
       const NodalSpace space(MPI_COMM_WORLD, bodies.mesh());
-      EXPECT_TRUE(bodies.refine(space, refinement.mark(space, cycle)));
+      EXPECT_TRUE(bodies.refine(space, refinement.mark(bodies, space, cycle)));
       cells.push_back(bodies.triangulation().n_global_active_cells());
     }
   EXPECT_EQ(cells, (std::vector<std::size_t>{64, 71, 78, 624}));
   const NodalSpace space(MPI_COMM_WORLD, bodies.mesh());
-  EXPECT_FALSE(bodies.refine(space, refinement.mark(space, refinement.n_cycles() + 1)));
+  EXPECT_FALSE(bodies.refine(space, refinement.mark(bodies, space, refinement.n_cycles() + 1)));
+}
+
+
+
+// A small body on a large one: regions and initial levels of one of them leave the other as it is.
+TEST(Refinement, RegionsOfOneBodyLeaveTheOthers)
+{
+  BodyParameters small, large;
+  small.name         = "small";
+  large.name         = "large";
+  large.lower_corner = Point<3>(-10., -10., -10.);
+  large.upper_corner = Point<3>(10., 10., 0.);
+  Bodies               bodies(MPI_COMM_WORLD, define_bodies(MPI_COMM_WORLD, {small, large}, "."));
+  RefinementParameters p;
+  p.initial_of_body = {1, 0};
+  p.regions         = parse_regions("small: ball: (0, 0, 0), 0.1, 2; large: box: (0, 0, 0), (0, 0, 0), 1");
+  EXPECT_EQ(p.regions[0].body, "small");
+  EXPECT_FALSE(p.regions[1].is_ball);
+  const Refinement refinement(p);
+  const auto       count = [&] {
+    const NodalSpace            space(MPI_COMM_WORLD, bodies.mesh());
+    std::array<unsigned int, 2> n = {{0, 0}};
+    for (const NodalSpace::Cell &cell : space.cells())
+      if (cell.is_owned)
+        ++n[bodies.body_of_material(cell.material)];
+    return std::make_pair(Utilities::MPI::sum(n[0], MPI_COMM_WORLD), Utilities::MPI::sum(n[1], MPI_COMM_WORLD));
+  };
+  const auto refine = [&](const auto &mark) {
+    const NodalSpace space(MPI_COMM_WORLD, bodies.mesh());
+    bodies.refine(space, mark(space));
+  };
+  refine([&](const NodalSpace &space) {
+    std::vector<bool> marked;
+    for (const NodalSpace::Cell &cell : space.cells())
+      marked.push_back(bodies.body_of_material(cell.material) == 0);
+    return marked;
+  });
+  EXPECT_EQ(count(), std::make_pair(8u, 1u));
+  refine([&](const NodalSpace &space) { return refinement.mark(bodies, space, 1); });
+  EXPECT_EQ(count(), std::make_pair(15u, 8u));
+  refine([&](const NodalSpace &space) { return refinement.mark(bodies, space, 2); });
+  EXPECT_EQ(count(), std::make_pair(22u, 8u));
 }

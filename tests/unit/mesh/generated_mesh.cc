@@ -6,6 +6,7 @@
 #include <signorini/mesh/bodies.h>
 #include <signorini/mesh/body_parameters.h>
 #include <signorini/mesh/coarser_meshes.h>
+#include <signorini/mesh/generated_mesh.h>
 #include <signorini/mesh/nodal_space.h>
 
 #include <deal.II/grid/grid_tools.h>
@@ -36,6 +37,7 @@ namespace
     p.height       = 3.;
     p.upper_corner = Point<3>(1, 2, 3);
     p.divisions    = {1, 2, 2};
+    p.corners      = "(0, 0); (2, 0); (1, 2)";
     return p;
   }
 
@@ -129,6 +131,22 @@ INSTANTIATE_TEST_SUITE_P(
         Shape{"quarter of cylinder",
               3. * M_PI,
               {{"side", 3. * M_PI}, {"top", M_PI}, {"symmetry x", 6.}, {"symmetry y", 6.}}},
+        Shape{"tube",
+              9. * M_PI,
+              {{"outer", 12. * M_PI}, {"inner", 6. * M_PI}, {"start", 3. * M_PI}, {"end", 3. * M_PI}}},
+        Shape{"half tube", 4.5 * M_PI, {{"outer", 6. * M_PI}, {"start", 1.5 * M_PI}, {"symmetry y", 6.}}},
+        Shape{"quarter of tube",
+              2.25 * M_PI,
+              {{"outer", 3. * M_PI}, {"inner", 1.5 * M_PI}, {"symmetry x", 3.}, {"symmetry y", 3.}}},
+        Shape{"half cylinder",
+              6. * M_PI,
+              {{"outer", 6. * M_PI}, {"flat", 12.}, {"start", 2. * M_PI}, {"end", 2. * M_PI}}},
+        Shape{"half of half cylinder",
+              3. * M_PI,
+              {{"outer", 3. * M_PI}, {"flat", 6.}, {"end", M_PI}, {"symmetry x", 6.}}},
+        Shape{"prism",
+              6.,
+              {{"side 1", 6.}, {"side 2", 3. * std::sqrt(5.)}, {"side 3", 3. * std::sqrt(5.)}, {"end", 2.}}},
         Shape{"spherical shell", 28. / 3. * M_PI, {{"outer", 16. * M_PI}, {"inner", 4. * M_PI}}},
         Shape{"eighth of spherical shell", 7. / 6. * M_PI, {{"outer", 2. * M_PI}, {"inner", .5 * M_PI}}}));
 
@@ -273,4 +291,159 @@ TEST(NodalSpace, NodesLieOnTheSphere)
             }
         }
   EXPECT_GT(Utilities::MPI::sum(n_hanging, MPI_COMM_WORLD), 0u);
+}
+
+
+
+namespace
+{
+  /// Volume of the largest cell / volume of the smallest.
+  double ratio_of_volumes(const NodalSpace &space)
+  {
+    double least = 1e300, largest = 0.;
+    for (const NodalSpace::Cell &cell : space.cells())
+      {
+        const double v = Element(space, cell).volume();
+        least          = std::min(least, v);
+        largest        = std::max(largest, v);
+      }
+    return Utilities::MPI::max(largest, MPI_COMM_WORLD) / Utilities::MPI::min(least, MPI_COMM_WORLD);
+  }
+} // namespace
+
+
+
+TEST(GeneratedMesh, AnnuliAreSlabsOfOneLayer)
+{
+  const std::vector<std::pair<const char *, double>> kinds = {
+      {"annulus", 2. * M_PI}, {"half annulus", M_PI}, {"quarter of annulus", .5 * M_PI}};
+  for (const auto &[kind, angle] : kinds)
+    {
+      BodyParameters p  = body(kind);
+      p.round_divisions = {4, 24, 0};
+      const Bodies bodies(MPI_COMM_WORLD, define_bodies(MPI_COMM_WORLD, {p}, "."));
+      EXPECT_EQ(bodies.triangulation().n_global_active_cells(), 96u) << kind;
+      const NodalSpace space(MPI_COMM_WORLD, bodies.mesh());
+      EXPECT_NEAR(volume(space) / (4.5 * angle), 1., .02) << kind;
+      EXPECT_NEAR(area(bodies, "start") / (1.5 * angle), 1., .02) << kind;
+    }
+}
+
+
+
+TEST(GeneratedMesh, NewVerticesLieOnTheTrueGeometry)
+{
+  for (const char *kind : {"tube", "half tube", "half cylinder", "half of half cylinder"})
+    {
+      BodyParameters p = body(kind);
+      p.rotation_axis  = Tensor<1, 3>({1., 0., 0.});
+      p.rotation_angle = 90.;
+      p.translation    = Tensor<1, 3>({0., 5., 1.});
+      Bodies bodies(MPI_COMM_WORLD, define_bodies(MPI_COMM_WORLD, {p}, "."));
+      bodies.triangulation().refine_global(2);
+      for (const std::string name : {"outer", "inner"})
+        {
+          if (name == "inner" && p.mesh.find("tube") == std::string::npos)
+            continue;
+          const auto ids = bodies.boundary_ids(0, name);
+          for (const auto &cell : bodies.triangulation().active_cell_iterators())
+            for (const auto &face : cell->face_iterators())
+              if (face->at_boundary() && ids.count(face->boundary_id()) > 0)
+                for (unsigned int v = 0; v < 4; ++v)
+                  EXPECT_NEAR(std::hypot(face->vertex(v)[0], face->vertex(v)[2] - 1.), name == "outer" ? 2. : 1.,
+                              1e-12)
+                      << kind;
+        }
+    }
+}
+
+
+
+TEST(GeneratedMesh, DirectionsNameBoundariesWhereTheBodyIs)
+{
+  BodyParameters p = body("half cylinder");
+  p.rotation_axis  = Tensor<1, 3>({1., 0., 0.});
+  p.rotation_angle = 90.;
+  const Bodies lying(MPI_COMM_WORLD, define_bodies(MPI_COMM_WORLD, {p}, "."));
+  EXPECT_EQ(lying.boundary_ids(0, "+z"), lying.boundary_ids(0, "flat"));
+  EXPECT_EQ(lying.boundary_ids(0, "+y"), lying.boundary_ids(0, "start"));
+  EXPECT_EQ(lying.boundary_ids(0, "-y"), lying.boundary_ids(0, "end"));
+  for (const char *none : {"-z", "+x", "x", "+w", "+"})
+    EXPECT_THROW(lying.boundary_ids(0, none), InputError) << none;
+  p                = body("block");
+  p.rotation_axis  = Tensor<1, 3>({0., 0., 1.});
+  p.rotation_angle = 90.;
+  const Bodies block(MPI_COMM_WORLD, define_bodies(MPI_COMM_WORLD, {p}, "."));
+  EXPECT_EQ(block.boundary_ids(0, "+y"), block.boundary_ids(0, "right"));
+  EXPECT_EQ(block.boundary_ids(0, "-x"), block.boundary_ids(0, "back"));
+}
+
+
+
+TEST(GeneratedMesh, GradingHasTheRatioAndKeepsTheShape)
+{
+  const std::vector<std::pair<const char *, const char *>> kinds = {
+      {"block", "(0, 0, 3)"},           {"block", "top"},
+      {"tube", "outer"},                {"quarter of tube", "(1, 0, 0)"},
+      {"half cylinder", "(0, -2, 0)"},  {"half of half cylinder", "outer"},
+      {"prism", "(0, 0, 0)"}};
+  for (const auto &[kind, towards] : kinds)
+    {
+      BodyParameters p      = body(kind);
+      p.divisions           = {8, 8, 8};
+      p.round_divisions     = {8, 16, 2};
+      const Bodies     ungraded(MPI_COMM_WORLD, define_bodies(MPI_COMM_WORLD, {p}, "."));
+      const NodalSpace even(MPI_COMM_WORLD, ungraded.mesh());
+      p.grading             = std::string(towards) + ", 10";
+      const Bodies     graded(MPI_COMM_WORLD, define_bodies(MPI_COMM_WORLD, {p}, "."));
+      const NodalSpace space(MPI_COMM_WORLD, graded.mesh());
+      EXPECT_NEAR(volume(space) / volume(even), 1., .02) << kind;
+      EXPECT_GT(ratio_of_volumes(space), 2. * ratio_of_volumes(even)) << kind << ", " << towards;
+    }
+}
+
+
+
+TEST(GeneratedMesh, RefusesWhatItCannotMake)
+{
+  const auto refused = [](const char *kind, const auto &change) {
+    BodyParameters p = body(kind);
+    change(p);
+    EXPECT_THROW(define_bodies(MPI_COMM_WORLD, {p}, "."), InputError) << kind;
+  };
+  refused("tube", [](BodyParameters &p) { p.inner_radius = 2.; });
+  refused("tube", [](BodyParameters &p) { p.round_divisions = {1, 2, 1}; });
+  refused("tube", [](BodyParameters &p) { p.grading = "top, 2"; });
+  refused("tube", [](BodyParameters &p) { p.grading = "inner, 0.5"; });
+  refused("ball", [](BodyParameters &p) { p.grading = "sphere, 2"; });
+  refused("block", [](BodyParameters &p) { p.grading = "inner, 2"; });
+  refused("block", [](BodyParameters &p) { p.grading = "top"; });
+  refused("half cylinder", [](BodyParameters &p) { p.round_divisions = {1, 3, 1}; });
+  refused("prism", [](BodyParameters &p) { p.corners = "(0, 0); (1, 0)"; });
+  refused("prism", [](BodyParameters &p) { p.corners = "(0, 0); (1, 2); (2, 0)"; });
+  refused("prism", [](BodyParameters &p) { p.corners = "(0, 0); (2, 0); (2, 2); (1.9, 0.1)"; });
+  refused("prism", [](BodyParameters &p) { p.corners = "0, 0"; });
+  refused("block", [](BodyParameters &p) { p.divisions = {1000, 1000, 1000}; });
+}
+
+
+
+TEST(GeneratedMesh, GradedPlacesHaveTheRatio)
+{
+  for (const double centre : {0., 1., .3})
+    {
+      const auto x        = graded_places(200, centre, 10.);
+      double     shortest = 1., longest = 0.;
+      for (unsigned int i = 0; i < 200; ++i)
+        {
+          shortest = std::min(shortest, x[i + 1] - x[i]);
+          longest  = std::max(longest, x[i + 1] - x[i]);
+        }
+      EXPECT_NEAR(longest / shortest, 10., .3);
+      EXPECT_EQ(x.front(), 0.);
+      EXPECT_EQ(x.back(), 1.);
+    }
+  const auto even = graded_places(4, .5, 1.);
+  for (unsigned int i = 0; i <= 4; ++i)
+    EXPECT_NEAR(even[i], .25 * i, 1e-15);
 }

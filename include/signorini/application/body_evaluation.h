@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_application_body_evaluation_h
+#define signorini_application_body_evaluation_h
+
+#include <signorini/application/contact_solve.h>
+#include <signorini/output/results.h>
+
+#include <vector>
+
+namespace Signorini
+{
+  /// A force and its moment about the origin of the coordinates.
+  struct Resultant
+  {
+    Vector3 force, moment;
+  };
+
+  /// Collective. What loads (not prescribed displacements) do to each body, from the nodal forces that the
+  /// solver sees.
+  std::vector<Resultant> load_resultants(const ContactModel &model, const Discretization &discretization,
+                                         const Loads &loads);
+
+  /// Collective. Extrema of displacement, stress, strain and rotation of each body, and what acts on it.
+  /// @param stress von Mises stress at the relevant nodes, as nodal_stress() gives it
+  /// @param results with boundaries and pairs
+  std::vector<BodyResult> evaluate_bodies(const ContactModel &model, const Discretization &discretization,
+                                          const Vector &displacement, const std::vector<double> &stress,
+                                          const Results &results);
+
+  /// Collective. How far bodies slide on each other where they touch: along the surface (length), and in
+  /// multiples of the width of the faces there.
+  struct Slip
+  {
+    double length = 0., in_faces = 0.;
+  };
+
+  /// Collective. The largest of a pair.
+  Slip largest_slip(const Discretization &discretization, const ContactSolution &solution,
+                    const unsigned int pair);
+} // namespace Signorini
+
+#endif

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_output_final_words_h
+#define signorini_output_final_words_h
+
+#include <signorini/output/results.h>
+
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace Signorini
+{
+  /// Where displacements are too large for a theory of small ones, in words; empty if they are small.
+  std::vector<std::string> large_displacements(const Results &results);
+
+  /// What a person looks for at the end of a run: largest displacement and stress of each body, what acts on
+  /// it, force, area and largest pressure of each pair, whether displacements are small, and whether the
+  /// contact conditions hold.
+  void print_final_words(std::ostream &out, const Results &results);
+} // namespace Signorini
+
+#endif

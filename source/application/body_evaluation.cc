@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/application/body_evaluation.h>
+#include <signorini/application/contact_evaluation.h>
+#include <signorini/discretization/elasticity.h>
+#include <signorini/discretization/element.h>
+#include <signorini/mesh/surface_extraction.h>
+#include <signorini/mortar/surface_values.h>
+
+namespace Signorini
+{
+  using namespace dealii;
+
+  namespace
+  {
+    Vector3 sum(const Vector3 &v, const MPI_Comm comm)
+    {
+      Vector3 result;
+      for (unsigned int c = 0; c < dim; ++c)
+        result[c] = Utilities::MPI::sum(v[c], comm);
+      return result;
+    }
+
+    Vector3 nodal(const Vector &field, const unsigned int i)
+    {
+      return Vector3(
+          {field.local_element(dim * i), field.local_element(dim * i + 1), field.local_element(dim * i + 2)});
+    }
+
+    /// The largest of a positive quantity, and where.
+    struct Largest
+    {
+      double   value = -1.;
+      Point<3> place;
+
+      void add(const double v, const Point<3> &x)
+      {
+        // Equal values: the same place on any number of ranks.
+        const auto before = [&] {
+          for (unsigned int c = 0; c < dim; ++c)
+            if (x[c] != place[c])
+              return x[c] < place[c];
+          return false;
+        };
+        if (v > value || (v == value && before()))
+          {
+            value = v;
+            place = x;
+          }
+      }
+
+      /// Over all ranks.
+      void gather(const MPI_Comm comm)
+      {
+        Largest all;
+        for (const auto &[v, x] : Utilities::MPI::all_gather(comm, std::make_pair(value, place)))
+          all.add(v, x);
+        *this = all;
+      }
+    };
+
+    std::vector<unsigned int> bodies_of_nodes(const Discretization &d, const Bodies &bodies)
+    {
+      std::vector<unsigned int> body(d.partition().n_owned(), numbers::invalid_unsigned_int);
+      for (const NodalSpace::Cell &cell : d.nodal().cells())
+        for (const NodeIndex node : d.nodal().nodes(cell))
+          if (d.partition().owns(node))
+            body[d.partition().to_local(node)] = bodies.body_of_material(cell.material);
+      return body;
+    }
+  } // namespace
+
+
+
+  std::vector<Resultant> load_resultants(const ContactModel &model, const Discretization &d,
+                                         const Loads &loads)
+  {
+    const MPI_Comm comm = model.communicator();
+    Vector         nothing;
+    d.partition().reinit(nothing);
+    nothing.update_ghost_values();
+    // A u - f without u.
+    const Vector forces = physical_residual(model.bodies(), d.nodal(), d.partition(), loads, nothing);
+    const std::vector<unsigned int> body = bodies_of_nodes(d, model.bodies());
+    std::vector<Resultant>          result(model.bodies().n_bodies());
+    for (unsigned int i = 0; i < d.partition().n_owned(); ++i)
+      {
+        const NodeIndex node = d.partition().to_global(i);
+        if (body[i] == numbers::invalid_unsigned_int || d.nodal().hanging_nodes().is_constrained(node))
+          continue;
+        const Vector3 force = -nodal(forces, i);
+        result[body[i]].force += force;
+        result[body[i]].moment += cross_product_3d(Vector3(d.nodal().position(node)), force);
+      }
+    for (Resultant &r : result)
+      r = {sum(r.force, comm), sum(r.moment, comm)};
+    return result;
+  }
+
+
+
+  namespace
+  {
+    /// What the cells of a body say, at their centres.
+    struct CellExtrema
+    {
+      double rotation = 0., strain = 0.;
+    };
+
+    /// Angle of the rotation (radians, of a small one) and the largest entry of the strain.
+    void add(CellExtrema &extrema, const Block &gradient)
+    {
+      const Vector3 axis({gradient[2][1] - gradient[1][2], gradient[0][2] - gradient[2][0],
+                          gradient[1][0] - gradient[0][1]});
+      extrema.rotation = std::max(extrema.rotation, .5 * axis.norm());
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int j = 0; j < dim; ++j)
+          extrema.strain = std::max(extrema.strain, .5 * std::abs(gradient[i][j] + gradient[j][i]));
+    }
+
+    std::vector<CellExtrema> cell_extrema(const ContactModel &model, const Discretization &d,
+                                          const Vector &displacement)
+    {
+      const Bodies            &bodies = model.bodies();
+      std::vector<CellExtrema> result(bodies.n_bodies());
+      for (const NodalSpace::Cell &cell : d.nodal().cells())
+        if (cell.is_owned)
+          {
+            std::array<Vector3, CellShape::max_vertices> u;
+            for (unsigned int v = 0; v < cell.n_vertices; ++v)
+              u[v] = nodal(displacement, d.partition().to_local(d.nodal().nodes(cell)[v]));
+            const Element  element(d.nodal(), cell);
+            const Point<3> middle = cell.n_vertices == CellShape::hexahedron ? Point<3>(.5, .5, .5) :
+                                                                               Point<3>(.25, .25, .25);
+            add(result[bodies.body_of_material(cell.material)],
+                CellDisplacement(element, bodies.material(cell.material), u).gradient(middle));
+          }
+      for (CellExtrema &e : result)
+        e = {Utilities::MPI::max(e.rotation, model.communicator()),
+             Utilities::MPI::max(e.strain, model.communicator())};
+      return result;
+    }
+
+    void add_forces(std::vector<BodyResult> &bodies, const ContactModel &model, const Discretization &d,
+                    const Results &results)
+    {
+      const auto loads = load_resultants(model, d, model.loads());
+      for (unsigned int b = 0; b < bodies.size(); ++b)
+        {
+          bodies[b].load        = loads[b].force;
+          bodies[b].load_moment = loads[b].moment;
+          for (const BoundaryResult &boundary : results.boundaries)
+            if (boundary.body == bodies[b].name)
+              bodies[b].reaction += boundary.reaction;
+        }
+      for (unsigned int p = 0; p < d.pairs.size() && p < results.pairs.size(); ++p)
+        {
+          bodies[d.pairs[p].nonmortar.body].contact += results.pairs[p].force;
+          if (!d.pairs[p].obstacle)
+            bodies[d.pairs[p].mortar.body].contact += results.pairs[p].force_on_mortar;
+        }
+    }
+  } // namespace
+
+
+
+  std::vector<BodyResult> evaluate_bodies(const ContactModel &model, const Discretization &d,
+                                          const Vector &displacement, const std::vector<double> &stress,
+                                          const Results &results)
+  {
+    const Bodies           &bodies = model.bodies();
+    std::vector<BodyResult> result(bodies.n_bodies());
+    std::vector<Largest>    movement(result.size()), von_mises(result.size());
+    for (const NodalSpace::Cell &cell : d.nodal().cells())
+      if (cell.is_owned)
+        for (const NodeIndex node : d.nodal().nodes(cell))
+          {
+            const unsigned int b = bodies.body_of_material(cell.material);
+            movement[b].add(nodal(displacement, d.partition().to_local(node)).norm(),
+                            d.nodal().position(node));
+            von_mises[b].add(stress[d.nodal().relevant().index_within_set(node)], d.nodal().position(node));
+          }
+    const auto extrema = cell_extrema(model, d, displacement);
+    for (unsigned int b = 0; b < result.size(); ++b)
+      {
+        movement[b].gather(model.communicator());
+        von_mises[b].gather(model.communicator());
+        result[b].name                 = bodies.body_name(b);
+        result[b].largest_displacement = movement[b].value;
+        result[b].displacement_at      = movement[b].place;
+        result[b].largest_von_mises    = von_mises[b].value;
+        result[b].von_mises_at         = von_mises[b].place;
+        result[b].largest_rotation     = extrema[b].rotation;
+        result[b].largest_strain       = extrema[b].strain;
+      }
+    add_forces(result, model, d, results);
+    return result;
+  }
+
+
+
+  namespace
+  {
+    /// Displacements of the nonmortar vertices relative to their images, where the mapping of this rank
+    /// reaches them.
+    std::vector<std::pair<unsigned int, Vector3>>
+    relative_displacements(const ContactPair &pair, const std::vector<Vector3> &nonmortar,
+                           const std::vector<Vector3> &mortar)
+    {
+      const ContactSurface                         &non = pair.nonmortar.surface;
+      std::vector<std::pair<unsigned int, Vector3>> result;
+      if (pair.obstacle)
+        for (unsigned int v = 0; v < nonmortar.size(); ++v)
+          result.emplace_back(v, nonmortar[v]);
+      if (!pair.mapping)
+        return result;
+      const SurfaceValues on_mortar(pair.mortar.surface);
+      for (const OverlayTriangle &cell : pair.mapping->overlay())
+        for (unsigned int c = 0; c < 3; ++c)
+          for (unsigned int i = 0; i < 3; ++i)
+            if (cell.nonmortar[c][i] == 1.)
+              {
+                const unsigned int v = non.mesh.triangles[cell.nonmortar_triangle][i];
+                const Point<3>     x = on_mortar.point(cell.mortar_triangle, cell.mortar[c]);
+                result.emplace_back(v, nonmortar[v] - on_mortar.value(mortar, cell.mortar_triangle, x));
+              }
+      return result;
+    }
+
+    /// Longest edge of the triangles around each vertex.
+    std::vector<double> widths(const SurfaceMesh &mesh)
+    {
+      std::vector<double> width(mesh.vertices.size(), 0.);
+      for (const auto &t : mesh.triangles)
+        for (unsigned int i = 0; i < 3; ++i)
+          for (unsigned int j = 0; j < 3; ++j)
+            width[t[i]] = std::max(width[t[i]], mesh.vertices[t[i]].distance(mesh.vertices[t[j]]));
+      return width;
+    }
+  } // namespace
+
+
+
+  Slip largest_slip(const Discretization &d, const ContactSolution &solution, const unsigned int p)
+  {
+    const ContactPair          &pair   = d.pairs[p];
+    const ContactSurface       &non    = pair.nonmortar.surface;
+    const ContactStress         stress = stress_of_pair(d, solution.stress, p);
+    std::vector<unsigned char>  active(non.mesh.vertices.size(), 0);
+    for (std::size_t i = 0; i < stress.active.size(); ++i)
+      active[d.couplings[p].vertices[i]] = stress.active[i];
+    const auto moved  = vertex_values(non, d.partition(), solution.displacement);
+    const auto mortar = pair.obstacle ? std::vector<Vector3>() :
+                                        vertex_values(pair.mortar.surface, d.partition(), solution.displacement);
+    const auto width  = widths(non.mesh);
+    Slip       result;
+    for (const auto &[v, jump] : relative_displacements(pair, moved, mortar))
+      if (active[v] != 0)
+        {
+          const Vector3 &n      = non.mesh.vertex_normals[v];
+          const double   length = (jump - (jump * n) * n).norm();
+          result.length         = std::max(result.length, length);
+          result.in_faces       = std::max(result.in_faces, length / width[v]);
+        }
+    const MPI_Comm comm = d.nodal().communicator();
+    return {Utilities::MPI::max(result.length, comm), Utilities::MPI::max(result.in_faces, comm)};
+  }
+} // namespace Signorini

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/output/final_words.h>
+
+#include <deal.II/base/numbers.h>
+
+#include <iomanip>
+#include <sstream>
+
+namespace Signorini
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// "(x, y, z)"; what is rounding against the scale is 0.
+    std::string text(const Vector3 &v, const double scale)
+    {
+      std::ostringstream out;
+      out << std::setprecision(5) << '(';
+      for (unsigned int c = 0; c < dim; ++c)
+        out << (c > 0 ? ", " : "") << (std::abs(v[c]) > 1e-10 * scale ? v[c] : 0.);
+      out << ')';
+      return out.str();
+    }
+
+    std::string text(const Point<3> &x)
+    {
+      return text(Vector3(x), Vector3(x).norm());
+    }
+
+    std::string degrees(const double angle)
+    {
+      std::ostringstream out;
+      out << std::setprecision(2) << angle * 180. / numbers::PI << " degrees";
+      return out.str();
+    }
+
+    void print_body(std::ostream &out, const BodyResult &body)
+    {
+      const double scale = std::max({body.load.norm(), body.reaction.norm(), body.contact.norm()});
+      out << "body " << body.name << ": largest displacement " << body.largest_displacement << " at "
+          << text(body.displacement_at) << ", largest von Mises stress " << body.largest_von_mises << " at "
+          << text(body.von_mises_at) << "\n  forces: loads " << text(body.load, scale) << ", reactions "
+          << text(body.reaction, scale) << ", contact " << text(body.contact, scale) << '\n';
+    }
+
+    void print_pair(std::ostream &out, const PairResult &pair)
+    {
+      out << "pair " << pair.name << ": ";
+      if (!(pair.load > 0.) && !(pair.force.norm() > 0.))
+        {
+          out << "the surfaces are separated, there is no contact force\n";
+          return;
+        }
+      out << "force " << pair.force.norm() << " on " << pair.nonmortar << ", " << text(pair.force, pair.force.norm());
+      if (pair.contact_area > 0.)
+        out << "\n  contact area " << pair.contact_area << ", largest pressure " << pair.max_pressure << " at "
+            << text(pair.max_pressure_at);
+      out << '\n';
+    }
+
+    void print_smallness(std::ostream &out, const Results &results)
+    {
+      double rotation = 0., slip = 0.;
+      for (const BodyResult &body : results.bodies)
+        rotation = std::max(rotation, body.largest_rotation);
+      for (const PairResult &pair : results.pairs)
+        slip = std::max(slip, pair.slip_in_faces);
+      const auto large = large_displacements(results);
+      out << "displacements are small: " << (large.empty() ? "yes" : "NO") << " (largest rotation "
+          << degrees(rotation) << ", largest slip " << std::setprecision(2) << slip << " of a face)\n";
+      for (const std::string &line : large)
+        out << "  " << line << '\n';
+    }
+  } // namespace
+
+
+
+  std::vector<std::string> large_displacements(const Results &results)
+  {
+    const SmallnessRule      rule;
+    std::vector<std::string> lines;
+    for (const BodyResult &body : results.bodies)
+      {
+        std::ostringstream line;
+        line << std::setprecision(2);
+        if (body.largest_rotation > rule.rotation)
+          line << "body " << body.name << " rotates by " << degrees(body.largest_rotation)
+               << " somewhere: as kinematics are linear, strains are wrong there by about "
+               << .5 * body.largest_rotation * body.largest_rotation << ".";
+        else if (body.largest_strain > rule.strain)
+          line << "body " << body.name << " has strains of " << body.largest_strain
+               << ": the theory is one of small ones.";
+        if (!line.str().empty())
+          lines.push_back(line.str());
+      }
+    for (const PairResult &pair : results.pairs)
+      if (pair.slip_in_faces > rule.slip_in_faces)
+        {
+          std::ostringstream line;
+          line << std::setprecision(2) << "pair " << pair.name << ": the surfaces slide by " << pair.slip << ", "
+               << pair.slip_in_faces
+               << " widths of the faces there, and the gap is that of the points that face each other at the "
+                  "beginning.";
+          lines.push_back(line.str());
+        }
+    return lines;
+  }
+
+
+
+  void print_final_words(std::ostream &out, const Results &results)
+  {
+    const auto flags = out.flags();
+    const auto digits = out.precision(5);
+    for (const BodyResult &body : results.bodies)
+      print_body(out, body);
+    for (const PairResult &pair : results.pairs)
+      print_pair(out, pair);
+    print_smallness(out, results);
+    if (results.certificate.objections.empty())
+      out << "contact conditions hold: yes\n";
+    for (const std::string &objection : results.certificate.objections)
+      out << "contact conditions hold: NO: " << objection << '\n';
+    out.flags(flags);
+    out.precision(digits);
+  }
+} // namespace Signorini
