@@ -5,7 +5,7 @@
 set -euo pipefail
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=$top/build/release
-packages=(g++ cmake ninja-build ccache libdeal.ii-dev libgmsh-dev libcgal-dev libeigen3-dev libsuitesparse-dev python3 python3-numpy python3-matplotlib)
+packages=(g++ cmake ninja-build ccache libdeal.ii-dev libgmsh-dev libcgal-dev libeigen3-dev libsuitesparse-dev libopenblas0-serial python3 python3-numpy python3-matplotlib)
 # Debian's deal.II from version 13 on links with mold.
 [ "$(. /etc/os-release; echo "${VERSION_ID:-0}" | cut -d. -f1)" -ge 13 ] && [ "$(. /etc/os-release; echo "${ID:-}")" = debian ] && packages+=(mold)
 usage() { sed -n '3,4s/^# *//p' "${BASH_SOURCE[0]}"; exit 2; }

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Signorini authors
 
 #include <signorini/algebra/input_error.h>
+#include <signorini/application/deck_results.h>
 #include <signorini/application/journal.h>
 #include <signorini/application/problem_description.h>
 #include <signorini/application/write_results.h>
@@ -24,6 +25,7 @@ namespace
 
   const char *const usage =
       "usage: signorini FILE.prm [--set \"Section/Name=value\"]... [--output DIR]\n"
+      "       signorini FILE.inp [--strict] [--ignore KEYWORD,KEYWORD]...   a deck of Abaqus or CalculiX\n"
       "       signorini --check FILE.prm      parse, read the meshes, list bodies, boundaries and gaps; "
       "solve nothing\n"
       "       signorini --mesh-only FILE.prm  write meshes and the contact mapping, then stop\n"
@@ -33,7 +35,7 @@ namespace
 
   struct CommandLine
   {
-    std::string              file, output;
+    std::string              file, output, ignored;
     std::vector<std::string> overrides;
     bool                     check = false, mesh_only = false, print = false, help = false, version = false;
   };
@@ -53,6 +55,10 @@ namespace
           line.overrides.push_back(value());
         else if (argument == "--output")
           line.output = value();
+        else if (argument == "--strict")
+          line.overrides.push_back("Deck/Strict=true");
+        else if (argument == "--ignore")
+          line.ignored += (line.ignored.empty() ? "" : ", ") + value();
         else if (argument == "--check")
           line.check = true;
         else if (argument == "--mesh-only")
@@ -101,6 +107,9 @@ namespace
   ContactModel make_model(const ParameterFile &file, const MPI_Comm comm, Journal &journal)
   {
     ContactModel model(comm, file.problem(comm));
+    if (file.deck() != nullptr)
+      for (const std::string &text : file.deck()->remarks)
+        journal.note(text);
     for (const std::string &text : model.bodies().notes())
       journal.note(text);
     model.note_movement(journal);
@@ -116,6 +125,8 @@ namespace
     std::vector<std::string> overrides = line.overrides;
     if (!line.output.empty())
       overrides.push_back("Output/Folder=" + line.output);
+    if (!line.ignored.empty())
+      overrides.push_back("Deck/Ignore=" + line.ignored);
     const ParameterFile file(line.file, overrides);
     if (line.print)
       {
@@ -137,9 +148,15 @@ namespace
         describe(is_root ? std::cout : nowhere, model, *discretize(model, space, {}, 0, journal));
         return 0;
       }
-    NestedSolution nested = line.mesh_only ? build_meshes(model, parameters, journal)
-                                           : run_nested_iteration(model, parameters, journal);
-    nested.results.notes  = journal.notes();
+    const std::vector<double> times  = file.load_steps();
+    const OutputParameters    output = file.output();
+    NestedSolution            nested =
+        line.mesh_only
+                       ? build_meshes(model, parameters, journal)
+                       : run_load_steps(model, parameters, times, StepWriter(model, output, *folder, times), journal);
+    if (file.deck() != nullptr && !line.mesh_only)
+      judge_linear_kinematics(*file.deck(), model, nested, journal);
+    nested.results.notes = journal.notes();
     if (!line.mesh_only)
       nested.results.wall_time = time.wall_time();
     write_results(nested, model, file, *folder, line.mesh_only);

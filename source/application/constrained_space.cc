@@ -70,6 +70,16 @@ namespace Signorini
 
 
 
+  ConstrainedSpace::ConstrainedSpace(const ConstrainedSpace &other, const ContactModel &model)
+    : space(other.space)
+    , partition(other.partition)
+    , dirichlet(evaluate_dirichlet(*space, model.loads(), true))
+    , free_parts(other.free_parts)
+  {
+  }
+
+
+
   namespace
   {
     /// The owned values of a field, and those of the nodes that rows of interpolation need.

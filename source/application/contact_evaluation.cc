@@ -249,6 +249,9 @@ namespace Signorini
         : reactions(n_conditions)
         , rest(d.partition().n_owned())
       {
+        const RigidFaces *const rigid = d.dirichlet().rigid.get();
+        if (rigid != nullptr)
+          rigid_sums.resize(rigid->faces().size());
         for (unsigned int i = 0; i < rest.size(); ++i)
           {
             const NodeIndex node = d.partition().to_global(i);
@@ -257,6 +260,12 @@ namespace Signorini
             Vector3 force;
             for (unsigned int c = 0; c < dim; ++c)
               force[c] = residual.local_element(dim * i + c);
+            if (const auto *const dependence = rigid != nullptr ? rigid->find(node) : nullptr)
+              {
+                rigid_sums[dependence->face].add(force, dependence->position -
+                                                            rigid->faces()[dependence->face].centre);
+                continue;
+              }
             rest[i] = d.dirichlet().split_reaction(
                 d.nodal().relevant().index_within_set(node), force,
                 [&](const std::size_t condition, const Vector3 &part) { reactions[condition] += part; });
@@ -264,8 +273,36 @@ namespace Signorini
           }
       }
 
+      /// Of all ranks: what the rigid faces do to their bodies, and what of it is no load of theirs.
+      void balance_rigid_faces(const RigidFaces &rigid, const MPI_Comm communicator)
+      {
+        for (std::size_t f = 0; f < rigid_sums.size(); ++f)
+          {
+            ForceAndMoment &sum    = rigid_sums[f];
+            sum.force              = Signorini::sum(sum.force, communicator);
+            sum.moment             = Signorini::sum(sum.moment, communicator);
+            const RigidFace  &face = rigid.faces()[f];
+            const RigidMotion work{sum.force, sum.moment / face.length};
+            for (std::size_t j = 0; j < face.free.size(); ++j)
+              rigid_square += Utilities::fixed_power<2>(face.free[j] * work - face.forces[j]);
+          }
+      }
+
+      struct ForceAndMoment
+      {
+        void add(const Vector3 &nodal_force, const Vector3 &arm)
+        {
+          force += nodal_force;
+          moment += cross_product_3d(arm, nodal_force);
+        }
+
+        Vector3 force, moment;
+      };
+
       std::vector<Vector3> reactions, rest;
-      double               square = 0.;
+      double               square = 0., rigid_square = 0.;
+      /// By rigid face.
+      std::vector<ForceAndMoment> rigid_sums;
     };
   } // namespace
 
@@ -288,7 +325,9 @@ namespace Signorini
       if (body_of_node[i] != numbers::invalid_unsigned_int)
         balance[body_of_node[i]].add_scale(position(i), nodal(residual, i));
     subtract_contact_forces(residual, d, solution.stress);
-    const RestOfForces forces(d, residual, model.loads().dirichlet.size());
+    RestOfForces forces(d, residual, model.loads().dirichlet.size());
+    if (d.dirichlet().rigid != nullptr)
+      forces.balance_rigid_faces(*d.dirichlet().rigid, comm);
     for (unsigned int i = 0; i < d.partition().n_owned(); ++i)
       if (body_of_node[i] != numbers::invalid_unsigned_int &&
           !d.nodal().hanging_nodes().is_constrained(d.partition().to_global(i)))
@@ -301,13 +340,19 @@ namespace Signorini
         result.force_balance  = std::max(result.force_balance, b.relative_force(largest));
         result.moment_balance = std::max(result.moment_balance, b.relative_moment(largest));
       }
-    const double square = Utilities::MPI::sum(forces.square, comm);
+    const double square = Utilities::MPI::sum(forces.square, comm) + forces.rigid_square;
     result.residual = result.largest_nodal_force > 0. ? std::sqrt(square) / result.largest_nodal_force : 0.;
     for (std::size_t i = 0; i < forces.reactions.size(); ++i)
       {
         const DirichletCondition &condition = model.loads().dirichlet[i];
         result.reactions.push_back(
             {model.bodies().body_name(condition.body), condition.boundary, sum(forces.reactions[i], comm)});
+      }
+    for (std::size_t f = 0; f < forces.rigid_sums.size(); ++f)
+      {
+        const RigidFaceCondition &face = model.loads().rigid_faces[f];
+        result.reactions.push_back(
+            {model.bodies().body_name(face.body), face.boundary, forces.rigid_sums[f].force});
       }
     return result;
   }

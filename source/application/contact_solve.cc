@@ -118,18 +118,24 @@ namespace Signorini
         }
       return stress;
     }
+  } // namespace
 
-    /// The obstacle problem of a mesh with its hierarchy, its start and what is known of it.
-    struct AlgebraicProblem
-    {
-      ObstacleProblem                     problem;
-      std::shared_ptr<const LevelSpaces>  levels;
-      std::unique_ptr<MultigridHierarchy> hierarchy;
-      Vector                              v;
-      /// rhs - A v, after the solution.
-      Vector residual;
-    };
 
+
+  struct AlgebraicProblem
+  {
+    ObstacleProblem                     problem;
+    std::shared_ptr<const LevelSpaces>  levels;
+    std::unique_ptr<MultigridHierarchy> hierarchy;
+    Vector                              v;
+    /// rhs - A v, after the solution.
+    Vector residual;
+  };
+
+
+
+  namespace
+  {
     /// Solves for what is left when the rigid motions of a start are taken out of it: these can be longer
     /// than the deformation by many orders of magnitude, and products of A with them are rounding.
     class DeformationOnly
@@ -260,6 +266,84 @@ namespace Signorini
 
 
 
+  ContactSolver::ContactSolver(const ContactModel &model, const Discretization &d, CoarserSpaces &coarser,
+                               const NestedStart *const start, const SolveParameters &how_to,
+                               Journal &journal)
+    : model(model)
+    , journal(journal)
+    , parameters(how_to.solver)
+    , algebraic(std::make_unique<AlgebraicProblem>(build_problem(model, d, coarser, start, how_to, journal)))
+  {
+    n_levels = algebraic->levels->n_levels();
+    if (!how_to.compare_linear)
+      algebraic->levels.reset();
+    // What was slow on one mesh is slow on the next.
+    parameters.starts_with_interface_sweeps = start != nullptr && start->needed_interface_sweeps;
+    parameters.starts_with_patches          = start != nullptr && start->needed_patches;
+  }
+
+
+
+  ContactSolver::~ContactSolver() = default;
+
+
+
+  ContactSolution ContactSolver::solve(const Discretization &d)
+  {
+    ContactSolution        result;
+    const NodeBlockMatrix &matrix  = algebraic->hierarchy->finest().matrix;
+    PhaseTimes::Scope      solving = journal.measure(Phase::solve);
+    if (!d.free_motions().empty())
+      settle_free_parts(algebraic->v, model, d, matrix.partition(), algebraic->problem);
+    const auto active = Signorini::solve(result.report, *algebraic, model, d, parameters, journal);
+    solving.stop();
+
+    result.n_levels = n_levels;
+    result.stress   = evaluate_stress(d, matrix.partition(), algebraic->v, algebraic->residual,
+                                      algebraic->problem.half_spaces, active);
+    result.n_active =
+        std::accumulate(result.stress.active.begin(), result.stress.active.end(), std::size_t(0));
+    result.displacement = d.transformation->to_displacement(algebraic->v, matrix.partition());
+    set_tie_stress(result.stress, model, d, result.displacement);
+    return result;
+  }
+
+
+
+  void ContactSolver::change_loads(const Discretization &d, const Vector &displacement)
+  {
+    const auto            time     = journal.measure(Phase::assembly);
+    const MultigridLevel &finest   = algebraic->hierarchy->finest();
+    const NodePartition  &unknowns = finest.matrix.partition();
+    Vector                forces =
+        physical_residual(model.bodies(), d.nodal(), d.partition(), model.loads(), d.transformation->lift());
+    forces *= -1.;
+    ObstacleProblem &problem = algebraic->problem;
+    problem.rhs              = d.transformation->restrict_forces(forces, unknowns);
+    add_rigid_forces(problem.rhs, unknowns, d.dirichlet());
+    for (unsigned int i = 0; i < unknowns.n_owned(); ++i)
+      project_free(finest.fixed[i], problem.rhs, i);
+    problem.half_spaces = make_half_spaces(d, unknowns, d.transformation->reduce_gaps(d.gaps));
+    d.transformation->from_displacement(algebraic->v, displacement);
+  }
+
+
+
+  SweepMeasurement ContactSolver::measure() const
+  {
+    return measure_sweeps(*algebraic->hierarchy, algebraic->problem.rhs);
+  }
+
+
+
+  std::shared_ptr<const LevelSpaces> ContactSolver::release()
+  {
+    algebraic->hierarchy.reset();
+    return std::move(algebraic->levels);
+  }
+
+
+
   ContactSolution solve_contact(const ContactModel &model, const Discretization &d, CoarserSpaces &coarser,
                                 const NestedStart *const start, const SolveParameters &parameters,
                                 Journal &journal)
@@ -267,44 +351,24 @@ namespace Signorini
     for (const PairModel &pair : model.pairs())
       check_method(pair.definition, parameters.solver.method);
     check_free_parts(model, d.constrained->free_parts, parameters.solver.method, journal);
-    const bool       has_tied_part = d.constrained->free_parts.has_tied_part;
-    const bool       compares      = parameters.compare_linear && !has_tied_part && !d.pairs.empty();
-    ContactSolution  result;
-    AlgebraicProblem algebraic = build_problem(model, d, coarser, start, parameters, journal);
-    result.n_levels            = algebraic.levels->n_levels();
-    if (!compares)
-      algebraic.levels.reset();
-    const NodeBlockMatrix &matrix = algebraic.hierarchy->finest().matrix;
-
-    PhaseTimes::Scope solving = journal.measure(Phase::solve);
-    if (!d.free_motions().empty())
-      settle_free_parts(algebraic.v, model, d, matrix.partition(), algebraic.problem);
-    SolverParameters solver_parameters = parameters.solver;
-    // What was slow on one mesh is slow on the next.
-    solver_parameters.starts_with_interface_sweeps = start != nullptr && start->needed_interface_sweeps;
-    solver_parameters.starts_with_patches          = start != nullptr && start->needed_patches;
-    const auto active = solve(result.report, algebraic, model, d, solver_parameters, journal);
-    solving.stop();
-
-    result.stress = evaluate_stress(d, matrix.partition(), algebraic.v, algebraic.residual,
-                                    algebraic.problem.half_spaces, active);
-    result.n_active =
-        std::accumulate(result.stress.active.begin(), result.stress.active.end(), std::size_t(0));
-    result.displacement = d.transformation->to_displacement(algebraic.v, matrix.partition());
-    set_tie_stress(result.stress, model, d, result.displacement);
+    const bool      has_tied_part = d.constrained->free_parts.has_tied_part;
+    SolveParameters how_to        = parameters;
+    how_to.compare_linear         = parameters.compare_linear && !has_tied_part && !d.pairs.empty();
+    ContactSolver   solver(model, d, coarser, start, how_to, journal);
+    ContactSolution result = solver.solve(d);
     if (parameters.measure_sweeps)
-      result.sweeps = measure_sweeps(*algebraic.hierarchy, algebraic.problem.rhs);
+      result.sweeps = solver.measure();
     if (parameters.compare_linear && has_tied_part)
       journal.note("no comparison with the linear problem: a body is held by its ties alone.");
-    if (compares)
+    if (how_to.compare_linear)
       {
         // Make room for the linear hierarchy.
-        algebraic.hierarchy.reset();
+        const auto levels = solver.release();
         journal.show("linear comparison");
-        result.linear = compare_linear(model, d,
-                                       {*algebraic.levels, result.displacement, result.stress,
-                                        start != nullptr ? &start->displacement : nullptr},
-                                       parameters.solver, journal);
+        result.linear = compare_linear(
+            model, d,
+            {*levels, result.displacement, result.stress, start != nullptr ? &start->displacement : nullptr},
+            parameters.solver, journal);
       }
     return result;
   }

@@ -37,10 +37,36 @@ namespace Signorini
                                           : RowProjection(c.fixed[row], c.normals[row]));
         gaps.push_back(c.gaps[row]);
       }
+    refuse_rigid_mortar_nodes();
     if (has_ties())
       lifted = std::make_unique<const DirichletData>(lift_ties(*constrained, coupling, projections, tied));
     transformation =
         std::make_unique<const BasisTransformation>(nodal(), partition(), dirichlet(), coupling, projections);
+  }
+
+
+
+  void Discretization::refuse_rigid_mortar_nodes() const
+  {
+    if (dirichlet().rigid == nullptr)
+      return;
+    for (const auto &entry : coupling.entries)
+      if (const RigidFaces::Dependence *const node = dirichlet().rigid->find(entry.node))
+        {
+          std::ostringstream place;
+          place << node->position;
+          throw InputError(
+              "a contact surface has nodes in common with a rigid face, at (" + place.str() +
+              ") for example. Leave them out of the surface (First region, Second region), or make "
+              "their surface the nonmortar one.");
+        }
+  }
+
+
+
+  Discretization::Discretization(const Discretization &other, std::shared_ptr<const ConstrainedSpace> space)
+    : Discretization(std::move(space), other.pairs, other.couplings, other.turned)
+  {
   }
 
 
@@ -92,7 +118,10 @@ namespace Signorini
       result.surface = extract_contact_surface(
           space, side.ids,
           [&](const NodeIndex node) {
-            return constrained.dirichlet.fixed[space.relevant().index_within_set(node)];
+            const DirichletData &data = constrained.dirichlet;
+            return data.rigid != nullptr && data.rigid->find(node) != nullptr
+                       ? FixedDirections(all_fixed)
+                       : data.fixed[space.relevant().index_within_set(node)];
           },
           region, side.shapes);
       if (result.surface.faces.empty())

@@ -6,11 +6,20 @@ signorini_add_layer(application
   contact_evaluation.cc
   contact_model.cc
   contact_solve.cc
+  deck_adjust.cc
+  deck_bodies.cc
+  deck_history.cc
+  deck_loads.cc
+  deck_model.cc
+  deck_problem.cc
+  deck_results.cc
+  deck_series.cc
   discretization.cc
   error_estimate.cc
   free_bodies.cc
   journal.cc
   linear_comparison.cc
+  load_steps.cc
   nested_iteration.cc
   parameters.cc
   problem_description.cc

@@ -261,6 +261,11 @@ namespace Signorini
     prm.add_parameter(
         "Contact pairs", pairs,
         "Names of the contact pairs, separated by commas. Each has a subsection \"Pair NAME\".");
+    prm.add_parameter(
+        "Load steps", load_steps,
+        "A number of equal steps to t = 1, or a list of ascending times like 0.2, 0.5, 1; empty for "
+        "one load. Expressions of conditions, forces and pressures may use t, which is 1 without "
+        "steps. Meshes are those of the last load.");
   }
 
 
@@ -332,6 +337,11 @@ namespace Signorini
     : file(file_name)
     , base_folder(std::filesystem::path(file_name).parent_path().string())
   {
+    if (is_deck(file_name))
+      {
+        read_deck(overrides);
+        return;
+      }
     TopLevel         top;
     ParameterHandler first_pass;
     top.add_parameters(first_pass);
@@ -345,6 +355,29 @@ namespace Signorini
     parse(prm, file, false);
     for (const std::string &text : overrides)
       apply_override(prm, text, false);
+  }
+
+
+
+  void ParameterFile::read_deck(const std::vector<std::string> &overrides)
+  {
+    declare({}, {});
+    prm.enter_subsection("Deck");
+    prm.add_parameter("Strict", deck_strict,
+                      "Refuse what is otherwise taken in another way than the deck says, with a note.");
+    prm.add_parameter("Ignore", deck_ignore,
+                      "Keywords, separated by commas, that are passed over although they change the result.");
+    prm.leave_subsection();
+    for (const std::string &text : overrides)
+      apply_override(prm, text, false);
+    DeckOptions options;
+    options.strict = deck_strict;
+    for (const std::string &name : Utilities::split_string_list(deck_ignore, ','))
+      if (!name.empty())
+        options.ignore.insert(deck_upper(name));
+    const DeckModel model(file, options);
+    deck_problem    = std::make_unique<DeckProblem>(make_deck_problem(model));
+    top_level.title = model.title();
   }
 
 
@@ -399,6 +432,13 @@ namespace Signorini
   ProblemDefinition ParameterFile::problem(const MPI_Comm communicator) const
   {
     ProblemDefinition result;
+    if (deck_problem)
+      {
+        result = deck_problem->problem;
+        for (const PairDefinition &pair : result.pairs)
+          check_method(pair, solver.method);
+        return result;
+      }
     for (const BodySection &section : bodies)
       result.bodies.push_back({section.body.definition(communicator, base_folder),
                                section.loads.definition("Body " + section.body.name + "/")});
@@ -425,6 +465,8 @@ namespace Signorini
         throw InputError("Refinement/Regions: there is no body \"" + region.body + "\"; the bodies are " +
                          top_level.bodies + ".");
     result.solve      = {solver, compare_linear, the_output.measure_sweeps, coarse_levels};
+    if (deck_problem)
+      result.exact_displacements.resize(deck_problem->problem.bodies.size());
     for (unsigned int b = 0; b < bodies.size(); ++b)
       {
         const std::string section = "Body " + bodies[b].body.name + "/";
@@ -435,6 +477,16 @@ namespace Signorini
           result.exact_displacements.back() = parse_vector_field(text, section + "Exact displacement");
       }
     return result;
+  }
+
+
+
+  std::vector<double> ParameterFile::load_steps() const
+  {
+    const std::vector<double> times = parse_load_steps(top_level.load_steps, "Load steps");
+    return times.empty() && deck_problem && deck_problem->n_steps > 1
+               ? parse_load_steps(std::to_string(deck_problem->n_steps), "Load steps")
+               : times;
   }
 
 

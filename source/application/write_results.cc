@@ -2,16 +2,19 @@
 // Copyright (C) 2026 by the Signorini authors
 
 #include <signorini/algebra/input_error.h>
+#include <signorini/application/deck_results.h>
 #include <signorini/application/body_evaluation.h>
 #include <signorini/application/write_results.h>
 #include <signorini/mesh/surface_extraction.h>
 #include <signorini/mortar/contact_forces.h>
 #include <signorini/mortar/surface_values.h>
 #include <signorini/output/field_output.h>
+#include <signorini/output/load_curve.h>
 #include <signorini/output/final_words.h>
 #include <signorini/output/summary.h>
 
 #include <deal.II/base/config.h>
+#include <deal.II/base/data_out_base.h>
 #include <deal.II/base/utilities.h>
 
 #include <fstream>
@@ -221,6 +224,8 @@ namespace Signorini
     void write_texts(const Results &results, const ParameterFile &file, const std::string &path)
     {
       write_file(path + "summary.json", [&](std::ostream &o) { write_summary(o, results); });
+      if (!results.steps.empty())
+        write_file(path + "curve.csv", [&](std::ostream &o) { write_load_curve(o, results); });
       write_file(path + "table.txt", [&](std::ostream &o) { write_table(o, results); });
       write_file(path + "convergence.csv", [&](std::ostream &o) { write_convergence(o, results); });
       write_file(path + "pressure.csv", [&](std::ostream &o) { write_pressure(o, results); });
@@ -243,7 +248,7 @@ namespace Signorini
 
 
   void write_fields(const ContactModel &model, const Discretization &d, const ContactSolution &solution,
-                    const OutputParameters &output, const OutputFolder &folder)
+                    const OutputParameters &output, const OutputFolder &folder, const std::string &suffix)
   {
     if (output.bodies)
       {
@@ -255,22 +260,64 @@ namespace Signorini
                                                    return model.bodies().material(id);
                                                  }))
             fields.push_back(std::move(field));
-        write_bodies(folder.path(), "bodies", d.nodal(), fields, [&](const types::material_id id) {
+        write_bodies(folder.path(), "bodies" + suffix, d.nodal(), fields, [&](const types::material_id id) {
           return static_cast<double>(model.bodies().body_of_material(id));
         });
       }
     if (output.surfaces)
       for (unsigned int p = 0; p < d.pairs.size(); ++p)
         {
-          const std::string name = "contact-" + file_name(d.pairs[p].name);
-          write_surface(folder.path(), name, d.pairs[p].nonmortar.surface, surface_fields(d, solution, p),
-                        model.communicator());
+          const std::string name = "contact-" + file_name(d.pairs[p].name), mortar = name + "-mortar";
+          write_surface(folder.path(), name + suffix, d.pairs[p].nonmortar.surface,
+                        surface_fields(d, solution, p), model.communicator());
           if (!d.pairs[p].obstacle)
-            write_surface(folder.path(), name + "-mortar", d.pairs[p].mortar.surface,
+            write_surface(folder.path(), mortar + suffix, d.pairs[p].mortar.surface,
                           mortar_fields(d, solution, p), model.communicator());
         }
     if (output.mapping)
       write_mappings(d, folder);
+  }
+
+
+
+  StepWriter::StepWriter(const ContactModel &model, const OutputParameters &output,
+                         const OutputFolder &folder, const std::vector<double> &times)
+    : model(model)
+    , output(output)
+    , folder(folder)
+    , times(times)
+  {
+  }
+
+
+
+  void StepWriter::operator()(const unsigned int step, const Discretization &d,
+                              const ContactSolution &solution)
+  {
+    OutputParameters fields = output;
+    fields.mapping          = false;
+    const std::string suffix =
+        "-step-" + Utilities::int_to_string(step + 1, std::to_string(times.size()).size());
+    write_fields(model, d, solution, fields, folder, suffix);
+
+    std::vector<std::string> names;
+    if (output.bodies)
+      names.push_back("bodies");
+    if (output.surfaces)
+      for (const ContactPair &pair : d.pairs)
+        {
+          names.push_back("contact-" + file_name(pair.name));
+          if (!pair.obstacle)
+            names.push_back(names.back() + "-mortar");
+        }
+    for (const std::string &name : names)
+      {
+        auto &list = series[name];
+        list.emplace_back(times[step], name + suffix + ".pvtu");
+        if (Utilities::MPI::this_mpi_process(model.communicator()) == 0)
+          write_file(folder.path() + name + "-steps.pvd",
+                     [&](std::ostream &o) { DataOutBase::write_pvd_record(o, list); });
+      }
   }
 
 
@@ -287,6 +334,8 @@ namespace Signorini
     output.surfaces              = output.surfaces || mesh_only;
     output.mapping               = output.mapping || mesh_only;
     write_fields(model, d, nested.solution, output, folder);
+    if (file.deck() != nullptr && !mesh_only)
+      write_deck_results(*file.deck(), model, d, nested.solution, folder.path());
     if (!mesh_only)
       evaluate(nested, model);
     results.mappings = mapping_results(d);

@@ -420,6 +420,17 @@ namespace Signorini
       return numbers;
     }
 
+    /// The owners of some nodes.
+    std::vector<unsigned int> ranks_of_nodes(const std::vector<NodeIndex> &nodes, const NodalSpace &space)
+    {
+      std::vector<unsigned int> ranks;
+      for (const NodeIndex node : nodes)
+        ranks.push_back(Utilities::MPI::max(
+            space.owned().is_element(node) ? Utilities::MPI::this_mpi_process(space.communicator()) : 0u,
+            space.communicator()));
+      return ranks;
+    }
+
     /// Adds the entries of a row, by their new numbers.
     void add_renumbered(NodeRows &rows, const NodeRows &from, const std::size_t row,
                         const std::vector<NodeIndex> &numbers)
@@ -435,9 +446,9 @@ namespace Signorini
 
 
 
-  std::vector<DistributedBackgroundLevel> background_levels(const NodalSpace                   &space,
-                                                            const std::vector<FixedDirections> &fixed,
-                                                            const Bodies &bodies, const BackgroundRule &rule)
+  std::vector<DistributedBackgroundLevel>
+  background_levels(const NodalSpace &space, const std::vector<FixedDirections> &fixed, const Bodies &bodies,
+                    const std::vector<NodeIndex> &carriers, const BackgroundRule &rule)
   {
     const MPI_Comm        communicator = space.communicator();
     std::vector<MeshNode> nodes =
@@ -450,26 +461,38 @@ namespace Signorini
         numbers.push_back(node.number);
         ranks.push_back(node.rank);
       }
-    std::vector<unsigned int>               places = places_of(numbers, space.n_nodes());
-    IndexSet                                owned  = space.owned();
+    std::vector<unsigned int>               places          = places_of(numbers, space.n_nodes());
+    std::vector<NodeIndex>                  carrier_numbers = carriers;
+    const std::vector<unsigned int>         carrier_ranks   = ranks_of_nodes(carriers, space);
+    IndexSet                                owned           = space.owned();
     std::vector<DistributedBackgroundLevel> result;
     for (const BackgroundLevel &level : make_background_levels(connect(nodes, places, space), rule))
       {
         DistributedBackgroundLevel distributed;
-        ranks   = ranks_of_level(level, ranks);
-        numbers = number_by_rank(ranks, communicator, distributed.owned);
+        ranks                               = ranks_of_level(level, ranks);
+        std::vector<unsigned int> all_ranks = ranks;
+        all_ranks.insert(all_ranks.end(), carrier_ranks.begin(), carrier_ranks.end());
+        numbers = number_by_rank(all_ranks, communicator, distributed.owned);
+        distributed.carriers.assign(numbers.begin() + ranks.size(), numbers.end());
+        const NodeIndex n_nodes = numbers.size();
+        numbers.resize(ranks.size());
         for (const NodeIndex node : owned)
           {
             if (const unsigned int row = places[node]; row != no_place)
               add_renumbered(distributed.rows, level.rows, row, numbers);
+            else if (const auto carrier = std::find(carrier_numbers.begin(), carrier_numbers.end(), node);
+                     carrier != carrier_numbers.end())
+              distributed.rows.add(distributed.carriers[carrier - carrier_numbers.begin()], 1.);
             distributed.rows.finish_row();
           }
-        places = places_of(numbers, numbers.size());
-        owned  = distributed.owned;
+        places          = places_of(numbers, n_nodes);
+        owned           = distributed.owned;
+        carrier_numbers = distributed.carriers;
         for (const NodeIndex node : owned)
           {
-            distributed.positions.push_back(level.positions[places[node]]);
-            distributed.parts.push_back(level.parts[places[node]]);
+            const bool has_place = places[node] != no_place;
+            distributed.positions.push_back(has_place ? level.positions[places[node]] : Point<3>());
+            distributed.parts.push_back(has_place ? level.parts[places[node]] : no_place);
           }
         result.push_back(std::move(distributed));
       }

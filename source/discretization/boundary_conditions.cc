@@ -34,6 +34,18 @@ namespace Signorini
     prm.add_parameter("Forces", forces,
                       "Total forces, spread evenly over the area of a boundary, \"boundary: (Fx, Fy, Fz); "
                       "...\".");
+    prm.add_parameter(
+        "Rigid", rigid,
+        "Boundaries that move as rigid bodies, as if glued to a stamp: \"boundary: force (Fx, Fy, Fz), "
+        "moment (Mx, "
+        "My, Mz), about (x, y, z), displacement (ux, uy, uz), rotation (rx, ry, rz), along (dx, dy, dz); "
+        "...\", "
+        "of which each may be left out. Force and moment act at the point behind about (the middle of the "
+        "boundary); displacement and rotation (radian) of it have * for free components; with along it moves "
+        "in "
+        "that direction only and does not turn. Conditions at its edges (symmetry planes) hold it, too, but "
+        "for tilts about these "
+        "edges: rotation (0, 0, 0) excludes them.");
     prm.add_parameter("Volume force", volume_force, "Force per volume, \"(fx, fy, fz)\"; empty for none.");
   }
 
@@ -139,6 +151,56 @@ namespace Signorini
 
 
 
+  namespace
+  {
+    std::array<ScalarField, 3> parse_components(const std::string &text, const std::string &where)
+    {
+      std::array<ScalarField, 3> result;
+      const auto                 entries = split_vector(text, where);
+      for (unsigned int c = 0; c < dim; ++c)
+        if (entries[c] != "*")
+          result[c] = Expression(entries[c], where);
+      return result;
+    }
+
+    LoadDefinition::RigidBoundary parse_rigid(const std::string &boundary, const std::string &text,
+                                              const std::string &where)
+    {
+      LoadDefinition::RigidBoundary result{boundary, {}, {}};
+      std::set<std::string>         seen;
+      for (const std::string &piece : split_list(text, ',', where))
+        {
+          const std::size_t bracket = piece.find('(');
+          const std::string word    = Utilities::trim(piece.substr(0, bracket)),
+                            value   = bracket == std::string::npos ? "" : piece.substr(bracket);
+          if (!seen.insert(word).second)
+            throw InputError(where + ": \"" + word + "\" is there twice.");
+          if (word == "force")
+            result.force = parse_vector_field(value, where);
+          else if (word == "moment")
+            result.moment = parse_vector_field(value, where);
+          else if (word == "about")
+            result.about = parse_point(value, where);
+          else if (word == "displacement")
+            result.displacement = parse_components(value, where);
+          else if (word == "rotation")
+            result.rotation = parse_components(value, where);
+          else if (word == "along")
+            {
+              result.direction = parse_point(value, where);
+              if (!(result.direction.norm() > 0.))
+                throw InputError(where + ": the direction \"" + value + "\" must not be zero.");
+            }
+          else
+            throw InputError(where + ": \"" + piece +
+                             "\" should begin with force, moment, about, displacement, rotation or along.");
+        }
+      return result;
+    }
+  } // namespace
+
+
+
   LoadDefinition LoadParameters::definition(const std::string &section) const
   {
     LoadDefinition result;
@@ -154,6 +216,9 @@ namespace Signorini
     for (const auto &[name, text] : split_named_entries(forces, section + "Forces"))
       result.surface_forces.push_back(
           {name, {}, {}, parse_vector_field(text, section + "Forces, boundary \"" + name + "\"")});
+    for (const auto &[name, text] : split_named_entries(rigid, section + "Rigid"))
+      result.rigid_boundaries.push_back(
+          parse_rigid(name, text, section + "Rigid, boundary \"" + name + "\""));
     if (!Utilities::trim(volume_force).empty())
       result.volume_force = parse_vector_field(volume_force, section + "Volume force");
     return result;
@@ -176,15 +241,30 @@ namespace Signorini
     const std::string section = "Body " + bodies.body_name(body) + "/";
     for (const LoadDefinition::Displacement &condition : definition.displacements)
       {
-        const auto ids = bodies.boundary_ids(body, condition.boundary, section + "Dirichlet");
+        const unsigned int           node_set = bodies.has_boundary(body, condition.boundary)
+                                                    ? StartNodes::none
+                                                    : bodies.node_set(body, condition.boundary);
+        std::set<types::boundary_id> ids;
+        if (node_set == StartNodes::none)
+          ids = bodies.boundary_ids(body, condition.boundary, section + "Dirichlet");
+        else if (condition.frame.needs_normal())
+          throw InputError(section + "Dirichlet: \"" + condition.boundary +
+                           "\" is a set of nodes, which has no normals. Name a boundary or a direction.");
         if (condition.frame.needs_normal() && (condition.components[1] || condition.components[2]))
           throw InputError(
               section + "Dirichlet, boundary \"" + condition.boundary +
               "\": along a normal there is one component; tangents have no meaning of their own.");
-        dirichlet.push_back({body, condition.boundary, ids, condition.components, condition.frame, {}});
+        dirichlet.push_back(
+            {body, condition.boundary, ids, condition.components, condition.frame, {}, node_set});
         if (condition.frame.needs_normal())
           dirichlet.back().shapes = bodies.true_shapes(body, ids, false);
       }
+    for (const LoadDefinition::RigidBoundary &rigid : definition.rigid_boundaries)
+      rigid_faces.push_back({section + "Rigid, boundary \"" + rigid.boundary + "\"", body, rigid.boundary,
+                             bodies.boundary_ids(body, rigid.boundary, section + "Rigid"), rigid.force,
+                             rigid.moment, rigid.about, rigid.displacement, rigid.rotation, rigid.direction});
+    for (const LoadDefinition::NodalForce &force : definition.nodal_forces)
+      nodal_forces[bodies.start_vertex(body, force.vertex)].push_back(force.force);
     for (const LoadDefinition::SurfaceForce &force : definition.surface_forces)
       tractions.push_back({bodies.boundary_ids(body, force.boundary, section + parameter_of(force)),
                            force.traction, force.pressure, force.total_force});
@@ -229,6 +309,10 @@ namespace Signorini
         for (const NodalSpace::BoundaryFace &face : space.boundary_faces())
           if (const auto it = conditions_of.find(face.id); it != conditions_of.end())
             add(face, it->second);
+        for (unsigned int i = 0; i < loads.dirichlet.size(); ++i)
+          if (loads.dirichlet[i].node_set != StartNodes::none)
+            for (const NodeIndex node : space.node_sets()[loads.dirichlet[i].node_set])
+              entry(node, i);
       }
 
       /// The latest condition of each component at the nodes whose conditions are all along the axes.
@@ -284,11 +368,15 @@ namespace Signorini
         for (const unsigned int v : CellShape::face(cell.n_vertices, face.face))
           if (const NodeIndex node = space.nodes(cell)[v]; !space.hanging_nodes().is_constrained(node))
             for (const int condition : conditions)
-              {
-                Node &entry = nodes[space.relevant().index_within_set(node)];
-                entry.conditions[condition].push_back({area, face.id});
-                entry.is_held = entry.is_held || !loads.dirichlet[condition].frame.is_cartesian();
-              }
+              entry(node, condition).push_back({area, face.id});
+      }
+
+      /// The faces of a condition at a node; none where it holds a set of nodes.
+      std::vector<Face> &entry(const NodeIndex node, const int condition)
+      {
+        Node &found   = nodes[space.relevant().index_within_set(node)];
+        found.is_held = found.is_held || !loads.dirichlet[condition].frame.is_cartesian();
+        return found.conditions[condition];
       }
 
       /// Of the conditions along normals: one direction for each smooth piece of boundary, with the latest of
@@ -479,11 +567,22 @@ namespace Signorini
           data.value[space.relevant().index_within_set(partition.to_global(i))][c] +=
               values.local_element(dim * i + c);
     }
+
+    void set_values(DirichletData &data, const NodalSpace &space, const Loads &loads)
+    {
+      for (std::size_t i = 0; i < data.value.size(); ++i)
+        for (unsigned int c = 0; c < dim; ++c)
+          if (data.condition[i][c] >= 0)
+            data.value[i][c] = loads.dirichlet[data.condition[i][c]].components[c](
+                space.position(space.relevant().nth_index_in_set(i)), loads.time);
+      set_held_values(data, space, loads);
+    }
   } // namespace
 
 
 
-  DirichletData evaluate_dirichlet(const NodalSpace &space, const Loads &loads, const bool with_values)
+  DirichletData evaluate_dirichlet(const NodalSpace &space, const Loads &loads, const bool with_values,
+                                   const std::vector<RigidFace> &rigid)
   {
     const std::size_t n = space.relevant().n_elements();
     DirichletData     data;
@@ -510,15 +609,10 @@ namespace Signorini
       }
     if (Utilities::MPI::n_mpi_processes(space.communicator()) > 1)
       import_conditions(data, space);
-    if (!with_values)
-      return data;
-
-    for (std::size_t i = 0; i < n; ++i)
-      for (unsigned int c = 0; c < dim; ++c)
-        if (data.condition[i][c] >= 0)
-          data.value[i][c] = loads.dirichlet[data.condition[i][c]].components[c](
-              space.position(space.relevant().nth_index_in_set(i)), loads.time);
-    set_held_values(data, space, loads);
+    if (with_values || (!loads.rigid_faces.empty() && rigid.empty()))
+      set_values(data, space, loads);
+    if (!loads.rigid_faces.empty())
+      add_rigid_faces(data, space, loads, rigid.empty() ? find_rigid_faces(space, loads, data) : rigid);
     return data;
   }
 } // namespace Signorini

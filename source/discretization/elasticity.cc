@@ -69,14 +69,23 @@ namespace Signorini
             loaded.push_back({face.cell, face.face, traction});
         std::stable_sort(loaded.begin(), loaded.end(),
                          [](const auto &a, const auto &b) { return a.cell < b.cell; });
+        find_nodal_forces();
       }
 
-      void compute(CellData &data, const unsigned int index) const
+      /// The element and its load.
+      void compute_load(CellData &data, const unsigned int index) const
       {
         const Cell &cell = space.cells()[index];
         data.element     = Element(space, cell);
         data.vertices.reinit(space.nodes(cell).data(), cell.n_vertices);
-        const auto &material = bodies.material(cell.material);
+        data.load.fill(Vector3());
+        add_load(data, index);
+      }
+
+      /// The stiffness of what compute_load() was called for.
+      void compute_stiffness(CellData &data, const unsigned int index) const
+      {
+        const auto &material = bodies.material(space.cells()[index].material);
         if (!data.element.stiffness(data.stiffness, material))
           {
             std::ostringstream message;
@@ -84,7 +93,12 @@ namespace Signorini
                     << data.element.corner(0) << "). Mend the mesh.";
             throw InputError(message.str());
           }
-        data.load.fill(Vector3());
+      }
+
+    private:
+      void add_load(CellData &data, const unsigned int index) const
+      {
+        const auto &material = bodies.material(space.cells()[index].material);
         if (const VectorField &force = loads.volume_forces[material.body])
           for (unsigned int q = 0; q < data.element.n_points(); ++q)
             {
@@ -99,9 +113,44 @@ namespace Signorini
                                      [](const LoadedFace &f, const unsigned int i) { return f.cell < i; });
         for (; face != loaded.end() && face->cell == index; ++face)
           add_traction(data, face->face, forces, face->traction);
+        for (auto node = std::lower_bound(
+                 nodal_forces.begin(), nodal_forces.end(), index,
+                 [](const NodalForce &force, const unsigned int i) { return force.cell < i; });
+             node != nodal_forces.end() && node->cell == index; ++node)
+          data.load[node->vertex] += node->force;
       }
 
-    private:
+      /// Gives each force to one of the cells of this rank at its node, if the node belongs to this rank.
+      void find_nodal_forces()
+      {
+        if (loads.nodal_forces.empty())
+          return;
+        std::vector<bool> is_done(space.relevant().n_elements(), false);
+        for (unsigned int c = 0; c < space.cells().size(); ++c)
+          if (const Cell &cell = space.cells()[c]; cell.is_owned)
+            for (unsigned int v = 0; v < cell.n_vertices; ++v)
+              {
+                const NodeIndex node = space.nodes(cell)[v];
+                if (!space.owned().is_element(node))
+                  continue;
+                const std::size_t i = space.relevant().index_within_set(node);
+                if (is_done[i])
+                  continue;
+                is_done[i] = true;
+                if (const auto it = loads.nodal_forces.find(space.start_vertices()[i]);
+                    it != loads.nodal_forces.end())
+                  for (const VectorField &force : it->second)
+                    nodal_forces.push_back({c, v, force(space.position(node), loads.time)});
+              }
+      }
+
+      /// The force at the node of a vertex of a cell.
+      struct NodalForce
+      {
+        unsigned int cell, vertex;
+        Vector3      force;
+      };
+
       struct LoadedFace
       {
         unsigned int cell, face;
@@ -113,6 +162,7 @@ namespace Signorini
       const Loads            &loads;
       const SurfaceForces     forces;
       std::vector<LoadedFace> loaded;
+      std::vector<NodalForce> nodal_forces;
     };
 
 
@@ -292,7 +342,8 @@ namespace Signorini
       for (unsigned int cell = 0; cell < space.cells().size(); ++cell)
         if (space.cells()[cell].is_owned)
           {
-            assembler.compute(data, cell);
+            assembler.compute_load(data, cell);
+            assembler.compute_stiffness(data, cell);
             bool                   plain = true, lifted = false;
             std::array<Vector3, 8> lift;
             for (unsigned int v = 0; v < data.n(); ++v)
@@ -313,11 +364,20 @@ namespace Signorini
 
 
 
+  void add_rigid_forces(Vector &rhs, const NodePartition &partition, const DirichletData &dirichlet)
+  {
+    if (dirichlet.rigid != nullptr)
+      for (unsigned int f = 0; f < dirichlet.rigid->faces().size(); ++f)
+        dirichlet.rigid->add(rhs, partition, f, dirichlet.rigid->faces()[f].forces);
+  }
+
+
+
   LinearSystem assemble_elasticity(const Bodies &bodies, const NodalSpace &space, const Loads &loads,
                                    const DirichletData &dirichlet, const InterfaceCoupling &coupling,
                                    const std::vector<RowProjection> &projections)
   {
-    const VertexExpansion expansion(space, coupling, projections);
+    const VertexExpansion expansion(space, coupling, projections, dirichlet.rigid.get());
     LinearSystem          system;
     system.matrix.reinit(space.owned(), make_pattern(space, expansion), IndexSet(space.n_nodes()),
                          space.communicator());
@@ -337,6 +397,7 @@ namespace Signorini
     throw_everywhere(error, space.communicator());
     system.matrix.compress();
     system.rhs.compress(VectorOperation::add);
+    add_rigid_forces(system.rhs, system.matrix.partition(), dirichlet);
     for (unsigned int i = 0; i < system.matrix.n_rows(); ++i)
       project_free(system.fixed[i], system.rhs, i);
     return system;
@@ -354,8 +415,15 @@ namespace Signorini
     for (unsigned int cell = 0; cell < space.cells().size(); ++cell)
       if (space.cells()[cell].is_owned)
         {
-          assembler.compute(data, cell);
-          subtract_stiffness(data, cell_values(data, partition, u));
+          assembler.compute_load(data, cell);
+          const auto values = cell_values(data, partition, u);
+          // A lift is zero in most cells.
+          if (std::any_of(values.begin(), values.begin() + data.n(),
+                          [](const Vector3 &value) { return value.norm_square() > 0.; }))
+            {
+              assembler.compute_stiffness(data, cell);
+              subtract_stiffness(data, values);
+            }
           for (unsigned int v = 0; v < data.n(); ++v)
             {
               const auto add = [&](const NodeIndex node, const double weight) {
@@ -384,7 +452,8 @@ namespace Signorini
     for (unsigned int cell = 0; cell < space.cells().size(); ++cell)
       if (space.cells()[cell].is_owned)
         {
-          assembler.compute(data, cell);
+          assembler.compute_load(data, cell);
+          assembler.compute_stiffness(data, cell);
           const std::array<Vector3, 8> load   = data.load;
           const std::array<Vector3, 8> cell_u = cell_values(data, partition, u);
           subtract_stiffness(data, cell_u);

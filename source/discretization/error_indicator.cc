@@ -148,9 +148,24 @@ namespace Signorini
       return .5 * shape.diameter() * square / (inside.material.mu() + outside.material.mu());
     }
 
+    /// Whether the set of nodes that a condition holds has the nodes of a face (hanging ones aside).
+    bool has_all_nodes(const NodalSpace &space, const DirichletCondition &condition,
+                       const NodalSpace::BoundaryFace &face)
+    {
+      if (condition.node_set == StartNodes::none)
+        return false;
+      const NodalSpace::Cell &cell = space.cells()[face.cell];
+      const auto             &set  = space.node_sets()[condition.node_set];
+      for (const unsigned int v : CellShape::face(cell.n_vertices, face.face))
+        if (const NodeIndex node = space.nodes(cell)[v];
+            !space.hanging_nodes().is_constrained(node) && !std::binary_search(set.begin(), set.end(), node))
+          return false;
+      return true;
+    }
+
     /// Those in which conditions hold a face.
-    FixedDirections prescribed_directions(const Loads &loads, const types::boundary_id id,
-                                          const ElementFace &shape)
+    FixedDirections prescribed_directions(const NodalSpace &space, const Loads &loads,
+                                          const NodalSpace::BoundaryFace &face, const ElementFace &shape)
     {
       Point<3> centre;
       Vector3  normal;
@@ -160,9 +175,12 @@ namespace Signorini
           centre += Vector3(point.position) / shape.n_points();
           normal += point.area;
         }
+      for (const RigidFaceCondition &face : loads.rigid_faces)
+        if (face.ids.count(id) > 0)
+          return all_fixed;
       std::vector<Vector3> directions;
       for (const DirichletCondition &condition : loads.dirichlet)
-        if (condition.ids.count(id) > 0)
+        if (condition.ids.count(face.id) > 0 || has_all_nodes(space, condition, face))
           {
             const auto axes = condition.frame.axes(centre, normal / normal.norm());
             for (unsigned int c = 0; c < dim; ++c)
@@ -173,11 +191,10 @@ namespace Signorini
     }
 
     /// h_F |sigma n - t|^2 / (2 mu), with the loads added to what contact does.
-    double boundary_share(const CellStress &cell, const NodalSpace::BoundaryFace &face, const Loads &loads,
-                          const SurfaceForces &forces, FaceTraction traction)
+    double boundary_share(const CellStress &cell, const NodalSpace::BoundaryFace &face,
+                          const FixedDirections &fixed, const SurfaceForces &forces, FaceTraction traction)
     {
-      const ElementFace     shape(cell.element, face.face);
-      const FixedDirections fixed = prescribed_directions(loads, face.id, shape);
+      const ElementFace shape(cell.element, face.face);
       for (const std::size_t load : forces.on(face.id))
         add_load(traction, shape, forces, load, fixed);
       return shape.diameter() * boundary_residual(cell, face.face, traction, fixed) /
@@ -211,9 +228,11 @@ namespace Signorini
     for (unsigned int f = 0; f < space.boundary_faces().size(); ++f)
       if (const NodalSpace::BoundaryFace &face = space.boundary_faces()[f]; cells[face.cell].is_owned)
         {
-          const auto it = contact.find(f);
-          indicator[face.cell] += boundary_share(stress_in(face.cell), face, loads, forces,
-                                                 it == contact.end() ? FaceTraction() : it->second);
+          const auto       it     = contact.find(f);
+          const CellStress stress = stress_in(face.cell);
+          indicator[face.cell] += boundary_share(
+              stress, face, prescribed_directions(space, loads, face, ElementFace(stress.element, face.face)),
+              forces, it == contact.end() ? FaceTraction() : it->second);
         }
     return indicator;
   }

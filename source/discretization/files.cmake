@@ -12,6 +12,7 @@ signorini_add_layer(discretization
   interpolation_exchange.cc
   level_hierarchy.cc
   level_spaces.cc
+  rigid_faces.cc
   rigid_support.cc
   transformed_rows.cc
   vertex_expansion.cc

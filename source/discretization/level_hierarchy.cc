@@ -239,6 +239,17 @@ namespace Signorini
 
 
 
+    /// The unknowns of rigid faces of a body in a motion of it.
+    void set_rigid_faces(Vector &v, const NodePartition &partition, const RigidFaces &rigid,
+                         const FreeMotion &motion)
+    {
+      for (unsigned int f = 0; f < rigid.faces().size(); ++f)
+        if (rigid.faces()[f].body == motion.body)
+          rigid.set_motion(v, partition, f, motion, motion.rotation / motion.length);
+    }
+
+
+
     std::optional<CoarserLevel> LevelsOfMeshes::next(const NodePartition &finer)
     {
       if (level == 0)
@@ -280,6 +291,8 @@ namespace Signorini
           contact.fixed      = only_oblique(import_ghost_masks(finer, spaces.fixed(level)));
           contact.node_fixed = only_oblique(replicate_masks(finer, spaces.fixed(level), nodes));
         }
+      contact.fine_rigid    = spaces.rigid(level);
+      contact.coarse_rigid  = spaces.rigid(level - 1);
       const auto block_rows = transformed_rows(finer, rows, contact);
       result.transfer.reinit(std::move(rows), block_rows, finer.n_owned());
       if (options.coarse_obstacles)
@@ -313,8 +326,13 @@ namespace Signorini
       if (!options.free_motions.empty())
         {
           result.free_motions = motion_fields(options.free_motions, spaces.coarsest_places(), coarsest);
-          for (Vector &motion : result.free_motions)
-            make_relative(motion, coarsest, spaces.fixed(0), fine, fine_projections);
+          for (std::size_t m = 0; m < result.free_motions.size(); ++m)
+            {
+              Vector &motion = result.free_motions[m];
+              make_relative(motion, coarsest, spaces.fixed(0), fine, fine_projections);
+              if (spaces.rigid(0) != nullptr)
+                set_rigid_faces(motion, coarsest, *spaces.rigid(0), options.free_motions[m]);
+            }
           orthonormalize(result.free_motions);
         }
       if (result.uses_amg(coarsest.n_global()))

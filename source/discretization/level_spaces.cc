@@ -150,15 +150,25 @@ namespace Signorini
   namespace
   {
     /// Fixed masks of the owned nodes; hanging ones are fixed.
-    std::vector<FixedDirections> fixed_masks(const NodalSpace &space, const Loads &loads)
+    std::vector<FixedDirections> fixed_masks(const NodalSpace &space, const DirichletData &dirichlet)
     {
-      const DirichletData          dirichlet = evaluate_dirichlet(space, loads, false);
       std::vector<FixedDirections> masks;
       for (const NodeIndex node : space.owned())
         masks.push_back(space.hanging_nodes().is_constrained(node)
                             ? all_fixed
                             : dirichlet.fixed[space.relevant().index_within_set(node)]);
       return masks;
+    }
+
+    /// Carriers have nodes of their own under a mesh, and those have no place.
+    std::vector<FixedDirections> without_carriers(std::vector<FixedDirections>  fixed,
+                                                  const std::vector<NodeIndex> &carriers,
+                                                  const IndexSet               &owned)
+    {
+      for (const NodeIndex node : carriers)
+        if (owned.is_element(node))
+          fixed[owned.index_within_set(node)] = all_fixed;
+      return fixed;
     }
 
     bool has_oblique(const std::vector<FixedDirections> &fixed, const MPI_Comm communicator)
@@ -174,14 +184,26 @@ namespace Signorini
   LevelSpaces::LevelSpaces(const NodalSpace &finest, std::vector<std::shared_ptr<const NodalSpace>> coarser,
                            const Bodies &bodies, const Loads &loads, const CoarseLevels coarse_levels)
   {
-    const NodalSpace *below = nullptr;
-    const auto        add   = [&](const NodalSpace &space) {
-      std::vector<FixedDirections> fixed = fixed_masks(space, loads);
+    const NodalSpace      *below = nullptr;
+    std::vector<RigidFace> rigid;
+    if (!loads.rigid_faces.empty())
+      rigid = evaluate_dirichlet(finest, loads, true).rigid->faces();
+    const auto add = [&](const NodalSpace &space) {
+      const DirichletData          dirichlet = evaluate_dirichlet(space, loads, false, rigid);
+      std::vector<FixedDirections> fixed     = fixed_masks(space, dirichlet);
       if (below != nullptr)
         rows.push_back(interpolation_rows(space, *below, bodies.tetrahedra()));
       else if (coarse_levels == CoarseLevels::background ||
                (coarse_levels == CoarseLevels::automatic && LevelZero().uses_amg(space.n_conforming_nodes())))
-        add_background(background_levels(space, fixed, bodies));
+        {
+          const std::vector<NodeIndex> carriers =
+              dirichlet.rigid != nullptr ? dirichlet.rigid->carriers() : std::vector<NodeIndex>();
+          add_background(
+              background_levels(space, without_carriers(fixed, carriers, space.owned()), bodies, carriers),
+              rigid);
+        }
+      if (dirichlet.rigid != nullptr)
+        rigid_faces.push_back(dirichlet.rigid);
       if (owned_nodes.empty())
         places = node_places(bodies, space);
       owned_nodes.push_back(space.owned());
@@ -196,7 +218,8 @@ namespace Signorini
 
 
 
-  void LevelSpaces::add_background(std::vector<DistributedBackgroundLevel> &&levels)
+  void LevelSpaces::add_background(std::vector<DistributedBackgroundLevel> &&levels,
+                                   const std::vector<RigidFace>             &rigid)
   {
     std::reverse(levels.begin(), levels.end());
     n_background = static_cast<unsigned int>(levels.size());
@@ -208,6 +231,8 @@ namespace Signorini
             places.parts.assign(level.parts.begin(), level.parts.end());
           }
         masks.emplace_back(level.owned.n_elements(), FixedDirections());
+        if (!rigid.empty())
+          rigid_faces.push_back(std::make_shared<const RigidFaces>(rigid, std::move(level.carriers)));
         owned_nodes.push_back(std::move(level.owned));
         rows.push_back(std::move(level.rows));
       }

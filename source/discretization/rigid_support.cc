@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/algebra/input_error.h>
 #include <signorini/discretization/rigid_support.h>
 
 #include <deal.II/base/mpi.h>
@@ -71,6 +72,50 @@ namespace Signorini
 
 
 
+  namespace
+  {
+    /// What rigid faces hold: the motions of their bodies that are none of theirs. Conditions weigh as those
+    /// of nodes do.
+    void add_rigid_faces(std::vector<double> &sums, const RigidFaces &rigid,
+                         const std::vector<FreeMotion> &frames, const NodalSpace &space, const Bodies &bodies)
+    {
+      if (Utilities::MPI::this_mpi_process(space.communicator()) != 0)
+        return;
+      for (const RigidFace &face : rigid.faces())
+        for (unsigned int b = 0; b < frames.size(); ++b)
+          if (frames[b].body == face.body)
+            {
+              if (b + 1 < frames.size() && frames[b + 1].body == face.body)
+                throw InputError(
+                    "Body " + bodies.body_name(face.body) +
+                    "/Rigid: the body has several parts that are not connected. Make them bodies "
+                    "of their own.");
+              // By column: what a unit motion of the body is to the face, without its free motions.
+              Matrix6 rest;
+              for (unsigned int m = 0; m < 6; ++m)
+                {
+                  FreeMotion motion                                     = frames[b];
+                  (m < 3 ? motion.translation : motion.rotation)[m % 3] = 1.;
+                  RigidMotion seen{motion(face.centre), face.length / motion.length * motion.rotation};
+                  for (const RigidMotion &free : face.free)
+                    {
+                      const double share = free * seen;
+                      seen.translation -= share * free.translation;
+                      seen.rotation -= share * free.rotation;
+                    }
+                  for (unsigned int c = 0; c < 3; ++c)
+                    {
+                      rest(c, m)     = seen.translation[c];
+                      rest(3 + c, m) = seen.rotation[c];
+                    }
+                }
+              Eigen::Map<Matrix6>(sums.data() + 36 * b) += rest.transpose() * rest;
+            }
+    }
+  } // namespace
+
+
+
   std::vector<FreeMotion> free_motions(const Bodies &bodies, const NodalSpace &space,
                                        const DirichletData &dirichlet)
   {
@@ -83,12 +128,16 @@ namespace Signorini
         if (part_of_node[i] < 0)
           continue;
         const unsigned int b = static_cast<unsigned int>(part_of_node[i]);
+        if (dirichlet.rigid != nullptr && dirichlet.rigid->find(node) != nullptr)
+          continue;
         for (const Vector3 &direction : dirichlet.fixed[i].basis())
           {
             const Vector6 row = rigid_row(frames[b], space.position(node), direction);
             Eigen::Map<Matrix6>(sums.data() + 36 * b) += row * row.transpose();
           }
       }
+    if (dirichlet.rigid != nullptr)
+      add_rigid_faces(sums, *dirichlet.rigid, frames, space, bodies);
     for (double &s : sums)
       s = Utilities::MPI::sum(s, space.communicator());
 

@@ -56,14 +56,25 @@ namespace Signorini
       {
         if (find_fine(node) >= 0 || fixed(contact.fixed, local).any())
           return true;
+        if (contact.fine_rigid != nullptr &&
+            (contact.fine_rigid->find(node) != nullptr || contact.fine_rigid->find_carrier(node) >= 0))
+          return true;
         for (std::size_t k = rows.start[local]; k < rows.start[local + 1]; ++k)
-          if (find_coarse(rows.columns[k]) >= 0)
+          if (find_coarse(rows.columns[k]) >= 0 || find_rigid(rows.columns[k]) != nullptr)
             return true;
         return false;
       }
 
       NodalTransfer::BlockRow make(const unsigned int local, const NodeIndex node)
       {
+        if (contact.fine_rigid != nullptr)
+          {
+            // Rigid faces move as they do on the coarser level.
+            if (const int carrier = contact.fine_rigid->find_carrier(node); carrier >= 0)
+              return {local, {contact.coarse_rigid->carriers()[carrier]}, {}, {1.}};
+            if (contact.fine_rigid->find(node) != nullptr)
+              return {local, {}, {}, {}};
+          }
         const std::ptrdiff_t p = find_fine(node);
         if (p >= 0 && !contact.tied.empty() && contact.tied[p])
           return {local, {}, {}, {}};
@@ -92,9 +103,21 @@ namespace Signorini
         {
         }
 
+        /// The product with a block.
+        Factor(const Factor &left, const Block &right)
+          : is_identity(false)
+          , block(left.is_identity ? right : left.block * right)
+        {
+        }
+
         bool  is_identity;
         Block block;
       };
+
+      const RigidFaces::Dependence *find_rigid(const NodeIndex coarse) const
+      {
+        return contact.coarse_rigid == nullptr ? nullptr : contact.coarse_rigid->find(coarse);
+      }
 
       static FixedDirections fixed(const std::vector<FixedDirections> &masks, const std::size_t i)
       {
@@ -132,6 +155,13 @@ namespace Signorini
         for (std::size_t k = from.start[row]; k < from.start[row + 1]; ++k)
           {
             const double w = weight * from.weights[k];
+            if (const RigidFaces::Dependence *const rigid = find_rigid(from.columns[k]))
+              {
+                for (unsigned int carrier = 0; carrier < 2; ++carrier)
+                  add_entry(contact.coarse_rigid->carrier(rigid->face, carrier), w,
+                            Factor(left, rigid->blocks[carrier]));
+                continue;
+              }
             add_entry(from.columns[k], w, left);
             const std::ptrdiff_t c = find_coarse(from.columns[k]);
             if (c < 0)

@@ -17,6 +17,7 @@ namespace Signorini
 
   Bodies::Bodies(const MPI_Comm communicator, const std::vector<BodyDefinition> &definitions)
     : comm(communicator)
+    , start(std::make_shared<StartNodes>())
   {
     std::vector<Placed> placed;
     for (const BodyDefinition &definition : definitions)
@@ -81,6 +82,8 @@ namespace Signorini
     if (definition.snap)
       snap_vertices(body);
     boundaries.push_back(body.mesh.boundary_names);
+    groups.push_back(body.mesh.boundary_groups);
+    add_node_sets(body.mesh);
     return body;
   }
 
@@ -133,6 +136,8 @@ namespace Signorini
     std::vector<Point<3>>    vertices;
     std::vector<CellData<3>> cells;
     SubCellData              faces;
+    // The vertex among those of all bodies.
+    std::vector<unsigned int> start_of;
     for (unsigned int b = 0; b < placed.size(); ++b)
       {
         const VolumeMesh &mesh = placed[b].mesh;
@@ -147,6 +152,8 @@ namespace Signorini
               cells.back().vertices[v] = mesh.cells[c].vertices[v] + shift;
             cells.back().material_id = placed[b].material_of_cell[c];
           }
+        for (unsigned int v = 0; v < mesh.vertices.size(); ++v)
+          start_of.push_back(first_vertex[b] + v);
         for (const auto &face : mesh.faces)
           {
             faces.boundary_quads.emplace_back(4);
@@ -172,6 +179,11 @@ namespace Signorini
             "The meshes of the bodies cannot be joined to a triangulation: are there cells that share "
             "a face with more than one other cell, or distorted cells?");
       }
+    // Coarse cells are named by their trees in the forest, which come in an order of their own.
+    start->hexahedra.resize(tria->n_cells(0));
+    for (const auto &cell : tria->cell_iterators_on_level(0))
+      for (unsigned int v = 0; v < 8; ++v)
+        start->hexahedra[cell->id().get_coarse_cell_id()][v] = start_of[cell->vertex_index(v)];
 
     set_given_manifolds(placed);
     set_manifolds();
@@ -208,6 +220,8 @@ namespace Signorini
           name_of[face_key(face.vertices)] = face.name;
         const unsigned int shift = static_cast<unsigned int>(vertices.size());
         vertices.insert(vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
+        for (unsigned int v = 0; v < mesh.vertices.size(); ++v)
+          start->forest.push_back(first_vertex[b] + v);
         for (const unsigned int v : placed[b].late)
           for (const auto &face : mesh.faces)
             if (std::find(face.vertices.begin(), face.vertices.end(), v) != face.vertices.end())
@@ -238,7 +252,7 @@ namespace Signorini
 
   MeshView Bodies::mesh() const
   {
-    return {tria.get(), forest.get(), forest ? forest->n_levels() - 1 : 0};
+    return {tria.get(), forest.get(), forest ? forest->n_levels() - 1 : 0, start.get()};
   }
 
 
@@ -282,6 +296,29 @@ namespace Signorini
       }
     return true;
   }
+
+
+
+  namespace
+  {
+    /// What a user may write: groups, and boundaries that are in none.
+    std::vector<std::string>
+    names_to_show(const std::vector<std::string>                                       &boundaries,
+                  const std::vector<std::pair<std::string, std::vector<unsigned int>>> &groups)
+    {
+      std::vector<std::string> result;
+      std::set<unsigned int>   in_group;
+      for (const auto &[name, members] : groups)
+        {
+          result.push_back(name);
+          in_group.insert(members.begin(), members.end());
+        }
+      for (unsigned int i = 0; i < boundaries.size(); ++i)
+        if (in_group.count(i) == 0)
+          result.push_back(boundaries[i]);
+      return result;
+    }
+  } // namespace
 
 
 
@@ -330,6 +367,14 @@ namespace Signorini
   std::set<types::boundary_id> Bodies::boundary_ids(const unsigned int body, const std::string &name,
                                                     const std::string &where) const
   {
+    for (const auto &[group, members] : groups[body])
+      if (group == name)
+        {
+          std::set<types::boundary_id> ids;
+          for (const unsigned int i : members)
+            ids.insert(boundary_id(body, i));
+          return ids;
+        }
     const auto it = std::find(boundaries[body].begin(), boundaries[body].end(), name);
     if (it == boundaries[body].end())
       if (const StartSurface &start = start_surfaces[body];
@@ -337,7 +382,44 @@ namespace Signorini
         return boundaries_facing(name, start.mesh, start.boundary);
     if (it == boundaries[body].end())
       throw InputError((where.empty() ? "Body " : where + ": body ") + names[body] + " has no boundary \"" +
-                       name + "\"; it has " + listed(boundaries[body]) + ".");
+                       name + "\"; it has " + listed(names_to_show(boundaries[body], groups[body])) + ".");
     return {static_cast<types::boundary_id>(first_boundary[body] + (it - boundaries[body].begin()))};
+  }
+
+
+
+  bool Bodies::has_boundary(const unsigned int body, const std::string &name) const
+  {
+    const auto &known = boundaries[body];
+    return std::find(known.begin(), known.end(), name) != known.end() ||
+           std::any_of(groups[body].begin(), groups[body].end(),
+                       [&](const auto &group) { return group.first == name; });
+  }
+
+
+
+  unsigned int Bodies::node_set(const unsigned int body, const std::string &name) const
+  {
+    for (const auto &[set, number] : node_sets[body])
+      if (set == name)
+        return number;
+    return StartNodes::none;
+  }
+
+
+
+  void Bodies::add_node_sets(const VolumeMesh &mesh)
+  {
+    first_vertex.push_back(n_vertices_of_all);
+    n_vertices_of_all += static_cast<unsigned int>(mesh.vertices.size());
+    start->sets_of.resize(n_vertices_of_all);
+    node_sets.emplace_back();
+    for (const auto &[name, vertices] : mesh.node_sets)
+      {
+        const unsigned int set = start->n_sets++;
+        node_sets.back().emplace_back(name, set);
+        for (const unsigned int v : std::set<unsigned int>(vertices.begin(), vertices.end()))
+          start->sets_of[first_vertex.back() + v].push_back(set);
+      }
   }
 } // namespace Signorini

@@ -114,6 +114,23 @@ namespace Signorini
       return old;
     }
 
+    /// The groups of boundaries of a mesh, as numbers of the boundaries of a part of it.
+    std::vector<std::pair<std::string, std::vector<unsigned int>>> groups_in(const VolumeMesh &part,
+                                                                             const VolumeMesh &mesh)
+    {
+      std::vector<std::pair<std::string, std::vector<unsigned int>>> result;
+      for (const auto &[name, members] : mesh.boundary_groups)
+        {
+          result.emplace_back(name, std::vector<unsigned int>());
+          for (const unsigned int i : members)
+            if (const auto it =
+                    std::find(part.boundary_names.begin(), part.boundary_names.end(), mesh.boundary_names[i]);
+                it != part.boundary_names.end())
+              result.back().second.push_back(static_cast<unsigned int>(it - part.boundary_names.begin()));
+        }
+      return result;
+    }
+
     /// Keeps the cells of some volumes only.
     void select_volumes(VolumeMesh &mesh, const std::vector<std::string> &list, const std::string &where)
     {
@@ -145,6 +162,17 @@ namespace Signorini
           part.faces.push_back(
               {face.first, index_of(part.boundary_names,
                                     it == name_of.end() ? "unnamed" : mesh.boundary_names[it->second])});
+        }
+      part.boundary_groups = groups_in(part, mesh);
+      std::vector<unsigned int> number(mesh.vertices.size(), VolumeMesh::no_vertex);
+      for (unsigned int v = 0; v < old.size(); ++v)
+        number[old[v]] = v;
+      for (const auto &[name, vertices] : mesh.node_sets)
+        {
+          part.node_sets.emplace_back(name, std::vector<unsigned int>());
+          for (const unsigned int v : vertices)
+            if (number[v] != VolumeMesh::no_vertex)
+              part.node_sets.back().second.push_back(number[v]);
         }
       mesh = part;
     }

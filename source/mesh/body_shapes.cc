@@ -19,37 +19,47 @@ namespace Signorini
   {
     const std::string section = "Body " + definition.name + "/";
     const auto       &known   = body.mesh.boundary_names;
-    const auto        index   = [&](const std::string &name, const std::string &where) {
+    const auto        indices = [&](const std::string &name, const std::string &where) {
+      std::vector<types::boundary_id> ids;
+      for (const auto &[group, members] : body.mesh.boundary_groups)
+        if (group == name)
+          {
+            for (const unsigned int i : members)
+              ids.push_back(body.first_boundary + i);
+            return ids;
+          }
       const auto it = std::find(known.begin(), known.end(), name);
       if (it == known.end())
         throw InputError(section + where + ": the body has no boundary \"" + name + "\"; it has " +
-                                  listed(known) + ".");
-      return body.first_boundary + static_cast<types::boundary_id>(it - known.begin());
+                                listed(known) + ".");
+      ids.push_back(body.first_boundary + static_cast<types::boundary_id>(it - known.begin()));
+      return ids;
     };
     shapes.resize(body.first_boundary + known.size());
     is_user_shape.resize(shapes.size(), false);
     std::set<BoundaryShapePointer> seen;
     for (const BoundaryGeometry &geometry : definition.geometry)
       {
-        const types::boundary_id id =
-            index(geometry.boundary, "Boundary shapes, \"" + geometry.boundary + "\"");
-        if (geometry.manifold)
+        for (const types::boundary_id id :
+             indices(geometry.boundary, "Boundary shapes, \"" + geometry.boundary + "\""))
           {
-            body.manifolds.emplace_back(id, geometry.manifold);
-            has_manifold.insert(id);
+            if (geometry.manifold)
+              {
+                body.manifolds.emplace_back(id, geometry.manifold);
+                has_manifold.insert(id);
+              }
+            if (!geometry.shape)
+              continue;
+            shapes[id]        = geometry.shape;
+            is_user_shape[id] = !geometry.manifold;
           }
-        if (!geometry.shape)
-          continue;
-        shapes[id]        = geometry.shape;
-        is_user_shape[id] = !geometry.manifold;
-        if (seen.insert(geometry.shape).second && !geometry.shape->note().empty())
+        if (geometry.shape && seen.insert(geometry.shape).second && !geometry.shape->note().empty())
           remarks.push_back(geometry.shape->note());
       }
     for (const auto &[first, second] : definition.sharp_edges)
-      {
-        const auto a = index(first, "Sharp edges"), b = index(second, "Sharp edges");
-        sharp.insert({std::min(a, b), std::max(a, b)});
-      }
+      for (const types::boundary_id a : indices(first, "Sharp edges"))
+        for (const types::boundary_id b : indices(second, "Sharp edges"))
+          sharp.insert({std::min(a, b), std::max(a, b)});
   }
 
 

@@ -8,6 +8,11 @@ signorini_add_layer(mesh
   body_shapes.cc
   boundary_shape.cc
   coarser_meshes.cc
+  deck.cc
+  deck_elements.cc
+  deck_faces.cc
+  deck_sets.cc
+  deck_text.cc
   expression.cc
   extruded_mesh.cc
   generated_mesh.cc
@@ -17,6 +22,7 @@ signorini_add_layer(mesh
   nodal_space.cc
   node_movement.cc
   refinement.cc
+  start_nodes.cc
   size_limit.cc
   surface_extraction.cc
   surface_file.cc

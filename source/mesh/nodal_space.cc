@@ -218,6 +218,8 @@ namespace Signorini
       numbering.copy_constraints(constraints, *hexahedra);
     constraints.close();
     set_positions(corner_points);
+    if (mesh.start != nullptr)
+      find_start_nodes(mesh);
 
     NodeIndex hanging = 0;
     for (const auto &line : constraints.get_lines())

@@ -1,5 +1,7 @@
 signorini_add_layer(output
   field_output.cc
+  frd_output.cc
+  load_curve.cc
   final_words.cc
   output_folder.cc
   progress.cc

@@ -135,8 +135,8 @@ namespace Signorini
       return names;
     }
 
-    /// Whether a folder has to keep its place: because somebody works in it, it is another file system, or the
-    /// folder above is not ours.
+    /// Whether a folder has to keep its place: because somebody works in it, it is another file system, or
+    /// the folder above is not ours.
     bool is_pinned(const std::string &folder)
     {
       const fs::path above = fs::path(folder).parent_path();
@@ -180,9 +180,10 @@ namespace Signorini
       make_temporary();
     });
     temporary = Utilities::MPI::broadcast(comm, temporary, 0);
-    TerminationWatch::guard(temporary, Utilities::MPI::this_mpi_process(comm) > 0 ? "" :
-                                       found.empty() ? "nothing was written." :
-                                                       "the earlier results in " + target + " are unchanged.");
+    TerminationWatch::guard(temporary, Utilities::MPI::this_mpi_process(comm) > 0 ? ""
+                                       : found.empty()
+                                           ? "nothing was written."
+                                           : "the earlier results in " + target + " are unchanged.");
   }
 
 
@@ -219,7 +220,8 @@ namespace Signorini
     std::error_code   error;
     std::vector<fs::path> abandoned;
     for (const auto &entry : fs::directory_iterator(above, error))
-      if (const std::string name = entry.path().filename().string(); name.compare(0, start.size(), start) == 0)
+      if (const std::string name = entry.path().filename().string();
+          name.compare(0, start.size(), start) == 0)
         if (fs::exists(entry.path() / marker, error))
           if (const Contents contents = read_marker(entry.path().string());
               contents.outcome == "unfinished" && contents.host == this_host() && contents.process > 0 &&

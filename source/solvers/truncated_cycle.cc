@@ -17,14 +17,13 @@ namespace Signorini
     , problem(problem)
     , contact(contact)
     , cycle(hierarchy, coarse_smoothing, level - 1)
+    , has_subspace(problem.semidefinite && ContactSubspace::exists(hierarchy, level))
     , motions(hierarchy.level(level).matrix, problem.free_motions, problem.rhs)
   {
     for (Vector *vector : {&coarse_defect, &coarse_correction})
       hierarchy.level(level - 1).matrix.partition().reinit(*vector);
     for (Vector *vector : {&correction, &product, &new_residual, &step, &tangential})
       hierarchy.level(level).matrix.partition().reinit(*vector);
-    if (problem.semidefinite && ContactSubspace::exists(hierarchy, level))
-      subspace.emplace(hierarchy, level);
   }
 
 
@@ -45,9 +44,10 @@ namespace Signorini
     check.begin_iteration();
     smoother.smooth_from_zero(correction, residual, contact, plan.smoothing, new_residual);
     check(v, correction);
-    if (subspace && plan.phase != IterationPhase::resting)
+    const bool may_minimize = has_subspace && plan.phase != IterationPhase::resting;
+    if (may_minimize && stays_blocked)
       {
-        subspace->run(correction, new_residual, contact, motions);
+        minimize_in_subspace();
         check(v, correction);
       }
 
@@ -55,6 +55,18 @@ namespace Signorini
     searched     = plan.trusts_kept_set ? plan.phase == IterationPhase::on_the_way || !all_ranks(keeps_active)
                                         : plan.phase != IterationPhase::resting;
     cut_off      = correct();
+    if (may_minimize && is_blocked)
+      {
+        check(v, correction);
+        hierarchy.level(level).matrix.vmult(product, correction);
+        new_residual = residual;
+        new_residual -= product;
+        minimize_in_subspace();
+        check(v, correction);
+        keeps_active  = contact.active() == active;
+        cut_off       = correct();
+        stays_blocked = is_blocked;
+      }
     if (searched)
       check(v, correction);
     else
@@ -65,6 +77,15 @@ namespace Signorini
     keeps_active = all_ranks(keeps_active && contact.active() == active);
     product      = residual;
     product -= new_residual;
+  }
+
+
+
+  void TruncatedCycle::minimize_in_subspace()
+  {
+    if (!subspace)
+      subspace.emplace(hierarchy, level);
+    subspace->run(correction, new_residual, contact, motions);
   }
 
 
@@ -95,6 +116,7 @@ namespace Signorini
     const double driven = motions.is_driven() ? std::sqrt(std::max(tangential * step, 0.)) : 0.;
     const double length = std::min(1., contact.longest_step(correction, step));
     searched            = searched || length < 1.;
+    is_blocked          = motions.is_driven();
     if (searched)
       {
         contact.restrict_to_tangents(new_residual);
@@ -113,24 +135,25 @@ namespace Signorini
       return search_along(matrix, step, new_residual, contact.longest_step(correction, step),
                                       problem.semidefinite);
     };
-    double square = 0.;
-    if (length < 1.)
+    if (length == 1.)
       {
-        // A V-cycle is at most the inverse of A: the slope is at least the curvature.
-        square                = std::max(new_residual * step, 0.);
-        const double decrease = (length - .5 * length * length) * square;
-        const Vector whole    = step;
-        contact.project_correction(step, correction);
-        if (const LineSearch projected = search(); projected.decrease >= decrease)
-          {
-            correction.add(projected.length, step);
-            return std::sqrt(square);
-          }
-        step = whole;
+        correction.add(search().length, step);
+        return 0.;
       }
-    if (length < 1.)
-      step *= length;
-    correction.add(search().length, step);
+    // A V-cycle is at most the inverse of A: the slope is at least the curvature.
+    const double square   = std::max(new_residual * step, 0.);
+    const double decrease = (length - .5 * length * length) * square;
+    const Vector whole    = step;
+    contact.project_correction(step, correction);
+    LineSearch best = search();
+    if (best.decrease < decrease)
+      {
+        step = whole;
+        step *= length;
+        best = search();
+      }
+    correction.add(best.length, step);
+    is_blocked = is_blocked || best.decrease < ContactSubspace::Rule().least_decrease * .5 * square;
     return std::sqrt(square);
   }
 

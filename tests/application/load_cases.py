@@ -1,8 +1,11 @@
 """Cases of conditions and loads: rollers in any direction, total forces, rigid faces, load steps."""
+import csv
 import math
+import os
+import tempfile
 
 from geometry_cases import PATCH_TEST, turn
-from harness import certificate, check, constant_pressure, near
+from harness import TOP, certificate, check, constant_pressure, near
 
 AXES = [('1, 2, 3', 33.3), ('0, 0, 1', 90), ('1, -1, 0.2', 147), ('0, 1, 0', 45)]
 
@@ -90,3 +93,100 @@ def total_forces(p):
     reactions = [sum(b['reaction'][c] for b in s['boundaries']) for c in range(3)]
     for c in range(3):
         check(abs(reactions[c] + force[c]) <= 1e-9 * math.hypot(*force), f'reactions {reactions} to a force of {force}')
+
+
+def pressure_moment(s, about):
+    """The moment of the contact force on the mortar side, flat at z = 0, about a point."""
+    f, m = s['pairs'][0]['force'], s['pairs'][0]['moment']
+    return [m[i] - about[i - 2] * f[i - 1] + about[i - 1] * f[i - 2] for i in range(3)]
+
+
+def rigid_faces(p):
+    """A stamp by force and moment does what one by displacement and rotation does; alone, with symmetry planes, guided."""
+    few = p.command[0] == 'mpirun'
+    held = 'Body lower/Dirichlet=bottom: (0, 0, 0)'
+    probe = 'Body upper/Probes=corner: (1, 1, 1)'
+    driven = 'displacement (0, 0, -0.01), rotation (0, 0.004, 0)'
+    tetrahedra = 'Body upper/Convert to tetrahedra=true'
+    fine = ['Body upper/Divisions=8, 8, 8', 'Body lower/Divisions=9, 9, 9', 'Solver/Coarse levels=background']
+    for more in ([tetrahedra], fine) if few else ([], [tetrahedra], fine, ['Refinement/Global cycles=2']):
+        prescribed = p.solve(PATCH_TEST, held, probe, 'Body upper/Dirichlet=top: (0, 0, -0.01 - 0.004*(x - 0.5))', *more)
+        by_motion = p.solve(PATCH_TEST, held, probe, 'Body upper/Dirichlet=', f'Body upper/Rigid=top: {driven}', *more)
+        top = next(b['reaction'] for b in prescribed['boundaries'] if b['name'] == 'top')
+        sign = -1 if prescribed['pairs'][0]['nonmortar'].startswith('lower') else 1
+        moment = [-sign * m for m in pressure_moment(prescribed, (.5, .5, 1))]
+        by_force = p.solve(PATCH_TEST, held, probe, 'Body upper/Dirichlet=', *more,
+                           f'Body upper/Rigid=top: force {vector(top)}, moment {vector(moment)}, displacement (0, 0, *), rotation (*, *, 0)')
+        for s in (by_motion, by_force):
+            certificate(s)
+            for a, b in zip(s['probes'][0]['displacement'], prescribed['probes'][0]['displacement']):
+                check(abs(a - b) <= 1e-10 * .012, f'{more}: displacement {a}, expected {b}')
+            reaction = next(b['reaction'] for b in s['boundaries'] if b['name'] == 'top')
+            for a, b in zip(reaction, top):
+                check(abs(a - b) <= 1e-10 * abs(top[2]), f'{more}: force {a}, expected {b}')
+            for a, b in zip(s['cycles'], prescribed['cycles']):
+                check(a['nonlinear']['iterations'] <= b['nonlinear']['iterations'] + 3,
+                      f'{more}: {a["nonlinear"]["iterations"]} iterations, by displacement {b["nonlinear"]["iterations"]}')
+    # A quarter of Hertz' ball: the symmetry planes hold the edges of the top, but it could tilt about these.
+    few_cells = ['Refinement/Final global cycles=0']
+    symmetry = 'symmetry x: (0, *, *); symmetry y: (*, 0, *)'
+    prescribed = p.solve('hertz/hertz.prm', *few_cells)
+    force = next(b['reaction'] for b in prescribed['boundaries'] if b['name'] == 'top')
+    for how in (', rotation (0, 0, *)', ', along (0, 0, 1)'):
+        s = p.solve('hertz/hertz.prm', *few_cells, f'Body ball/Dirichlet={symmetry}', f'Body ball/Rigid=top: force (0, 0, {force[2]!r}){how}')
+        certificate(s)
+        near(s['pairs'][0]['max_pressure'], prescribed['pairs'][0]['max_pressure'], 1e-9, 'largest pressure of the ball')
+        near(-s['pairs'][0]['load'], force[2], 2e-2, 'load')
+    for setting, words in [('top: push (0, 0, -1)', 'should begin with force'), ('top: along (0, 0, 0)', 'must not be zero'),
+                           ('top: force (0, 0, -1), force (0, 0, -2)', 'there twice')]:
+        refused(p, f'Body upper/Rigid={setting}', words)
+    refused(p, 'Body upper/Rigid=left: force (0, 0, -1)', 'in common with a rigid face', 'Pair interface/Nonmortar=second')
+
+
+def refused(p, setting, words, *more):
+    with tempfile.TemporaryDirectory() as folder:
+        arguments = [os.path.join(TOP, 'prm', PATCH_TEST), '--output', os.path.join(folder, 'out'), '--set', setting]
+        for one in more:
+            arguments += ['--set', one]
+        run = p.call(*arguments)
+        check(run.returncode == 1 and words in run.stderr, f'{setting}: exit code {run.returncode}, {run.stderr}')
+        check(os.listdir(folder) == [], f'{setting}: results are left')
+
+
+def load_steps(p):
+    """Twenty steps of Hertz: the last is the single load, the force grows with the power 3/2 of the displacement."""
+    few = ['Refinement/Final global cycles=0', 'Solver/Compare linear multigrid=false', 'Output/Measure sweeps=false']
+    symmetry = 'symmetry x: (0, *, *); symmetry y: (*, 0, *)'
+    down = f'Body ball/Dirichlet={symmetry}; top: (0, 0, -0.02*t)'
+    with tempfile.TemporaryDirectory() as folder:
+        out = os.path.join(folder, 'out')
+        s = p.solve('hertz/hertz.prm', *few, down, 'Load steps=20', keep=out)
+        with open(os.path.join(out, 'curve.csv')) as f:
+            rows = [{k: float(v) for k, v in row.items()} for row in csv.DictReader(f)]
+        for name in ('bodies', 'contact-contact', 'contact-contact-mortar'):
+            with open(os.path.join(out, f'{name}-steps.pvd')) as f:
+                text = f.read()
+            for k in range(1, 21):
+                check(f'{name}-step-{k:02}.pvtu' in text and os.path.exists(os.path.join(out, f'{name}-step-{k:02}.pvtu')), f'{name}: step {k}')
+    certificate(s)
+    check([row['t'] for row in rows] == [k / 20 for k in range(1, 21)], 'times')
+    one = p.solve('hertz/hertz.prm', *few)
+    near(rows[-1]['contact: load'], one['pairs'][0]['load'], 1e-9, 'load of the last step')
+    # Each step is what it is alone.
+    for k in (4, 13):
+        alone = p.solve('hertz/hertz.prm', *few, f'Body ball/Dirichlet={symmetry}; top: (0, 0, {-.02 * (k + 1) / 20!r})')
+        near(rows[k]['contact: load'], alone['pairs'][0]['load'], 1e-9, f'load of step {k}')
+        check(rows[k]['active nodes'] == alone['cycles'][-1]['active_nodes'], f'active nodes of step {k}')
+        check(rows[k]['iterations'] <= alone['cycles'][-1]['nonlinear']['iterations'] + 1, f'iterations of step {k}')
+    logs = [(math.log(row['t']), math.log(row['contact: load'])) for row in rows[4:]]
+    mean = [sum(v) / len(logs) for v in zip(*logs)]
+    slope = sum((a - mean[0]) * (b - mean[1]) for a, b in logs) / sum((a - mean[0]) ** 2 for a, b in logs)
+    near(slope, 1.5, .02, 'exponent')
+    # Steps of forces, a rigid face, and a body that contact alone holds.
+    s = p.solve(PATCH_TEST, 'Body upper/Dirichlet=', 'Body upper/Rigid=top: force (0, 0, -2.5*t^2), displacement (0, 0, *), rotation (0, 0, 0)',
+                'Load steps=0.3, 0.6, 2')
+    near(s['pairs'][0]['load'], 10., 1e-10, 'load of the stamp')
+    certificate(s)
+    for setting, words in [('Load steps=0.5, 0.2', 'ascend'), ('Load steps=-3', 'number of steps'), ('Load steps=x', 'Load steps'),
+                           ('Load steps=2.5', 'number of steps')]:
+        refused(p, setting, words)

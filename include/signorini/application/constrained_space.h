@@ -33,6 +33,10 @@ namespace Signorini
     /// Collective. Inner faces are what estimate_error() needs. Errors: those of find_free_parts().
     explicit ConstrainedSpace(const ContactModel &model, const bool with_inner_faces = false);
 
+    /// Collective. The same space with the conditions of the present time of the model
+    /// (ContactModel::set_time()); the directions that they hold are the same at all times.
+    ConstrainedSpace(const ConstrainedSpace &other, const ContactModel &model);
+
     /// Collective. The nodal interpolant of a displacement on the mesh that this one was refined from. Ghosts
     /// are up to date.
     /// @param rows of interpolation_rows() between the two spaces

@@ -75,6 +75,12 @@ namespace Signorini
       return the_pairs;
     }
 
+    /// Conditions and forces are those of this pseudo-time from now on.
+    void set_time(const double time)
+    {
+      the_loads.time = time;
+    }
+
     /// Collective. As Bodies::refine(). Spaces and discretizations of the mesh before stay as they are.
     bool refine(const NodalSpace &space, const std::vector<bool> &marked)
     {

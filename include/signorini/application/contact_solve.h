@@ -84,6 +84,42 @@ namespace Signorini
   /// Errors: InputError for methods that cannot solve a pair.
   void check_method(const PairDefinition &pair, const SolverMethod method);
 
+  /// Matrix, levels, right hand side and half-spaces of a mesh.
+  struct AlgebraicProblem;
+
+  /// The contact problem of one mesh, set up once and solved for one load after the other: matrix and levels
+  /// stay.
+  class ContactSolver
+  {
+  public:
+    /// Collective. Parameters and errors as for solve_contact(); model and journal must outlive the object.
+    ContactSolver(const ContactModel &model, const Discretization &discretization, CoarserSpaces &coarser,
+                  const NestedStart *const start, const SolveParameters &parameters, Journal &journal);
+    ~ContactSolver();
+
+    /// Collective. Solves, from the start or from what change_loads() was given.
+    /// @param discretization the one of the constructor or of the last change_loads()
+    ContactSolution solve(const Discretization &discretization);
+
+    /// Collective. Takes the loads of the present time of the model.
+    /// @param discretization of the same mesh, with the conditions of that time
+    /// @param displacement to begin with; physical, on the partition of the space
+    void change_loads(const Discretization &discretization, const Vector &displacement);
+
+    /// Collective. Times sweeps of the hierarchy.
+    SweepMeasurement measure() const;
+
+    /// Gives the hierarchy away; returns the levels it was built on, if there is to be a comparison.
+    std::shared_ptr<const LevelSpaces> release();
+
+  private:
+    const ContactModel               &model;
+    Journal                          &journal;
+    SolverParameters                  parameters;
+    unsigned int                      n_levels;
+    std::unique_ptr<AlgebraicProblem> algebraic;
+  };
+
   /// Collective. Solves the contact problem of one mesh.
   /// @param coarser the spaces below, kept from mesh to mesh
   /// @param start null on the first mesh

@@ -48,7 +48,7 @@ namespace Signorini
     /// In place of the mortar side.
     std::optional<RigidObstacle> obstacle;
     /// Null with an obstacle.
-    std::unique_ptr<const ContactMapping> mapping;
+    std::shared_ptr<const ContactMapping> mapping;
     /// Seconds it took.
     double mapping_time = 0.;
     /// Integrals over the overlay of this rank's nonmortar faces.
@@ -63,6 +63,8 @@ namespace Signorini
     /// Collective. Joins the couplings of the pairs. Errors: those of join_couplings().
     Discretization(std::shared_ptr<const ConstrainedSpace> constrained, std::vector<ContactPair> pairs,
                    std::vector<PairCoupling> couplings, std::vector<bool> turned);
+    /// Collective. The same surfaces and couplings on the same space with other values of its conditions.
+    Discretization(const Discretization &other, std::shared_ptr<const ConstrainedSpace> constrained);
     Discretization(const Discretization &) = delete;
 
     /// The space of the displacements.
@@ -94,6 +96,9 @@ namespace Signorini
     {
       return std::find(tied.begin(), tied.end(), 1) != tied.end();
     }
+
+    /// Errors: InputError for nodes of the mortar sides that belong to rigid faces.
+    void refuse_rigid_mortar_nodes() const;
 
     /// Space and conditions.
     std::shared_ptr<const ConstrainedSpace> constrained;

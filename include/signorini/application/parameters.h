@@ -4,12 +4,14 @@
 #ifndef signorini_application_parameters_h
 #define signorini_application_parameters_h
 
-#include <signorini/application/nested_iteration.h>
+#include <signorini/application/deck_problem.h>
+#include <signorini/application/load_steps.h>
 #include <signorini/mesh/body_parameters.h>
 
 #include <deal.II/base/parameter_handler.h>
 
 #include <iosfwd>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -58,13 +60,20 @@ namespace Signorini
   class ParameterFile
   {
   public:
-    /// Reads a file. overrides: "Section/Name=value". Errors: InputError with one clear message.
+    /// Reads a file. overrides: "Section/Name=value". Errors: InputError with one clear message. A deck
+    /// (is_deck()) is the problem itself: parameters are then those of the overrides.
     ParameterFile(const std::string &file, const std::vector<std::string> &overrides);
 
     /// The defaults of a problem with such bodies and pairs.
     ParameterFile(const std::vector<std::string> &body_names, const std::vector<std::string> &pair_names);
 
     ParameterFile(const ParameterFile &) = delete;
+
+    /// The deck, or null.
+    const DeckProblem *deck() const
+    {
+      return deck_problem.get();
+    }
 
     /// The name of the file, or empty.
     const std::string &path() const
@@ -94,13 +103,16 @@ namespace Signorini
     /// Errors: InputError for texts that cannot be understood.
     NestedParameters nested() const;
 
+    /// Times of the load steps; empty for one load. Errors: those of parse_load_steps().
+    std::vector<double> load_steps() const;
+
     /// Prints all parameters, commented if `with_documentation`.
     void print(std::ostream &out, const bool with_documentation) const;
 
   private:
     struct TopLevel
     {
-      std::string title, bodies, pairs;
+      std::string title, bodies, pairs, load_steps;
 
       void add_parameters(dealii::ParameterHandler &prm);
     };
@@ -125,7 +137,13 @@ namespace Signorini
     /// The names of bodies and pairs decide which subsections exist.
     void declare(const std::vector<std::string> &body_names, const std::vector<std::string> &pair_names);
 
-    std::string                 file, base_folder;
+    void read_deck(const std::vector<std::string> &overrides);
+
+    std::string                  file, base_folder;
+    std::unique_ptr<DeckProblem> deck_problem;
+    /// How a deck is taken.
+    bool                        deck_strict = false;
+    std::string                 deck_ignore;
     TopLevel                    top_level;
     std::vector<BodySection>    bodies;
     std::vector<PairParameters> pairs;

@@ -16,7 +16,28 @@ namespace Signorini
   /// wants them.
   void write_fields(const ContactModel &model, const Discretization &discretization,
                     const ContactSolution &solution, const OutputParameters &output,
-                    const OutputFolder &folder);
+                    const OutputFolder &folder, const std::string &suffix = "");
+
+  /// Writes the fields of load steps as they come, and a list of them that ParaView opens as one.
+  class StepWriter
+  {
+  public:
+    /// The arguments must outlive the object.
+    StepWriter(const ContactModel &model, const OutputParameters &output, const OutputFolder &folder,
+               const std::vector<double> &times);
+
+    /// Collective. Those of a step, by number.
+    void operator()(const unsigned int step, const Discretization &discretization,
+                    const ContactSolution &solution);
+
+  private:
+    const ContactModel        &model;
+    const OutputParameters    &output;
+    const OutputFolder        &folder;
+    const std::vector<double> &times;
+    /// By name of a series: times and files.
+    std::map<std::string, std::vector<std::pair<double, std::string>>> series;
+  };
 
   /// Collective. Writes everything of a solved problem (or its meshes and mapping only) into a folder, and
   /// prints the certificate.

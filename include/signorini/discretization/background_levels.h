@@ -82,14 +82,18 @@ namespace Signorini
     std::vector<dealii::Point<3>> positions;
     /// The parts that they belong to.
     std::vector<unsigned int> parts;
+    /// Nodes that stand for the given ones, on all ranks.
+    std::vector<NodeIndex> carriers;
   };
 
   /// Collective. The levels under a mesh, the finest first. Every rank makes all of them, from the whole
   /// mesh, which is a start mesh: all ranks know its cells.
   /// @param fixed masks of the owned nodes
+  /// @param carriers nodes that have a node of their own on each level (of rigid faces); fixed altogether
   std::vector<DistributedBackgroundLevel> background_levels(const NodalSpace                   &space,
                                                             const std::vector<FixedDirections> &fixed,
                                                             const Bodies                       &bodies,
+                                                            const std::vector<NodeIndex>       &carriers = {},
                                                             const BackgroundRule &rule = BackgroundRule());
 } // namespace Signorini
 

@@ -33,6 +33,13 @@ namespace Signorini
     /// nodes. Sets the owned entries of v.
     void from_displacement(Vector &v, const Vector &u) const;
 
+    /// Collective. Tᵀ f of nodal forces (force by node, on the partition of the space, none at hanging
+    /// nodes), on the partition of v.
+    Vector restrict_forces(const Vector &forces, const NodePartition &unknowns) const;
+
+    /// Collective. u_D at all relevant nodes, hanging ones included, on the partition of the space.
+    Vector lift() const;
+
     /// Collective. The bounds of the half-spaces for v, along RowProjection::direction():
     /// (g_p - n_p·(u_D,p - (S u_D)_p)) / |m_p|. Both lists are ordered like the rows of the coupling.
     std::vector<double> reduce_gaps(const std::vector<double> &gaps) const;
@@ -41,6 +48,15 @@ namespace Signorini
     void interpolate_hanging_nodes(Vector &u) const;
 
   private:
+    /// u at the owned nodes of rigid faces, from the unknowns of the carriers.
+    void move_rigid_faces(Vector &u, const std::vector<Vector3> &carriers) const;
+
+    /// The unknowns of the carriers, from the motions that are nearest to u at the nodes of the faces.
+    void fit_rigid_faces(Vector &v, const Vector &u) const;
+
+    /// The part of Tᵀ f that belongs to rigid faces.
+    void gather_rigid_forces(Vector &result, const Vector &forces) const;
+
     const NodalSpace                 &space;
     const NodePartition              &partition;
     const DirichletData              &dirichlet;

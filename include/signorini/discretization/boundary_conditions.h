@@ -6,6 +6,7 @@
 
 #include <signorini/algebra/fixed_directions.h>
 #include <signorini/discretization/condition_frame.h>
+#include <signorini/discretization/rigid_faces.h>
 #include <signorini/mesh/bodies.h>
 #include <signorini/mesh/field.h>
 #include <signorini/mesh/nodal_space.h>
@@ -14,6 +15,8 @@
 
 #include <array>
 #include <map>
+#include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -23,10 +26,10 @@ namespace Signorini
   /// What acts on a body. Boundaries are those that its mesh names.
   struct LoadDefinition
   {
-    /// Prescribed on a boundary (length).
+    /// Prescribed on a boundary or at a set of nodes (length).
     struct Displacement
     {
-      /// A boundary that the mesh names.
+      /// A boundary, or else a set of nodes, that the mesh names.
       std::string boundary;
       /// In the directions of the frame; free components are empty.
       std::array<ScalarField, 3> components;
@@ -45,9 +48,36 @@ namespace Signorini
       VectorField total_force = VectorField();
     };
 
+    /// Acts at a node of the start mesh.
+    struct NodalForce
+    {
+      /// Of BodyDefinition::mesh.
+      unsigned int vertex;
+      /// Several at a node add up.
+      VectorField force;
+    };
+
+    /// A boundary that moves as a rigid body, as one that is glued to a stamp does. What other conditions
+    /// prescribe at its nodes (symmetry planes, say) holds it too.
+    struct RigidBoundary
+    {
+      /// A boundary that the mesh names.
+      std::string boundary;
+      /// On the whole of it (their values at the centre count); the moment is about the centre. Empty: none.
+      VectorField force, moment;
+      /// The centre: that of the bounding box of the boundary, if it is not given.
+      std::optional<dealii::Point<3>> about = std::nullopt;
+      /// Prescribed displacement of the centre and prescribed rotation (radian); free components are empty.
+      std::array<ScalarField, 3> displacement = {}, rotation = {};
+      /// If it is not zero: the boundary moves along this direction only, and does not turn.
+      Vector3 direction = Vector3();
+    };
+
     /// Where conditions overlap, the later one counts.
-    std::vector<Displacement> displacements;
-    std::vector<SurfaceForce> surface_forces;
+    std::vector<Displacement>  displacements;
+    std::vector<RigidBoundary> rigid_boundaries;
+    std::vector<SurfaceForce>  surface_forces;
+    std::vector<NodalForce>    nodal_forces;
     /// Force per volume; empty for none.
     VectorField volume_force;
   };
@@ -56,7 +86,7 @@ namespace Signorini
   struct LoadParameters
   {
     /// Lists as the parameter file has them, one condition after the other.
-    std::string dirichlet, tractions, pressures, forces, volume_force;
+    std::string dirichlet, tractions, pressures, forces, rigid, volume_force;
 
     /// Declares the parameters in the current subsection.
     void add_parameters(dealii::ParameterHandler &prm);
@@ -78,6 +108,8 @@ namespace Signorini
     ConditionFrame             frame;
     /// What its normals are taken from, where there is one.
     std::map<dealii::types::boundary_id, BoundaryShapePointer> shapes;
+    /// Number of the set of nodes (NodalSpace::node_sets()) that it holds instead of a boundary.
+    unsigned int node_set = StartNodes::none;
   };
 
   /// Forces on a boundary, as LoadDefinition::SurfaceForce has them.
@@ -90,12 +122,29 @@ namespace Signorini
     VectorField                          total_force;
   };
 
+  /// A boundary that moves as a rigid body, as LoadDefinition::RigidBoundary has it.
+  struct RigidFaceCondition
+  {
+    /// What messages begin with; of which body; where.
+    std::string                          where;
+    unsigned int                         body;
+    std::string                          boundary;
+    std::set<dealii::types::boundary_id> ids;
+    VectorField                          force, moment;
+    std::optional<dealii::Point<3>>      about;
+    std::array<ScalarField, 3>           displacement, rotation;
+    Vector3                              direction;
+  };
+
   /// All conditions and loads of all bodies.
   struct Loads
   {
     /// The conditions, in the order of the parameter file.
     std::vector<DirichletCondition> dirichlet;
+    std::vector<RigidFaceCondition> rigid_faces;
     std::vector<Traction>           tractions;
+    /// Forces at vertices of the start meshes (NodalSpace::start_vertices()).
+    std::map<unsigned int, std::vector<VectorField>> nodal_forces;
     /// Force per volume of each body; an entry for all of them is needed, so add() every body.
     std::vector<VectorField> volume_forces;
     /// The pseudo-time at which conditions and forces are evaluated.
@@ -154,6 +203,8 @@ namespace Signorini
     std::vector<std::array<int, 3>> condition;
     /// Owned nodes, by relevant index, with conditions in other frames; they have no components above.
     std::map<std::size_t, HeldNode> held;
+    /// Boundaries that move as rigid bodies: their nodes depend on carriers. Null without.
+    std::shared_ptr<const RigidFaces> rigid;
 
     /// Calls f(condition, its part) for the parts of a force at a relevant node that its conditions take;
     /// returns what they leave.
@@ -183,7 +234,9 @@ namespace Signorini
 
   /// Collective. Evaluates the conditions at the nodes. Where two conditions prescribe the same direction
   /// of a node, the later one counts. Hanging nodes get no entry: their parents do.
-  DirichletData evaluate_dirichlet(const NodalSpace &space, const Loads &loads, const bool with_values);
+  /// @param rigid how rigid faces may move, for a coarser mesh (of the finest); empty to find out
+  DirichletData evaluate_dirichlet(const NodalSpace &space, const Loads &loads, const bool with_values,
+                                   const std::vector<RigidFace> &rigid = {});
 } // namespace Signorini
 
 #endif

@@ -33,6 +33,9 @@ namespace Signorini
                                    const DirichletData &dirichlet, const InterfaceCoupling &coupling,
                                    const std::vector<RowProjection> &projections);
 
+  /// Adds forces and moments on rigid faces to a right hand side.
+  void add_rigid_forces(Vector &rhs, const NodePartition &partition, const DirichletData &dirichlet);
+
   /// Collective. A u - f by node in the physical basis, hanging nodes resolved: at free components what is
   /// left is the contact force, at fixed ones the reaction too. u has the layout of `partition` (owned and
   /// relevant nodes), hanging values included, ghosts up to date.

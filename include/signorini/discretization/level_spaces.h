@@ -86,6 +86,12 @@ namespace Signorini
       return level + 1 != n_background;
     }
 
+    /// Rigid faces on a level; null without.
+    const RigidFaces *rigid(const unsigned int level) const
+    {
+      return rigid_faces.empty() ? nullptr : rigid_faces[level].get();
+    }
+
     /// Whether a level has nodes that are fixed in directions that are no axes of coordinates; the same on
     /// all ranks.
     bool has_rollers() const
@@ -94,14 +100,17 @@ namespace Signorini
     }
 
   private:
-    void add_background(std::vector<DistributedBackgroundLevel> &&levels);
+    void add_background(std::vector<DistributedBackgroundLevel> &&levels,
+                        const std::vector<RigidFace>             &rigid);
 
     std::vector<dealii::IndexSet>             owned_nodes;
     std::vector<NodeRows>                     rows;
     std::vector<std::vector<FixedDirections>> masks;
     NodePlaces                                places;
-    unsigned int                              n_background = 0;
-    bool                                      with_rollers = false;
+    /// By level; empty without rigid faces.
+    std::vector<std::shared_ptr<const RigidFaces>> rigid_faces;
+    unsigned int                                   n_background = 0;
+    bool                                           with_rollers = false;
   };
 } // namespace Signorini
 

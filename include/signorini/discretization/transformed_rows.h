@@ -7,6 +7,7 @@
 #include <signorini/algebra/interface_coupling.h>
 #include <signorini/algebra/nodal_transfer.h>
 #include <signorini/algebra/row_projection.h>
+#include <signorini/discretization/rigid_faces.h>
 
 #include <vector>
 
@@ -31,6 +32,8 @@ namespace Signorini
     /// Fixed components of the local nodes of the finer level, and of `nodes`; empty where the coarse
     /// functions are zero in them anyway.
     std::vector<FixedDirections> fixed, node_fixed;
+    /// Rigid faces on the finer and on the coarser level; null without.
+    const RigidFaces *fine_rigid = nullptr, *coarse_rigid = nullptr;
   };
 
   /// The rows of P̂ = (I - A S) E P (I + A_c S_c), E = I but in fixed components, that differ from those of P,

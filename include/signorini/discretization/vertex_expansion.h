@@ -6,12 +6,14 @@
 
 #include <signorini/algebra/interface_coupling.h>
 #include <signorini/algebra/row_projection.h>
+#include <signorini/discretization/rigid_faces.h>
 #include <signorini/mesh/nodal_space.h>
 
 namespace Signorini
 {
-  /// How the displacement of a mesh vertex depends on the unknowns û: hanging nodes are resolved, and
-  /// u = T û with T = I + A S is applied at nonmortar nodes (doc/algorithm.md, (25)).
+  /// How the displacement of a mesh vertex depends on the unknowns û: hanging nodes are resolved, u = T û
+  /// with T = I + A S is applied at nonmortar nodes (doc/algorithm.md, (25)), and nodes of rigid faces follow
+  /// their carriers.
   class VertexExpansion
   {
   public:
@@ -21,10 +23,11 @@ namespace Signorini
       /// Whose unknown û, and a scalar (pure number).
       NodeIndex node;
       double    weight;
-      /// A_p of the nonmortar node it comes from; null for the identity.
-      const RowProjection *projection;
+      /// A_p of the nonmortar node it comes from, or what a node of a rigid face takes from a carrier; null
+      /// for the identity.
+      const Block *block;
 
-      /// target += source W, blocks of nine numbers, with W = weight A_p.
+      /// target += source W, blocks of nine numbers, with W = weight * block.
       void add_product(double *const target, const double *const source) const;
 
       /// target += Wᵀ source.
@@ -34,9 +37,10 @@ namespace Signorini
       Vector3 transposed_product(const Vector3 &source) const;
     };
 
-    /// All arguments must outlive the object. projections: A_p of the rows of the coupling.
+    /// All arguments must outlive the object. projections: A_p of the rows of the coupling. rigid: null
+    /// without rigid faces.
     VertexExpansion(const NodalSpace &space, const InterfaceCoupling &coupling,
-                    const std::vector<RowProjection> &projections);
+                    const std::vector<RowProjection> &projections, const RigidFaces *const rigid);
 
     /// Whether a relevant node is neither hanging nor coupled: its expansion is itself.
     bool is_plain(const NodeIndex node) const
@@ -50,22 +54,25 @@ namespace Signorini
   private:
     void add_conforming(const NodeIndex node, const double weight, std::vector<Term> &terms) const;
 
-    const NodalSpace                 &space;
-    const InterfaceCoupling          &coupling;
-    const std::vector<RowProjection> &projections;
-    std::vector<bool>                 special;
+    const NodalSpace        &space;
+    const InterfaceCoupling &coupling;
+    const RigidFaces *const  rigid;
+    /// A_p by row of the coupling, and whether it is the identity.
+    std::vector<Block> blocks;
+    std::vector<bool>  is_identity;
+    std::vector<bool>  special;
   };
 
 
 
   inline void VertexExpansion::Term::add_product(double *const target, const double *const source) const
   {
-    if (projection == nullptr)
+    if (block == nullptr)
       for (unsigned int i = 0; i < dim * dim; ++i)
         target[i] += source[i] * weight;
     else
       {
-        const Block product = weight * (read_block(source) * projection->block());
+        const Block product = weight * (read_block(source) * *block);
         for (unsigned int i = 0; i < dim * dim; ++i)
           target[i] += product[i / dim][i % dim];
       }
@@ -76,12 +83,12 @@ namespace Signorini
   inline void VertexExpansion::Term::add_transposed_product(double *const       target,
                                                             const double *const source) const
   {
-    if (projection == nullptr)
+    if (block == nullptr)
       for (unsigned int i = 0; i < dim * dim; ++i)
         target[i] += weight * source[i];
     else
       {
-        const Block product = weight * (transpose(projection->block()) * read_block(source));
+        const Block product = weight * (transpose(*block) * read_block(source));
         for (unsigned int i = 0; i < dim * dim; ++i)
           target[i] += product[i / dim][i % dim];
       }
@@ -91,7 +98,7 @@ namespace Signorini
 
   inline Vector3 VertexExpansion::Term::transposed_product(const Vector3 &source) const
   {
-    return projection == nullptr ? weight * source : weight * (source * projection->block());
+    return block == nullptr ? weight * source : weight * (source * *block);
   }
 } // namespace Signorini
 

@@ -10,11 +10,11 @@
 
 namespace Signorini
 {
-  /// Reads the mesh of an Abaqus input file: NODE, ELEMENT (C3D4, C3D8 and its variants), ELSET, NSET,
-  /// SURFACE (TYPE=ELEMENT); other keywords are passed over. The volume of a cell is named by the last ELSET
-  /// that contains it, a boundary face by the first SURFACE, or else the smallest NSET that contains all its
-  /// nodes. Names are compared without regard to case and kept as written first. At most one PART, without a
-  /// moved INSTANCE. Errors: InputError with file and line.
+  /// Reads the mesh of an Abaqus or CalculiX input file: what Deck reads, as one mesh; other keywords are
+  /// passed over. The volume of a cell is named by the last ELSET that contains it. Surfaces, sets of shell
+  /// faces, and sets of nodes that contain all nodes of boundary faces name boundaries, which may overlap
+  /// (VolumeMesh::boundary_groups); sets of nodes are there by themselves, too. Names are compared without
+  /// regard to case and kept as written first. Errors: InputError with file and line.
   VolumeMesh read_abaqus_mesh(const std::string &file);
 } // namespace Signorini
 

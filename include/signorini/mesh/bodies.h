@@ -24,6 +24,7 @@
 namespace Signorini
 {
   struct MeshView;
+  struct StartNodes;
   class NodalSpace;
 
   /// A connected part of a body: most bodies have one.
@@ -161,6 +162,19 @@ namespace Signorini
     std::set<dealii::types::boundary_id> boundary_ids(const unsigned int body, const std::string &name,
                                                       const std::string &where = "") const;
 
+    /// Whether a body has a boundary (or a group of boundaries) with a name.
+    bool has_boundary(const unsigned int body, const std::string &name) const;
+
+    /// The number (NodalSpace::node_sets()) of a named set of nodes of a body; StartNodes::none if it has
+    /// none.
+    unsigned int node_set(const unsigned int body, const std::string &name) const;
+
+    /// The number (NodalSpace::start_vertices()) of a vertex of the start mesh of a body.
+    unsigned int start_vertex(const unsigned int body, const unsigned int vertex) const
+    {
+      return first_vertex[body] + vertex;
+    }
+
     /// The true shapes of boundaries: those that a user gave or that belong to a generated mesh; for the
     /// others what the start mesh shows (SmoothShape), or null where that is flat.
     /// @param everywhere whether the start mesh stands for a smooth surface whatever it looks like
@@ -191,6 +205,7 @@ namespace Signorini
     /// Takes a body into the lists of bodies, boundaries, materials and parts, and puts it in its place.
     Placed add_body(const BodyDefinition &definition);
     void   add_materials(const BodyDefinition &definition, Placed &placed);
+    void   add_node_sets(const VolumeMesh &mesh);
     void   choose_elements(const BodyDefinition &definition, const Placed &placed);
     void   add_shapes(const BodyDefinition &definition, Placed &placed);
     /// Connected parts, and the materials of cells, which are those of their volumes for the first part.
@@ -234,7 +249,14 @@ namespace Signorini
     std::vector<BodyPart>                                            parts;
     std::vector<std::vector<std::string>>                            boundaries;
     std::vector<dealii::types::boundary_id>                          first_boundary;
-    std::vector<std::string>                                         remarks;
+    /// By body: groups of boundaries by name, as numbers of its boundaries.
+    std::vector<std::vector<std::pair<std::string, std::vector<unsigned int>>>> groups;
+    /// By body: number of its first vertex among those of all, and numbers of its sets of nodes.
+    std::vector<unsigned int>                                      first_vertex;
+    std::vector<std::vector<std::pair<std::string, unsigned int>>> node_sets;
+    std::shared_ptr<StartNodes>                                    start;
+    unsigned int                                                   n_vertices_of_all = 0;
+    std::vector<std::string>                                       remarks;
     /// By boundary id; null where a boundary has no shape of its own.
     std::vector<BoundaryShapePointer> shapes;
     std::vector<StartSurface>         start_surfaces;

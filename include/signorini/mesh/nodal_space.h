@@ -18,6 +18,21 @@
 
 namespace Signorini
 {
+  /// The vertices of the start meshes, counted over all bodies: what single nodes and sets of nodes are named
+  /// by. The same on all ranks.
+  struct StartNodes
+  {
+    static constexpr unsigned int none = static_cast<unsigned int>(-1);
+
+    /// The vertices of the coarse hexahedra by NodalSpace::Cell::coarse_cell (in deal.II's order), and of the
+    /// start mesh of the forest.
+    std::vector<std::array<unsigned int, 8>> hexahedra;
+    std::vector<unsigned int>                forest;
+    /// Sets of vertices; for each vertex the sets that it belongs to, ascending (empty without sets).
+    unsigned int                           n_sets = 0;
+    std::vector<std::vector<unsigned int>> sets_of;
+  };
+
   /// One mesh of the hierarchy: hexahedra, tetrahedra or both. What is missing is null.
   struct MeshView
   {
@@ -26,6 +41,8 @@ namespace Signorini
     const TetrahedralForest                               *tetrahedra = nullptr;
     /// Which mesh of the forest.
     unsigned int tetrahedral_level = 0;
+    /// Of the start meshes; it need not outlive the space.
+    const StartNodes *start = nullptr;
   };
 
   /// (Tri)linear nodal space on a mesh: the cells this rank sees as plain data, the numbering of the nodes
@@ -148,6 +165,20 @@ namespace Signorini
       return positions[relevant_nodes.index_within_set(node)];
     }
 
+    /// By relevant node (in the order of relevant()) the vertex of the start meshes at it, or
+    /// StartNodes::none.
+    const std::vector<unsigned int> &start_vertices() const
+    {
+      return start_vertex;
+    }
+
+    /// By set of nodes: its nodes at the cells of this rank that are not hanging, ascending. New nodes on an
+    /// edge, a face or in a cell of the start mesh belong to the sets to which all of its vertices belong.
+    const std::vector<std::vector<NodeIndex>> &node_sets() const
+    {
+      return nodes_of_set;
+    }
+
     /// Nodes of the vertices of the mesh of the forest (on all ranks); empty without tetrahedra.
     const std::vector<NodeIndex> &forest_nodes() const
     {
@@ -176,20 +207,26 @@ namespace Signorini
     void add_tetrahedra(std::vector<dealii::Point<3>> &corner_points, const MeshView &mesh,
                         const Tetrahedra &part, const Numbering &numbering);
     void set_positions(const std::vector<dealii::Point<3>> &corner_points);
+    void find_start_nodes(const MeshView &mesh);
+    void add_start_nodes_of_hexahedra(const StartNodes &start, std::vector<bool> &is_done);
+    void add_start_nodes_of_tetrahedra(const StartNodes &start, const MeshView &mesh);
+    void add_to_sets(const NodeIndex node, const std::vector<unsigned int> &sets);
 
-    const MPI_Comm                    comm;
-    const bool                        with_inner_faces;
-    std::vector<Cell>                 cell_list;
-    std::vector<NodeIndex>            cell_nodes;
-    std::vector<BoundaryFace>         boundary;
-    std::vector<InnerFace>            inner;
-    dealii::IndexSet                  owned_nodes, relevant_nodes;
-    dealii::AffineConstraints<double> constraints;
-    std::vector<dealii::Point<3>>     positions;
-    std::vector<NodeIndex>            node_of_vertex;
-    std::vector<unsigned int>         owned_vertices;
-    NodeIndex                         n_conforming   = 0;
-    std::uint64_t                     n_cells_of_all = 0;
+    const MPI_Comm                      comm;
+    const bool                          with_inner_faces;
+    std::vector<Cell>                   cell_list;
+    std::vector<NodeIndex>              cell_nodes;
+    std::vector<BoundaryFace>           boundary;
+    std::vector<InnerFace>              inner;
+    dealii::IndexSet                    owned_nodes, relevant_nodes;
+    dealii::AffineConstraints<double>   constraints;
+    std::vector<dealii::Point<3>>       positions;
+    std::vector<NodeIndex>              node_of_vertex;
+    std::vector<unsigned int>           owned_vertices;
+    std::vector<unsigned int>           start_vertex;
+    std::vector<std::vector<NodeIndex>> nodes_of_set;
+    NodeIndex                           n_conforming   = 0;
+    std::uint64_t                       n_cells_of_all = 0;
   };
 } // namespace Signorini
 

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace Signorini
@@ -59,6 +60,11 @@ namespace Signorini
     /// Names that faces and cells refer to.
     std::vector<std::string> boundary_names;
     std::vector<std::string> volume_names;
+    /// Names that stand for several boundaries (indices into boundary_names): a face has one boundary, but
+    /// may belong to several groups. A group counts before a boundary of the same name.
+    std::vector<std::pair<std::string, std::vector<unsigned int>>> boundary_groups;
+    /// Named sets of vertices, which may overlap.
+    std::vector<std::pair<std::string, std::vector<unsigned int>>> node_sets;
     /// Remarks for the user, e.g. on mended cells.
     std::vector<std::string> notes;
 
@@ -66,7 +72,7 @@ namespace Signorini
     /// For messages between ranks.
     void serialize(Archive &archive, const unsigned int)
     {
-      archive &vertices &cells &faces &boundary_names &volume_names &notes;
+      archive &vertices &cells &faces &boundary_names &volume_names &boundary_groups &node_sets &notes;
     }
 
     /// Positions of the vertices of a cell; the rest is zero.

@@ -17,8 +17,8 @@ namespace Signorini
     not_converged
   };
 
-  /// A folder of results that is never half-written: files go to a temporary folder beside it, which takes the
-  /// final name in commit(). Without commit(), and when a signal ends the process (TerminationWatch), the
+  /// A folder of results that is never half-written: files go to a temporary folder beside it, which takes
+  /// the final name in commit(). Without commit(), and when a signal ends the process (TerminationWatch), the
   /// temporary folder is removed and earlier results stay. Which files are results stands in the file
   /// .signorini of the folder; others that lie there stay, too.
   class OutputFolder

@@ -192,6 +192,20 @@ namespace Signorini
     double time = 0.;
   };
 
+  /// One load step.
+  struct StepResult
+  {
+    /// The pseudo-time t.
+    double time = 0.;
+    /// Of the solver; contact nodes that are active.
+    ConvergenceReport report;
+    std::size_t       active_nodes = 0;
+    /// As in Results.
+    std::vector<PairResult>     pairs;
+    std::vector<BoundaryResult> boundaries;
+    std::vector<ProbeResult>    probes;
+  };
+
   /// All that is reported about a run.
   struct Results
   {
@@ -209,6 +223,8 @@ namespace Signorini
     std::vector<BodyResult>     bodies;
     std::vector<ProbeResult>    probes;
     Certificate                 certificate;
+    /// Load steps, if there were any; the last is what is in the rest of the results.
+    std::vector<StepResult> steps;
     /// Norm of the nodal forces before reactions and contact forces are taken off (force).
     double                   largest_nodal_force = 0.;
     std::vector<PressureRow> pressure;

@@ -10,8 +10,8 @@
 
 namespace Signorini
 {
-  /// What a process leaves behind that is told to end by a signal (Ctrl-C, a batch system, a closed terminal):
-  /// nothing. A thread of its own waits for the signals, so that folders can be removed there.
+  /// What a process leaves behind that is told to end by a signal (Ctrl-C, a batch system, a closed
+  /// terminal): nothing. A thread of its own waits for the signals, so that folders can be removed there.
   class TerminationWatch
   {
   public:

@@ -15,7 +15,9 @@ namespace Signorini
 {
   /// One correction z of an iterate v: projected smoothing on a level, one linear V-cycle on the spaces below
   /// truncated at active nodes, the better of this correction projected and shortened with exact line search,
-  /// smoothing. It hands out A z, which costs no product.
+  /// smoothing. Where bodies are held by contact alone and nodes in the way leave little of the correction,
+  /// the minimizer in the contact subspace follows, and a second correction. It hands out A z, which costs no
+  /// product, but where there was a minimizer.
   class TruncatedCycle
   {
   public:
@@ -82,12 +84,16 @@ namespace Signorini
     /// semidefinite problems.
     double add_better(const double length);
 
+    /// Collective. Adds the minimizer in the contact subspace to the correction, and updates new_residual.
+    void minimize_in_subspace();
+
     MultigridHierarchy    &hierarchy;
     const unsigned int     level;
     const ObstacleProblem &problem;
     ContactState          &contact;
     VCycle                 cycle;
-    /// For bodies that only contact holds.
+    /// For bodies that only contact holds; made when it is needed first.
+    const bool                     has_subspace;
     std::optional<ContactSubspace> subspace;
     FreeMotionCorrection           motions;
     Vector                         coarse_defect, coarse_correction;
@@ -95,6 +101,10 @@ namespace Signorini
     Vector new_residual, step, tangential;
     /// Whether the coarse correction was searched; whether the active set is that from before the run.
     bool searched = false, keeps_active = false;
+    /// Whether nodes in the way left little of the last coarse correction, or nothing holds the bodies.
+    bool is_blocked = false;
+    /// Whether that was so after the last minimizer, too: the next iterations begin with one.
+    bool stays_blocked = false;
     /// Energy norm of a coarse correction of which something was cut off or shortened; else zero.
     double cut_off = 0.;
   };

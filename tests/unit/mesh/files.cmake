@@ -1,5 +1,6 @@
 signorini_add_unit_tests(mesh RANKS "1;2;4"
   boundary_shape.cc
+  deck.cc
   expression.cc
   generated_mesh.cc
   mesh_input.cc

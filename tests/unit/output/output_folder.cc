@@ -151,7 +151,8 @@ TEST_F(OutputFolders, FolderThatOneWorksInIsReplacedInPlace)
 
 TEST_F(OutputFolders, ResultsThatDidNotConvergeDoNotReplaceOthers)
 {
-  EXPECT_EQ(fs::path(write_results_of(base + "/out", "bad", is_root(), Outcome::not_converged)).filename(), "out");
+  EXPECT_EQ(fs::path(write_results_of(base + "/out", "bad", is_root(), Outcome::not_converged)).filename(),
+            "out");
   EXPECT_EQ(fs::path(write_results_of(base + "/out", "good", is_root())).filename(), "out");
   for (unsigned int i = 0; i < 2; ++i)
     EXPECT_EQ(fs::path(write_results_of(base + "/out", "bad", is_root(), Outcome::not_converged)).filename(),

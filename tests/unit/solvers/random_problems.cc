@@ -93,6 +93,17 @@ namespace
     return .5 * v.dot(d.matrix * v) - d.rhs.dot(v);
   }
 
+  /// How far a substep may end above the one before. Sweeps in single precision know what is left of the
+  /// residual only up to a rounding of each product in A x, e; a step of the best length for a residual that
+  /// is wrong by e ends at most e^T A^-1 e / 2 above. It is seen where nothing but rounding is left after the
+  /// first sweep, as patches of nodes have it on tiny grids.
+  double rounding_of_energy(const Dense &d, const Eigen::VectorXd &x)
+  {
+    const double          unit  = .5 * std::numeric_limits<float>::epsilon();
+    const Eigen::VectorXd error = unit * (d.matrix.cwiseAbs() * x.cwiseAbs());
+    return .5 * error.dot(Eigen::LLT<Eigen::MatrixXd>(d.matrix).solve(error));
+  }
+
   /// Whether active-set steps from the projection of zero end; if so, at the solution, and if not, without
   /// having raised the energy or left the half-spaces.
   bool check_active_set_steps(MultigridHierarchy &hierarchy, PlaneSolver &planes,
@@ -128,6 +139,9 @@ TEST(RandomProblems, AllSolversGiveTheDenseSolution)
     GTEST_SKIP() << "the dense solver has one rank";
   const char        *wanted = std::getenv("SIGNORINI_RANDOM_PROBLEMS");
   const unsigned int n      = wanted ? static_cast<unsigned int>(std::stoul(wanted)) : 100;
+  // Those before are drawn, but not solved.
+  const char        *begin = std::getenv("SIGNORINI_RANDOM_PROBLEMS_FROM");
+  const unsigned int first = begin ? static_cast<unsigned int>(std::stoul(begin)) : 0;
   std::mt19937       random(1);
   const auto         uniform = [&](const double low, const double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
@@ -152,8 +166,7 @@ TEST(RandomProblems, AllSolversGiveTheDenseSolution)
         normal[2] = -1.;
         return normal / normal.norm();
       };
-      MultigridHierarchy hierarchy = CubeProblem::hierarchy(size, normals);
-      ObstacleProblem    problem;
+      ObstacleProblem problem;
       problem.half_spaces = CubeProblem::paraboloid(grid);
       const double shift = uniform(-.1, .1), load = uniform(-.02, .02), noise = i % 3 ? .002 : .2;
       for (std::size_t p = 0; p < problem.half_spaces.size(); ++p)
@@ -162,6 +175,17 @@ TEST(RandomProblems, AllSolversGiveTheDenseSolution)
           problem.half_spaces.normals[p] = normals(index[0] / double(size), index[1] / double(size));
           problem.half_spaces.bounds[p] += shift + uniform(-noise, noise);
         }
+      std::vector<double> loads, deviations;
+      for (const NodeIndex p : grid.owned)
+        for (unsigned int c = 0; c < dim; ++c)
+          loads.push_back(grid.index(p)[2] < size ? load * (c == 2) + uniform(-.002, .002) : 0.);
+      const double distance = std::pow(10., uniform(-6., 0.));
+      for (const NodeIndex p : grid.owned)
+        for (unsigned int c = 0; c < dim; ++c)
+          deviations.push_back(grid.index(p)[2] < size ? distance * uniform(-1., 1.) : 0.);
+      if (i < first)
+        continue;
+      MultigridHierarchy hierarchy = CubeProblem::hierarchy(size, normals);
       CubeProblem::set_coarse_half_spaces(hierarchy, [&](const CubeProblem::Grid &coarse) {
         HalfSpaces         result = CubeProblem::paraboloid(coarse);
         const unsigned int ratio  = size / coarse.n;
@@ -177,15 +201,12 @@ TEST(RandomProblems, AllSolversGiveTheDenseSolution)
         return result;
       });
       hierarchy.finest().matrix.partition().reinit(problem.rhs);
-      for (const NodeIndex p : grid.owned)
-        if (grid.index(p)[2] < size)
-          for (unsigned int c = 0; c < dim; ++c)
-            problem.rhs.local_element(dim * p + c) = load * (c == 2) + uniform(-.002, .002);
+      std::copy(loads.begin(), loads.end(), problem.rhs.begin());
       const Dense           d        = dense(hierarchy.finest().matrix, problem);
       const Eigen::VectorXd solution = solve_by_pivoting(d);
       const double          scale    = std::sqrt(solution.dot(d.matrix * solution));
       const auto            check    = [&](MultigridHierarchy &levels, const SolverParameters &parameters,
-                             const std::string &name, Vector v) {
+                             const std::string &name, Vector v, const double most_rise = 1e-13) {
         const auto      report     = make_solver(levels, parameters)->solve(v, problem);
         Eigen::VectorXd difference = solution;
         for (Eigen::Index k = 0; k < difference.size(); ++k)
@@ -193,7 +214,7 @@ TEST(RandomProblems, AllSolversGiveTheDenseSolution)
         EXPECT_TRUE(report.converged) << "problem " << i << ", " << name;
         EXPECT_LE(std::sqrt(difference.dot(d.matrix * difference)), 1e-9 * scale)
             << "problem " << i << ", " << name;
-        EXPECT_LE(report.largest_energy_rise, 1e-13) << "problem " << i << ", " << name;
+        EXPECT_LE(report.largest_energy_rise, most_rise) << "problem " << i << ", " << name;
         EXPECT_LE(report.largest_violation, 1e-12) << "problem " << i << ", " << name;
       };
       Vector start;
@@ -215,13 +236,11 @@ TEST(RandomProblems, AllSolversGiveTheDenseSolution)
       SolverParameters with_patches;
       with_patches.check_monotonicity = true;
       with_patches.max_iterations     = 60;
-      check(hierarchy, with_patches, "patches of nodes", start);
+      check(hierarchy, with_patches, "patches of nodes", start,
+            std::max(1e-13, rounding_of_energy(d, solution) / (scale * scale)));
       // From good starts, and from some that only claim to be.
-      const double distance = std::pow(10., uniform(-6., 0.));
-      for (const NodeIndex p : grid.owned)
-        if (grid.index(p)[2] < size)
-          for (unsigned int c = 0; c < dim; ++c)
-            start.local_element(dim * p + c) = solution[dim * p + c] * (1. + distance * uniform(-1., 1.));
+      for (Eigen::Index k = 0; k < solution.size(); ++k)
+        start.local_element(k) = solution[k] * (1. + deviations[k]);
       SolverParameters parameters;
       parameters.check_monotonicity = true;
       parameters.max_iterations     = 60;
@@ -232,5 +251,5 @@ TEST(RandomProblems, AllSolversGiveTheDenseSolution)
     }
   // Active sets may go round in a circle, but hardly do.
   for (const unsigned int ended : n_ended)
-    EXPECT_GE(ended, .95 * n);
+    EXPECT_GE(ended, .95 * (n - std::min(n, first)));
 }

@@ -1,0 +1,399 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+// Conditions and forces of a deck on its bodies.
+
+#include "deck_bodies.h"
+#include "deck_series.h"
+
+#include <signorini/algebra/input_error.h>
+#include <signorini/mesh/cell_shape.h>
+
+#include <algorithm>
+
+namespace Signorini
+{
+  using namespace dealii;
+
+  namespace
+  {
+    using Values = std::array<std::optional<DeckSeries>, 3>;
+
+    bool is_zero(const Values &values)
+    {
+      return std::all_of(values.begin(), values.end(), [](const auto &v) { return v && v->is_zero(); });
+    }
+
+    /// Values along axes that are those of space in another order or direction; false for oblique ones.
+    bool to_global(Values &result, const Values &values, const DeckFrame &frame)
+    {
+      if (is_zero(values))
+        {
+          result = values;
+          return true;
+        }
+      if (frame.is_cylindrical)
+        return false;
+      result = Values();
+      for (unsigned int i = 0; i < 3; ++i)
+        if (values[i])
+          {
+            unsigned int along = 3;
+            for (unsigned int c = 0; c < 3; ++c)
+              // Rounding of the numbers in a file.
+              if (std::abs(std::abs(frame.axes[i][c]) - 1.) < 1e-12)
+                along = c;
+            if (along == 3)
+              return false;
+            result[along] = values[i]->scaled(frame.axes[i][along]);
+          }
+      return true;
+    }
+
+    ConditionFrame condition_frame(const DeckFrame &frame)
+    {
+      return frame.is_cylindrical ? ConditionFrame::cylindrical(frame.first, frame.second - frame.first)
+                                  : ConditionFrame::rotated(frame.axes[0], frame.axes[1]);
+    }
+
+    class LoadsOfDeck
+    {
+    public:
+      LoadsOfDeck(std::vector<DeckBody> &bodies, const DeckModel &model, std::vector<std::string> &remarks)
+        : bodies(bodies)
+        , model(model)
+        , deck(model.deck())
+        , history(model)
+        , state(model.steps().back())
+        , remarks(remarks)
+      {
+      }
+
+      void add()
+      {
+        add_forces();
+        add_pressures();
+        for (const auto &[surface, load] : history.surface_loads())
+          add_surface_load(load);
+        // Sets of nodes get names that no surface has.
+        for (const DeckBoundary &condition : state.boundaries)
+          add_condition(condition);
+        check_temperatures();
+        for (unsigned int k = 0; k < history.n_steps(); ++k)
+          for (const DeckVolumeLoad &load : history.step(k).volume_loads)
+            add_volume_load(load, k);
+        for (DeckBody &body : bodies)
+          finish_volume_force(body);
+      }
+
+      /// The steps that the loads are given for.
+      unsigned int n_steps() const
+      {
+        return history.n_steps();
+      }
+
+    private:
+      void add_condition(const DeckBoundary &condition)
+      {
+        // The nodes by the axes that their directions mean.
+        std::map<unsigned int, std::vector<unsigned int>> by_frame;
+        for (const unsigned int node : condition.nodes)
+          {
+            const auto it = model.frame_of_node().find(node);
+            by_frame[it == model.frame_of_node().end() ? Deck::none : it->second].push_back(node);
+          }
+        bool is_anywhere = condition.nodes.empty();
+        for (const auto &[frame, nodes] : by_frame)
+          {
+            const Values   given  = history.values(condition);
+            Values         values = given;
+            ConditionFrame axes;
+            if (frame != Deck::none && !to_global(values, given, model.frames()[frame]))
+              {
+                values = given;
+                axes   = condition_frame(model.frames()[frame]);
+              }
+            std::string name = condition.set.empty() ? "nodes of line " + std::to_string(condition.place.line)
+                                                     : condition.set;
+            for (DeckBody &body : bodies)
+              is_anywhere = add_condition(body, name, nodes, values, axes) || is_anywhere;
+          }
+        if (!is_anywhere)
+          remarks.push_back(deck.text().where(condition.place) +
+                            ": BOUNDARY: none of the nodes belongs to a solid element.");
+      }
+
+      bool add_condition(DeckBody &body, std::string name, const std::vector<unsigned int> &nodes,
+                         const Values &values, const ConditionFrame &axes)
+      {
+        const std::vector<unsigned int> vertices = vertices_within(nodes, *body.cells);
+        if (vertices.empty())
+          return false;
+        auto &sets = body.cells->mesh.node_sets;
+        name       = name_of_set(body, name, vertices);
+        if (std::none_of(sets.begin(), sets.end(), [&](const auto &set) { return set.first == name; }))
+          sets.emplace_back(name, vertices);
+        LoadDefinition::Displacement displacement;
+        displacement.boundary = name;
+        displacement.frame    = axes;
+        for (unsigned int c = 0; c < 3; ++c)
+          if (values[c])
+            displacement.components[c] = values[c]->field();
+        body.loads.displacements.push_back(displacement);
+        return true;
+      }
+
+      /// A name that neither other nodes nor a surface have.
+      std::string name_of_set(const DeckBody &body, const std::string &name,
+                              const std::vector<unsigned int> &vertices) const
+      {
+        for (unsigned int n = 1;; ++n)
+          {
+            const std::string tried = n == 1 ? name : name + " (" + std::to_string(n) + ")";
+            const auto       &sets  = body.cells->mesh.node_sets;
+            const auto        set =
+                std::find_if(sets.begin(), sets.end(), [&](const auto &s) { return s.first == tried; });
+            const bool is_surface = std::any_of(body.named.begin(), body.named.end(),
+                                                [&](const auto &s) { return s.first == tried; });
+            if (!is_surface && (set == sets.end() || set->second == vertices))
+              return tried;
+          }
+      }
+
+      void add_forces()
+      {
+        std::size_t n_lost = 0;
+        for (const auto &[where, force] : history.forces())
+          {
+            const auto [node, component] = where;
+            Vector3 direction;
+            direction[component] = 1.;
+            if (const auto frame = model.frame_of_node().find(node); frame != model.frame_of_node().end())
+              direction = condition_frame(model.frames()[frame->second])
+                              .axes(deck.positions()[node], Vector3())[component];
+            bool is_anywhere = force.is_zero();
+            for (DeckBody &body : bodies)
+              if (const unsigned int vertex = body.cells->vertex(node); vertex != VolumeMesh::no_vertex)
+                {
+                  if (!force.is_zero())
+                    body.loads.nodal_forces.push_back({vertex, force.field(direction)});
+                  is_anywhere = true;
+                }
+            n_lost += is_anywhere ? 0 : 1;
+          }
+        if (n_lost > 0)
+          throw InputError(deck.text().files()[0] + ": CLOAD: " + std::to_string(n_lost) +
+                           " forces act on nodes that belong to no solid element.");
+      }
+
+      /// Faces with the same pressure are a boundary together.
+      void add_pressures()
+      {
+        std::map<std::vector<double>, std::map<unsigned int, std::vector<unsigned int>>> sides;
+        for (const auto &[where, pressure] : history.pressures())
+          if (!pressure.is_zero())
+            sides[pressure.values][where.first].push_back(where.second);
+        unsigned int n = 0;
+        for (const auto &[pressure, of_elements] : sides)
+          {
+            const std::string name = "pressure " + std::to_string(++n);
+            for (DeckBody &body : bodies)
+              {
+                std::set<VolumeMesh::Face> faces;
+                for (const auto &[element, list] : of_elements)
+                  if (body.cells->has(element))
+                    for (const unsigned int side : list)
+                      for (const VolumeMesh::Face &face : body.cells->side(element, side))
+                        faces.insert(face);
+                if (faces.empty())
+                  continue;
+                refuse_inner_faces(body, faces);
+                body.named.emplace_back(name, faces);
+                body.loads.surface_forces.push_back({name, {}, DeckSeries{pressure}.field()});
+              }
+          }
+      }
+
+      void refuse_inner_faces(const DeckBody &body, std::set<VolumeMesh::Face> faces) const
+      {
+        for (const auto &[face, cell] : body.boundary)
+          faces.erase(face_key(face));
+        if (!faces.empty())
+          throw InputError(deck.text().files()[0] + ": DLOAD: " + std::to_string(faces.size()) +
+                           " of the loaded faces are inside of the body \"" + body.name + "\".");
+      }
+
+      void add_surface_load(const DeckHistory::SurfaceLoad &load)
+      {
+        bool is_anywhere = false;
+        for (DeckBody &body : bodies)
+          if (name_surface(body, deck, *load.surface))
+            {
+              is_anywhere = true;
+              if (!load.pressure.is_zero())
+                body.loads.surface_forces.push_back({load.surface->name, {}, load.pressure.field()});
+              for (unsigned int c = 0; c < 3; ++c)
+                if (!load.traction[c].is_zero())
+                  {
+                    Vector3 direction;
+                    direction[c] = 1.;
+                    body.loads.surface_forces.push_back(
+                        {load.surface->name, load.traction[c].field(direction), {}});
+                  }
+            }
+        if (!is_anywhere)
+          deck.text().fail(load.place, "no face of the surface \"" + load.surface->name +
+                                           "\" is on the boundary of a body.");
+      }
+
+      /// Thermal strains are not computed.
+      void check_temperatures() const
+      {
+        for (const auto &[node, load] : state.temperatures)
+          {
+            const auto   it      = model.initial_temperatures().find(node);
+            const double initial = it == model.initial_temperatures().end() ? 0. : it->second;
+            if (load.value == initial)
+              continue;
+            for (const DeckBody &body : bodies)
+              for (const unsigned int m : body.materials)
+                if (const DeckMaterial &material = model.materials()[m];
+                    material.expansion && *material.expansion != 0. &&
+                    body.cells->vertex(node) != VolumeMesh::no_vertex)
+                  model.refuse(material.place, "EXPANSION", "thermal strains of a deck are not computed.");
+          }
+      }
+
+      void add_volume_load(const DeckVolumeLoad &load, const unsigned int step)
+      {
+        const std::set<unsigned int> elements(load.elements.begin(), load.elements.end());
+        for (DeckBody &body : bodies)
+          {
+            auto &forces = volume_forces[&body];
+            forces.resize(body.elements.size(), std::vector<Vector3>(history.n_steps()));
+            for (std::size_t i = 0; i < body.elements.size(); ++i)
+              if (elements.count(body.elements[i]) > 0)
+                {
+                  double factor = 1.;
+                  if (load.is_acceleration)
+                    {
+                      const DeckMaterial &material =
+                          model.materials()[model.material_of_element()[body.elements[i]]];
+                      if (!material.density)
+                        deck.text().fail(load.place,
+                                         "GRAV needs the DENSITY of MATERIAL \"" + material.name + "\".");
+                      factor = *material.density;
+                    }
+                  forces[i][step] += factor * load.value;
+                }
+          }
+      }
+
+      /// One force per volume for the whole body, or else forces at its nodes.
+      void finish_volume_force(DeckBody &body)
+      {
+        const auto it = volume_forces.find(&body);
+        if (it == volume_forces.end())
+          return;
+        const std::vector<std::vector<Vector3>> &forces = it->second;
+        const auto component = [](const std::vector<Vector3> &f, const unsigned int c) {
+          DeckSeries series;
+          for (const Vector3 &v : f)
+            series.values.push_back(v[c]);
+          return series;
+        };
+        if (std::all_of(forces.begin(), forces.end(), [&](const auto &f) { return f == forces[0]; }))
+          {
+            body.loads.volume_force = [x = component(forces[0], 0), y = component(forces[0], 1),
+                                       z = component(forces[0], 2)](const Point<3> &, const double t) {
+              return Vector3({x.at(t), y.at(t), z.at(t)});
+            };
+            return;
+          }
+        std::map<unsigned int, const std::vector<Vector3> *> force_of;
+        for (std::size_t i = 0; i < forces.size(); ++i)
+          force_of[body.elements[i]] = &forces[i];
+        const VolumeMesh                            &mesh = body.cells->mesh;
+        std::map<unsigned int, std::vector<Vector3>> nodal;
+        for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+          for (const auto &[vertex, volume] : nodal_volumes(mesh, mesh.cells[c]))
+            for (unsigned int k = 0; k < history.n_steps(); ++k)
+              {
+                nodal[vertex].resize(history.n_steps());
+                nodal[vertex][k] += volume * (*force_of[body.cells->element_of_cell()[c]])[k];
+              }
+        for (const auto &[vertex, force] : nodal)
+          for (unsigned int c = 0; c < 3; ++c)
+            if (const DeckSeries series = component(force, c); !series.is_zero())
+              {
+                Vector3 direction;
+                direction[c] = 1.;
+                body.loads.nodal_forces.push_back({vertex, series.field(direction)});
+              }
+        remarks.push_back("body " + body.name +
+                          ": forces per volume differ from element to element; they act at the nodes of the "
+                          "deck, also where cells are refined.");
+      }
+
+      /// Integrals of the shape functions over a cell.
+      static std::vector<std::pair<unsigned int, double>> nodal_volumes(const VolumeMesh       &mesh,
+                                                                        const VolumeMesh::Cell &cell)
+      {
+        std::vector<std::pair<unsigned int, double>> result;
+        const auto                                   x = mesh.corners(cell);
+        for (unsigned int v = 0; v < cell.n_vertices; ++v)
+          result.emplace_back(cell.vertices[v], 0.);
+        if (cell.n_vertices == CellShape::tetrahedron)
+          {
+            const double volume = std::abs(cross_product_3d(x[1] - x[0], x[2] - x[0]) * (x[3] - x[0])) / 6.;
+            for (auto &entry : result)
+              entry.second = volume / 4.;
+            return result;
+          }
+        // Gauss points of order three, two in each direction.
+        const double gauss[2] = {.5 - .5 / std::sqrt(3.), .5 + .5 / std::sqrt(3.)};
+        for (unsigned int q = 0; q < 8; ++q)
+          {
+            const double           p[3] = {gauss[q & 1], gauss[q >> 1 & 1], gauss[q >> 2 & 1]};
+            std::array<double, 8>  shape;
+            std::array<Vector3, 3> edges;
+            for (unsigned int v = 0; v < 8; ++v)
+              {
+                double f[3], d[3];
+                for (unsigned int c = 0; c < 3; ++c)
+                  {
+                    f[c] = (v >> c & 1) ? p[c] : 1. - p[c];
+                    d[c] = (v >> c & 1) ? 1. : -1.;
+                  }
+                shape[v] = f[0] * f[1] * f[2];
+                for (unsigned int c = 0; c < 3; ++c)
+                  edges[c] += d[c] * f[(c + 1) % 3] * f[(c + 2) % 3] * Vector3(x[v]);
+              }
+            const double volume = std::abs(cross_product_3d(edges[0], edges[1]) * edges[2]) / 8.;
+            for (unsigned int v = 0; v < 8; ++v)
+              result[v].second += volume * shape[v];
+          }
+        return result;
+      }
+
+      std::vector<DeckBody>    &bodies;
+      const DeckModel          &model;
+      const Deck               &deck;
+      const DeckHistory         history;
+      const DeckState          &state;
+      std::vector<std::string> &remarks;
+      /// By element of the body and step.
+      std::map<const DeckBody *, std::vector<std::vector<Vector3>>> volume_forces;
+    };
+  } // namespace
+
+
+
+  unsigned int add_deck_loads(std::vector<DeckBody> &bodies, const DeckModel &model,
+                              std::vector<std::string> &remarks)
+  {
+    LoadsOfDeck loads(bodies, model, remarks);
+    loads.add();
+    return loads.n_steps();
+  }
+} // namespace Signorini

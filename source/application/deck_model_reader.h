@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_source_application_deck_model_reader_h
+#define signorini_source_application_deck_model_reader_h
+
+#include <signorini/application/deck_model.h>
+
+namespace Signorini
+{
+  /// Goes through the keywords of a deck.
+  class DeckModelReader
+  {
+  public:
+    explicit DeckModelReader(DeckModel &model);
+
+    void read();
+
+  private:
+    using Keyword = DeckKeyword;
+    using Words   = std::vector<std::string>;
+    using Handler = void (DeckModelReader::*)(const Keyword &, const unsigned int instance);
+
+    /// Values of an AMPLITUDE over time.
+    struct Amplitude
+    {
+      std::vector<std::pair<double, double>> points;
+      bool                                   is_total = false;
+    };
+
+    /// What a SURFACE INTERACTION means.
+    struct Interaction
+    {
+      bool is_tied = false;
+    };
+
+    static const std::map<std::string, Handler>     &handlers();
+    static const std::map<std::string, std::string> &refused();
+    static const std::set<std::string>              &passed_over();
+
+    void handle(const Keyword &keyword, const unsigned int instance);
+    /// Notes the keywords that were passed over.
+    void finish();
+
+    // Model.
+    void read_heading(const Keyword &keyword, const unsigned int);
+    void read_material(const Keyword &keyword, const unsigned int);
+    void read_elastic(const Keyword &keyword, const unsigned int);
+    void read_density(const Keyword &keyword, const unsigned int);
+    void read_expansion(const Keyword &keyword, const unsigned int);
+    void read_section(const Keyword &keyword, const unsigned int instance);
+    void read_transform(const Keyword &keyword, const unsigned int instance);
+    void read_amplitude(const Keyword &keyword, const unsigned int);
+    void read_interaction(const Keyword &keyword, const unsigned int);
+    void read_behaviour(const Keyword &keyword, const unsigned int);
+    void read_friction(const Keyword &keyword, const unsigned int);
+    void read_contact_pair(const Keyword &keyword, const unsigned int instance);
+    void read_tie(const Keyword &keyword, const unsigned int instance);
+    void read_initial_conditions(const Keyword &keyword, const unsigned int instance);
+
+    // History.
+    void read_step(const Keyword &keyword, const unsigned int);
+    void read_static(const Keyword &keyword, const unsigned int);
+    void read_end_step(const Keyword &keyword, const unsigned int);
+    void read_boundary(const Keyword &keyword, const unsigned int instance);
+    void read_nodal_force(const Keyword &keyword, const unsigned int instance);
+    void read_element_load(const Keyword &keyword, const unsigned int instance);
+    void read_surface_load(const Keyword &keyword, const unsigned int instance);
+    void read_temperature(const Keyword &keyword, const unsigned int instance);
+
+    DeckMaterial &material(const Keyword &keyword);
+    /// Directions and values of a line of BOUNDARY; nothing for rotations.
+    void add_boundary(const Keyword &keyword, const DeckLine &line, const unsigned int instance);
+    void add_volume_load(const Keyword &keyword, const DeckLine &line, const Words &words,
+                         const unsigned int instance);
+    /// Adds in the same step, replaces that of an earlier one.
+    void              set_load(DeckLoad &load, const double value) const;
+    bool              is_new(const Keyword &keyword) const;
+    double            factor(const Keyword &keyword) const;
+    double            number(const Words &words, const std::size_t i, const DeckLine &line) const;
+    [[noreturn]] void fail(const DeckPlace &place, const std::string &text) const;
+    Vector3           direction(const Words &words, const std::size_t i, const DeckLine &line) const;
+
+    DeckModel                                    &model;
+    const Deck                                   &deck;
+    DeckState                                     state;
+    bool                                          is_in_step = false;
+    unsigned int                                  step       = 0;
+    double                                        period     = 1.;
+    std::map<std::string, Amplitude>              amplitudes;
+    std::map<std::string, Interaction>            interactions;
+    std::string                                   interaction;
+    std::vector<std::pair<DeckPair, std::string>> contact;
+    /// Keywords that were passed over, in the order of the file.
+    std::vector<std::string> over;
+  };
+} // namespace Signorini
+
+#endif

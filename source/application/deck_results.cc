@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/algebra/input_error.h>
+#include <signorini/application/deck_results.h>
+#include <signorini/application/journal.h>
+#include <signorini/discretization/element.h>
+#include <signorini/output/field_output.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/symmetric_tensor.h>
+
+#include <fstream>
+#include <iomanip>
+#include <sstream>
+#include <unordered_map>
+
+namespace Signorini
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// An owned node: its number in the space, the vertex of the start mesh at it, and numbers at it (three
+    /// of the position, three of the displacement, six of the stress).
+    struct NodeRow
+    {
+      NodeIndex              node;
+      unsigned int           start_vertex;
+      std::array<double, 12> values;
+
+      template <class Archive>
+      void serialize(Archive &archive, const unsigned int)
+      {
+        archive &node &start_vertex &values;
+      }
+    };
+
+    std::vector<NodeRow> owned_rows(const ContactModel &model, const Discretization &d,
+                                    const ContactSolution &solution)
+    {
+      const NodalSpace   &space = d.nodal();
+      std::vector<double> u;
+      for (const NodeIndex node : space.relevant())
+        for (unsigned int c = 0; c < dim; ++c)
+          u.push_back(solution.displacement.local_element(dim * d.partition().to_local(node) + c));
+      const auto stress = nodal_stress(space, u, [&](const types::material_id id) -> const Material & {
+        return model.bodies().material(id);
+      });
+      std::vector<NodeRow> rows;
+      for (const NodeIndex node : space.owned())
+        {
+          const std::size_t i = space.relevant().index_within_set(node);
+          NodeRow           row{node, space.start_vertices()[i], {}};
+          for (unsigned int c = 0; c < 3; ++c)
+            {
+              row.values[c]     = space.position(node)[c];
+              row.values[3 + c] = u[3 * i + c];
+            }
+          for (unsigned int c = 0; c < 6; ++c)
+            row.values[6 + c] = stress[0].values[6 * i + c];
+          rows.push_back(row);
+        }
+      return rows;
+    }
+
+    /// Nodes of the owned cells, eight numbers each (the rest of a tetrahedron invalid).
+    std::vector<std::vector<NodeIndex>> owned_cells(const NodalSpace &space)
+    {
+      std::vector<std::vector<NodeIndex>> cells;
+      for (const NodalSpace::Cell &cell : space.cells())
+        if (cell.is_owned)
+          cells.emplace_back(space.nodes(cell).begin(), space.nodes(cell).end());
+      return cells;
+    }
+
+    /// Numbers of the deck for the nodes of a space; new ones for the others.
+    std::unordered_map<NodeIndex, long> label_nodes(const DeckProblem &deck, const Bodies &bodies,
+                                                    const std::vector<NodeRow> &rows)
+    {
+      std::unordered_map<unsigned int, long> of_vertex;
+      for (unsigned int b = 0; b < deck.labels.size(); ++b)
+        for (unsigned int v = 0; v < deck.labels[b].node_of_vertex.size(); ++v)
+          of_vertex[bodies.start_vertex(b, v)] = deck.labels[b].node_of_vertex[v];
+      std::unordered_map<NodeIndex, long> labels;
+      long                                next = deck.largest_node_label;
+      for (const NodeRow &row : rows)
+        {
+          const auto it = of_vertex.find(row.start_vertex);
+          labels[row.node] =
+              it != of_vertex.end() && it->second != DeckProblem::no_label ? it->second : ++next;
+        }
+      return labels;
+    }
+
+    FrdField contact_field(const Discretization &d, const ContactSolution &solution,
+                           const std::unordered_map<NodeIndex, long> &labels)
+    {
+      // Opening and pressure by node; a node of two pairs has the larger pressure.
+      std::map<long, std::pair<double, double>> values;
+      for (unsigned int p = 0; p < d.pairs.size(); ++p)
+        {
+          const ContactStress stress = stress_of_pair(d, solution.stress, p);
+          for (std::size_t i = 0; i < stress.pressure.size(); ++i)
+            if (const auto it = labels.find(d.coupling.rows[d.rows_of_pair[p][i]]); it != labels.end())
+              {
+                const std::pair<double, double> value(d.couplings[p].mean_gap(i, stress.opening[i]),
+                                                      stress.pressure[i]);
+                const auto [entry, is_new] = values.insert({it->second, value});
+                if (!is_new && value.second > entry->second.second)
+                  entry->second = value;
+              }
+        }
+      FrdField field{"CONTACT", {}, {}};
+      for (const auto &[label, value] : values)
+        {
+          field.labels.push_back(label);
+          for (const double component : {value.first, 0., 0., value.second, 0., 0.})
+            field.values.push_back(component);
+        }
+      return field;
+    }
+
+    /// What the ranks have gathered.
+    struct Gathered
+    {
+      std::vector<NodeRow>                rows;
+      std::vector<std::vector<NodeIndex>> cells;
+    };
+
+    void write(std::ostream &out, const DeckProblem &deck, const ContactModel &model, const Discretization &d,
+               const ContactSolution &solution, const Gathered &gathered)
+    {
+      const auto &[rows, cells] = gathered;
+      const auto labels         = label_nodes(deck, model.bodies(), rows);
+      bool       is_refined     = false;
+      for (const NodeRow &row : rows)
+        is_refined = is_refined || row.start_vertex == StartNodes::none;
+      FrdMesh  mesh;
+      FrdField displacement{"DISP", {}, {}}, stress{"STRESS", {}, {}};
+      for (const NodeRow &row : rows)
+        {
+          const long label = labels.at(row.node);
+          if (!is_refined && label > deck.largest_node_label)
+            continue;
+          mesh.labels.push_back(label);
+          mesh.positions.emplace_back(row.values[0], row.values[1], row.values[2]);
+          displacement.labels.push_back(label);
+          stress.labels.push_back(label);
+          displacement.values.insert(displacement.values.end(), row.values.begin() + 3,
+                                     row.values.begin() + 6);
+          stress.values.insert(stress.values.end(), row.values.begin() + 6, row.values.end());
+        }
+      if (!is_refined)
+        for (const DeckProblem::BodyLabels &body : deck.labels)
+          mesh.elements.insert(mesh.elements.end(), body.elements.begin(), body.elements.end());
+      else
+        for (const std::vector<NodeIndex> &cell : cells)
+          {
+            static constexpr unsigned int around[8] = {0, 1, 3, 2, 4, 5, 7, 6};
+            mesh.elements.push_back({static_cast<long>(mesh.elements.size() + 1), {}});
+            for (unsigned int v = 0; v < cell.size(); ++v)
+              mesh.elements.back().nodes.push_back(labels.at(cell[cell.size() == 8 ? around[v] : v]));
+          }
+      std::vector<FrdField> fields = {displacement, stress};
+      if (d.coupling.n_rows() > 0)
+        fields.push_back(contact_field(d, solution, labels));
+      write_frd(out, mesh, fields, 1.);
+    }
+
+    /// The largest rotation (radians) and principal strain of the cells at their centres.
+    struct Kinematics
+    {
+      double rotation = 0., strain = 0.;
+    };
+
+    Kinematics measure_kinematics(const ContactModel &model, const Discretization &d,
+                                  const ContactSolution &solution)
+    {
+      Kinematics result;
+      for (const NodalSpace::Cell &cell : d.nodal().cells())
+        if (cell.is_owned)
+          {
+            std::array<Vector3, CellShape::max_vertices> u;
+            const auto                                   nodes = d.nodal().nodes(cell);
+            for (unsigned int v = 0; v < nodes.size(); ++v)
+              for (unsigned int c = 0; c < dim; ++c)
+                u[v][c] = solution.displacement.local_element(dim * d.partition().to_local(nodes[v]) + c);
+            const Block h =
+                CellDisplacement(Element(d.nodal(), cell), model.bodies().material(cell.material), u)
+                    .gradient(Point<3>(.5, .5, .5));
+            const Vector3 turn(
+                {.5 * (h[2][1] - h[1][2]), .5 * (h[0][2] - h[2][0]), .5 * (h[1][0] - h[0][1])});
+            SymmetricTensor<2, 3> strain;
+            for (unsigned int i = 0; i < 3; ++i)
+              for (unsigned int j = i; j < 3; ++j)
+                strain[i][j] = .5 * (h[i][j] + h[j][i]);
+            result.rotation = std::max(result.rotation, turn.norm());
+            for (const double e : eigenvalues(strain))
+              result.strain = std::max(result.strain, std::abs(e));
+          }
+      result.rotation = Utilities::MPI::max(result.rotation, model.communicator());
+      result.strain   = Utilities::MPI::max(result.strain, model.communicator());
+      return result;
+    }
+  } // namespace
+
+
+
+  void write_deck_results(const DeckProblem &deck, const ContactModel &model, const Discretization &d,
+                          const ContactSolution &solution, const std::string &folder)
+  {
+    const MPI_Comm comm  = model.communicator();
+    const auto     rows  = Utilities::MPI::gather(comm, owned_rows(model, d, solution));
+    const auto     cells = Utilities::MPI::gather(comm, owned_cells(d.nodal()));
+    if (Utilities::MPI::this_mpi_process(comm) != 0)
+      return;
+    Gathered all;
+    for (const auto &part : rows)
+      all.rows.insert(all.rows.end(), part.begin(), part.end());
+    for (const auto &part : cells)
+      all.cells.insert(all.cells.end(), part.begin(), part.end());
+    std::ofstream out(folder + "results.frd");
+    write(out, deck, model, d, solution, all);
+    out.close();
+    if (!out)
+      throw InputError("the file \"" + folder + "results.frd\" cannot be written: is the disk full?");
+  }
+
+
+
+  void judge_linear_kinematics(const DeckProblem &deck, const ContactModel &model, NestedSolution &nested,
+                               Journal &journal)
+  {
+    if (!deck.nonlinear_geometry)
+      return;
+    const Kinematics   k       = measure_kinematics(model, *nested.discretization, nested.solution);
+    const double       degrees = k.rotation * 180. / numbers::PI;
+    std::ostringstream text;
+    // Green's strain has ½ HᵀH beside the linear one: ½ θ² of a rotation, ½ ε² of a strain.
+    text << std::setprecision(2) << "NLGEOM: cells rotate by at most " << degrees
+         << " degrees and are strained by at most " << 100. * k.strain
+         << " %; what linear kinematics leaves out is of the order of " << 50. * k.rotation * k.rotation
+         << " % strain by rotation and " << 50. * k.strain << " % of the strains.";
+    if (degrees > KinematicsRule::largest_rotation || k.strain > KinematicsRule::largest_strain)
+      nested.results.certificate.objections.push_back(text.str() +
+                                                      " That is too much for linear kinematics.");
+    else
+      journal.note(text.str());
+  }
+} // namespace Signorini
