@@ -175,8 +175,8 @@ namespace Signorini
           centre += Vector3(point.position) / shape.n_points();
           normal += point.area;
         }
-      for (const RigidFaceCondition &face : loads.rigid_faces)
-        if (face.ids.count(id) > 0)
+      for (const RigidFaceCondition &rigid : loads.rigid_faces)
+        if (rigid.ids.count(face.id) > 0)
           return all_fixed;
       std::vector<Vector3> directions;
       for (const DirichletCondition &condition : loads.dirichlet)
