@@ -2,15 +2,15 @@
 // Copyright (C) 2026 by the Signorini authors
 
 #include <signorini/algebra/input_error.h>
-#include <signorini/application/deck_results.h>
 #include <signorini/application/body_evaluation.h>
+#include <signorini/application/deck_results.h>
 #include <signorini/application/write_results.h>
 #include <signorini/mesh/surface_extraction.h>
 #include <signorini/mortar/contact_forces.h>
 #include <signorini/mortar/surface_values.h>
 #include <signorini/output/field_output.h>
-#include <signorini/output/load_curve.h>
 #include <signorini/output/final_words.h>
+#include <signorini/output/load_curve.h>
 #include <signorini/output/summary.h>
 
 #include <deal.II/base/config.h>
@@ -205,10 +205,9 @@ namespace Signorini
     {
       const Discretization &d       = *nested.discretization;
       Results              &results = nested.results;
-      const auto            stress  = nodal_stress(d.nodal(), relevant_values(d, nested.solution.displacement),
-                                                   [&](const types::material_id id) -> const Material & {
-                                         return model.bodies().material(id);
-                                       });
+      const auto            stress  = nodal_stress(
+                      d.nodal(), relevant_values(d, nested.solution.displacement),
+                      [&](const types::material_id id) -> const Material             &{ return model.bodies().material(id); });
       results.bodies = evaluate_bodies(model, d, nested.solution.displacement, stress[1].values, results);
       for (unsigned int p = 0; p < results.pairs.size(); ++p)
         {

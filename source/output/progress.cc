@@ -36,7 +36,8 @@ namespace Signorini
     /// this computer.
     bool launcher_has_terminal()
     {
-      const bool is_launched = std::getenv("OMPI_COMM_WORLD_SIZE") != nullptr || std::getenv("PMI_SIZE") != nullptr;
+      const bool is_launched =
+          std::getenv("OMPI_COMM_WORLD_SIZE") != nullptr || std::getenv("PMI_SIZE") != nullptr;
       if (!is_launched)
         return true;
       char              target[64] = "";
@@ -86,8 +87,8 @@ namespace Signorini
         const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
         const double                        left    = elapsed.count() * std::max(0., all - done) / done;
         text << "   about "
-             << (left < 100. ? std::to_string(std::lround(left)) + " s" :
-                               std::to_string(std::lround(left / 60.)) + " min")
+             << (left < 100. ? std::to_string(std::lround(left)) + " s"
+                             : std::to_string(std::lround(left / 60.)) + " min")
              << " left";
       }
     dealii::Utilities::System::MemoryStats memory;
