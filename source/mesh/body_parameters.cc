@@ -78,8 +78,8 @@ namespace Signorini
         {{ElementChoice::automatic, "automatic"},
          {ElementChoice::standard, "standard"},
          {ElementChoice::mean_dilatation, "mean dilatation"}},
-        "What hexahedra are made of: displacements alone (standard), or with the mean change of volume of "
-        "each cell (mean dilatation), which does not lock where Poisson's ratio is near 0.5; automatic: mean "
+        "What hexahedra are made of. standard: displacements alone. mean dilatation: with the mean change of "
+        "volume of each cell, which does not lock where Poisson's ratio is near 0.5. automatic: mean "
         "dilatation where it is above 0.4, material by material.");
     prm.add_parameter(
         "Volumes", volumes,

@@ -32,9 +32,10 @@ namespace Signorini
                       "Cycles, after the regions have been worked through, that refine where the residual "
                       "error indicator is large.",
                       Patterns::Integer(0, 100));
-    add_choice(prm, "Marking", marking, {{Marking::error, "error"}, {Marking::cells, "cells"}},
-               "What an adaptive cycle refines: the cells with the largest indicators that have the "
-               "marking fraction of the (squared) error together, or that fraction of all cells.");
+    add_choice(
+        prm, "Marking", marking, {{Marking::error, "error"}, {Marking::cells, "cells"}},
+        "What an adaptive cycle refines. error: the cells with the largest indicators that have the marking "
+        "fraction of the (squared) error together. cells: that fraction of all cells.");
     prm.add_parameter("Marking fraction", marking_fraction, "Share of the error or of the cells.",
                       Patterns::Double(0., 1.));
     prm.add_parameter(
