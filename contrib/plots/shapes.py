@@ -69,10 +69,10 @@ def draw(axes, title, faces):
     colours = (.45 + .55 * light)[:, None] * numpy.array([[.62, .78, .93]])
     axes.add_collection3d(Poly3DCollection(faces, facecolors=colours, edgecolors=(.1, .15, .25), linewidths=.35))
     low, high = faces.reshape(-1, 3).min(axis=0), faces.reshape(-1, 3).max(axis=0)
-    middle, half = (low + high) / 2, (high - low).max() / 2
+    middle, half = (low + high) / 2, numpy.linalg.norm(high - low) / 2
     for setter, m in zip((axes.set_xlim, axes.set_ylim, axes.set_zlim), middle):
         setter(m - half, m + half)
-    axes.set_box_aspect((1, 1, 1), zoom=1.45)
+    axes.set_box_aspect((1, 1, 1), zoom=1.75)
     axes.view_init(elev=28, azim=-62)
     axes.set_axis_off()
     axes.set_title(title, fontsize=9, y=-.02)

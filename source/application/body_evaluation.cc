@@ -135,8 +135,8 @@ namespace Signorini
             for (unsigned int v = 0; v < cell.n_vertices; ++v)
               u[v] = nodal(displacement, d.partition().to_local(d.nodal().nodes(cell)[v]));
             const Element  element(d.nodal(), cell);
-            const Point<3> middle = cell.n_vertices == CellShape::hexahedron ? Point<3>(.5, .5, .5) :
-                                                                               Point<3>(.25, .25, .25);
+            const Point<3> middle =
+                cell.n_vertices == CellShape::hexahedron ? Point<3>(.5, .5, .5) : Point<3>(.25, .25, .25);
             add(result[bodies.body_of_material(cell.material)],
                 CellDisplacement(element, bodies.material(cell.material), u).gradient(middle));
           }
@@ -248,15 +248,16 @@ namespace Signorini
 
   Slip largest_slip(const Discretization &d, const ContactSolution &solution, const unsigned int p)
   {
-    const ContactPair          &pair   = d.pairs[p];
-    const ContactSurface       &non    = pair.nonmortar.surface;
-    const ContactStress         stress = stress_of_pair(d, solution.stress, p);
-    std::vector<unsigned char>  active(non.mesh.vertices.size(), 0);
+    const ContactPair         &pair   = d.pairs[p];
+    const ContactSurface      &non    = pair.nonmortar.surface;
+    const ContactStress        stress = stress_of_pair(d, solution.stress, p);
+    std::vector<unsigned char> active(non.mesh.vertices.size(), 0);
     for (std::size_t i = 0; i < stress.active.size(); ++i)
       active[d.couplings[p].vertices[i]] = stress.active[i];
     const auto moved  = vertex_values(non, d.partition(), solution.displacement);
-    const auto mortar = pair.obstacle ? std::vector<Vector3>() :
-                                        vertex_values(pair.mortar.surface, d.partition(), solution.displacement);
+    const auto mortar = pair.obstacle
+                            ? std::vector<Vector3>()
+                            : vertex_values(pair.mortar.surface, d.partition(), solution.displacement);
     const auto width  = widths(non.mesh);
     Slip       result;
     for (const auto &[v, jump] : relative_displacements(pair, moved, mortar))

@@ -21,9 +21,9 @@ namespace Signorini
       /// Covered area whose multipliers other pairs take away, as a share of the covered area. A strip of one
       /// face between two neighbours on one surface is less on all but the coarsest meshes.
       double lost_share = .25;
-      /// Initial overlap as a share of the extent of a body along the normal: what is no interference fit, and what is
-      /// taken for one unless it is asked for. Fits of shafts are a thousandth; linear elasticity ends at a
-      /// tenth.
+      /// Initial overlap as a share of the extent of a body along the normal: what is no interference fit,
+      /// and what is taken for one unless it is asked for. Fits of shafts are a thousandth; linear elasticity
+      /// ends at a tenth.
       double overlap = .5, small_overlap = .01;
       /// Product of the normals from where on surfaces do not face each other: 60 degrees, as for obstacles.
       /// Gaps at grazing angles are no distances.
@@ -321,8 +321,8 @@ namespace Signorini
 
   namespace
   {
-    /// Calls f(vertex or point of the nonmortar surface, its normal, gap) where surfaces face each other: at the
-    /// corners of the overlay cells of this rank.
+    /// Calls f(vertex or point of the nonmortar surface, its normal, gap) where surfaces face each other: at
+    /// the corners of the overlay cells of this rank.
     template <typename F>
     void for_each_gap(const ContactPair &pair, const F &f)
     {
@@ -343,10 +343,10 @@ namespace Signorini
           {
             std::array<double, 3> corner = {{0., 0., 0.}};
             corner[c]                    = 1.;
-            const Point<3> x     = on_nonmortar.point(cell.nonmortar_triangle, cell.nonmortar[c]);
-            const Point<3> image = on_mortar.point(cell.mortar_triangle, cell.mortar[c]);
-            const Vector3  n     = on_nonmortar.normal(cell.nonmortar_triangle, cell.nonmortar[c]);
-            const Vector3  other = on_mortar.normal(cell.mortar_triangle, cell.mortar[c]);
+            const Point<3> x             = on_nonmortar.point(cell.nonmortar_triangle, cell.nonmortar[c]);
+            const Point<3> image         = on_mortar.point(cell.mortar_triangle, cell.mortar[c]);
+            const Vector3  n             = on_nonmortar.normal(cell.nonmortar_triangle, cell.nonmortar[c]);
+            const Vector3  other         = on_mortar.normal(cell.mortar_triangle, cell.mortar[c]);
             if (pair.prescribed_gap)
               f(x, n, pair.prescribed_gap(x));
             else if (n * other < ContactRule().facing)
@@ -364,7 +364,8 @@ namespace Signorini
       if (gap < result.value)
         result = {gap, x, n};
     });
-    const auto all = Utilities::MPI::all_gather(comm, std::make_tuple(result.value, result.place, result.normal));
+    const auto all =
+        Utilities::MPI::all_gather(comm, std::make_tuple(result.value, result.place, result.normal));
     for (const auto &[value, place, normal] : all)
       if (value < result.value)
         result = {value, place, normal};
@@ -388,8 +389,8 @@ namespace Signorini
     const SmallestGap gap = smallest_initial_gap(pair, space.communicator());
     if (!(gap.value < 0.))
       return;
-    const double share = wanted.penetration == InitialPenetration::automatic ? ContactRule().small_overlap :
-                                                                               ContactRule().overlap;
+    const double share = wanted.penetration == InitialPenetration::automatic ? ContactRule().small_overlap
+                                                                             : ContactRule().overlap;
     for (const unsigned int body : {pair.nonmortar.body, pair.mortar.body})
       {
         if (body == numbers::invalid_unsigned_int)
@@ -399,9 +400,10 @@ namespace Signorini
           continue;
         std::ostringstream text;
         text << "Pair " << pair.name << ": \"" << pair.nonmortar.name << "\" and \"" << pair.mortar.name
-             << "\" overlap by " << -gap.value << " at the beginning, most at (" << gap.place << "), and body "
-             << bodies.body_name(body) << " is only " << width
-             << " wide there. Check the units and the place of the bodies (Body/Mesh, Translation, Rotation), the "
+             << "\" overlap by " << -gap.value << " at the beginning, most at (" << gap.place
+             << "), and body " << bodies.body_name(body) << " is only " << width
+             << " wide there. Check the units and the place of the bodies (Body/Mesh, Translation, "
+                "Rotation), the "
                 "boundaries of the pair (First, Second)"
              << (pair.obstacle ? ", the obstacle" : "")
              << (pair.prescribed_gap ? ", and \"Initial gap\"." : ".");

@@ -11,6 +11,8 @@
 
 namespace Signorini
 {
+  class DeckHistory;
+
   /// One connected part of a deck while it becomes a body.
   struct DeckBody
   {
@@ -29,6 +31,11 @@ namespace Signorini
 
   /// Names faces of a body for a surface, once; false if it has none of them.
   bool name_surface(DeckBody &body, const Deck &deck, const DeckSurface &surface);
+
+  /// Makes boundaries rigid as RIGID BODY, couplings and equations say. Returns the reference nodes, whose
+  /// conditions and forces have been taken with them. Errors: InputError for nodes that are no faces.
+  std::set<unsigned int> add_rigid_faces(std::vector<DeckBody> &bodies, const DeckModel &model,
+                                         const DeckHistory &history);
 
   /// Moves nodes of the dependent surface of a pair onto the other one, as ADJUST says. Returns a remark, or
   /// nothing if none was moved.

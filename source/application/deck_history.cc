@@ -210,7 +210,10 @@ namespace Signorini
     if (const std::string type = deck_upper(keyword.get("TYPE")); !type.empty() && type != "DISPLACEMENT")
       model.refuse(keyword.place, "BOUNDARY", "TYPE=" + type + " is not supported.");
     if (is_new(keyword))
-      state.boundaries.clear();
+      {
+        state.boundaries.clear();
+        state.rotations.clear();
+      }
     for (const DeckLine &line : keyword.lines)
       add_boundary(keyword, line, instance);
   }
@@ -247,6 +250,10 @@ namespace Signorini
         for (unsigned int c = 0; c < dim; ++c)
           if (named & (1u << c))
             condition.values[c] = 0.;
+        if (deck_upper(words[1]) == "ENCASTRE")
+          for (const unsigned int node : condition.nodes)
+            for (unsigned int c = 0; c < dim && is_reference(node); ++c)
+              state.rotations[{node, c}] = 0.;
       }
     else
       {
@@ -263,6 +270,9 @@ namespace Signorini
           }
         for (long c = first; c <= std::min(last, 3l); ++c)
           condition.values[c - 1] = value;
+        for (const unsigned int node : condition.nodes)
+          for (long c = std::max(first, 4l); c <= last && is_reference(node); ++c)
+            state.rotations[{node, static_cast<unsigned int>(c - 4)}] = value;
       }
     if (!condition.values[0] && !condition.values[1] && !condition.values[2])
       return;
@@ -323,15 +333,19 @@ namespace Signorini
         const Words words = deck_words(line.text);
         if (words.size() < 3)
           fail(line.place, "CLOAD needs a node or a set, a direction and a force.");
-        const long direction = deck.text().label(words[1], line.place);
-        if (direction < 1 || direction > 3)
+        const long                      direction = deck.text().label(words[1], line.place);
+        const std::vector<unsigned int> nodes     = deck.nodes_of(words[0], line.place, instance);
+        const bool                      is_moment = direction > 3 && direction < 7 &&
+                               std::all_of(nodes.begin(), nodes.end(),
+                                           [this](const unsigned int node) { return is_reference(node); });
+        if (direction < 1 || (direction > 3 && !is_moment))
           {
             model.refuse(line.place, "CLOAD",
                          "nodes of solid elements take forces in the directions 1 to 3.");
             continue;
           }
         const double value = number(words, 2, line) * factor(keyword);
-        for (const unsigned int node : deck.nodes_of(words[0], line.place, instance))
+        for (const unsigned int node : nodes)
           set_load(state.forces[{node, static_cast<unsigned int>(direction - 1)}], value);
       }
   }

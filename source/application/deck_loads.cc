@@ -71,6 +71,7 @@ namespace Signorini
 
       void add()
       {
+        references = add_rigid_faces(bodies, model, history);
         add_forces();
         add_pressures();
         for (const auto &[surface, load] : history.surface_loads())
@@ -99,10 +100,12 @@ namespace Signorini
         std::map<unsigned int, std::vector<unsigned int>> by_frame;
         for (const unsigned int node : condition.nodes)
           {
+            if (references.count(node) > 0)
+              continue;
             const auto it = model.frame_of_node().find(node);
             by_frame[it == model.frame_of_node().end() ? Deck::none : it->second].push_back(node);
           }
-        bool is_anywhere = condition.nodes.empty();
+        bool is_anywhere = by_frame.empty();
         for (const auto &[frame, nodes] : by_frame)
           {
             const Values   given  = history.values(condition);
@@ -166,6 +169,8 @@ namespace Signorini
         for (const auto &[where, force] : history.forces())
           {
             const auto [node, component] = where;
+            if (references.count(node) > 0)
+              continue;
             Vector3 direction;
             direction[component] = 1.;
             if (const auto frame = model.frame_of_node().find(node); frame != model.frame_of_node().end())
@@ -376,11 +381,13 @@ namespace Signorini
         return result;
       }
 
-      std::vector<DeckBody>    &bodies;
-      const DeckModel          &model;
-      const Deck               &deck;
-      const DeckHistory         history;
-      const DeckState          &state;
+      std::vector<DeckBody> &bodies;
+      const DeckModel       &model;
+      const Deck            &deck;
+      const DeckHistory      history;
+      const DeckState       &state;
+      /// Nodes of rigid faces, which have been dealt with.
+      std::set<unsigned int>    references;
       std::vector<std::string> &remarks;
       /// By element of the body and step.
       std::map<const DeckBody *, std::vector<std::vector<Vector3>>> volume_forces;

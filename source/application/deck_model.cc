@@ -55,6 +55,11 @@ namespace Signorini
   {
     using R                                           = DeckModelReader;
     static const std::map<std::string, Handler> table = {{"HEADING", &R::read_heading},
+                                                         {"RIGID BODY", &R::read_rigid_body},
+                                                         {"KINEMATIC COUPLING", &R::read_kinematic_coupling},
+                                                         {"COUPLING", &R::read_coupling},
+                                                         {"KINEMATIC", &R::read_kinematic},
+                                                         {"EQUATION", &R::read_equation},
                                                          {"MATERIAL", &R::read_material},
                                                          {"ELASTIC", &R::read_elastic},
                                                          {"DENSITY", &R::read_density},
@@ -120,13 +125,8 @@ namespace Signorini
         {"MODAL DYNAMIC", procedure},
         {"STEADY STATE DYNAMICS", procedure},
         {"COMPLEX FREQUENCY", procedure},
-        {"EQUATION", "linear equations between nodes are not taken."},
         {"MPC", "constraints between nodes are not taken."},
-        {"RIGID BODY", "rigid bodies of a deck are not taken."},
-        {"KINEMATIC COUPLING", "couplings of nodes are not taken."},
         {"DISTRIBUTING COUPLING", "couplings of nodes are not taken."},
-        {"COUPLING", "couplings of nodes are not taken."},
-        {"KINEMATIC", "couplings of nodes are not taken."},
         {"DISTRIBUTING", "couplings of nodes are not taken."},
         {"PRE-TENSION SECTION", "pretension of a deck is not taken."},
         {"CYCLIC SYMMETRY MODEL", "cyclic symmetry is not computed."},
@@ -243,6 +243,7 @@ namespace Signorini
           deck.text().files()[0] +
           ": quadratic elements are cut into eight linear ones, which are stiffer where thin parts bend; "
           "--set \"Refinement/Initial global levels=1\" shows how much.");
+    join_equations();
     std::string names;
     for (const std::string &name : std::set<std::string>(over.begin(), over.end()))
       names += (names.empty() ? "" : ", ") + name;

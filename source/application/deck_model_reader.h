@@ -58,6 +58,18 @@ namespace Signorini
     void read_tie(const Keyword &keyword, const unsigned int instance);
     void read_initial_conditions(const Keyword &keyword, const unsigned int instance);
 
+    // Nodes that move together.
+    void read_rigid_body(const Keyword &keyword, const unsigned int instance);
+    void read_kinematic_coupling(const Keyword &keyword, const unsigned int instance);
+    void read_coupling(const Keyword &keyword, const unsigned int instance);
+    void read_kinematic(const Keyword &keyword, const unsigned int);
+    void read_equation(const Keyword &keyword, const unsigned int instance);
+    /// Nodes that equations make move alike become rigid bodies that do not turn.
+    void         join_equations();
+    bool         is_reference(const unsigned int node) const;
+    unsigned int only_node(const Keyword &keyword, const std::string &option,
+                           const unsigned int instance) const;
+
     // History.
     void read_step(const Keyword &keyword, const unsigned int);
     void read_static(const Keyword &keyword, const unsigned int);
@@ -93,6 +105,11 @@ namespace Signorini
     std::vector<std::pair<DeckPair, std::string>> contact;
     /// Keywords that were passed over, in the order of the file.
     std::vector<std::string> over;
+    /// By direction: pairs of nodes that move alike.
+    std::array<std::vector<std::pair<unsigned int, unsigned int>>, 3> alike;
+    DeckPlace                                                         first_equation;
+    /// Of the COUPLING whose kind is not known yet.
+    DeckRigid coupling;
   };
 } // namespace Signorini
 

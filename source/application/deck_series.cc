@@ -127,6 +127,31 @@ namespace Signorini
 
 
 
+  std::optional<DeckSeries> DeckHistory::value_at(const unsigned int node, const unsigned int direction) const
+  {
+    const auto &last = steps.back()->boundaries;
+    for (auto condition = last.rbegin(); condition != last.rend(); ++condition)
+      if (condition->values[direction] &&
+          std::find(condition->nodes.begin(), condition->nodes.end(), node) != condition->nodes.end())
+        return values(*condition)[direction];
+    return std::nullopt;
+  }
+
+
+
+  std::optional<DeckSeries> DeckHistory::rotation_at(const unsigned int node, const unsigned int axis) const
+  {
+    if (steps.back()->rotations.count({node, axis}) == 0)
+      return std::nullopt;
+    DeckSeries result = zero();
+    for (unsigned int k = 0; k < n_steps(); ++k)
+      if (const auto it = steps[k]->rotations.find({node, axis}); it != steps[k]->rotations.end())
+        result.values[k] = it->second;
+    return result;
+  }
+
+
+
   std::map<std::pair<unsigned int, unsigned int>, DeckSeries> DeckHistory::forces() const
   {
     std::map<std::pair<unsigned int, unsigned int>, DeckSeries> result;

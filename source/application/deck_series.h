@@ -51,6 +51,12 @@ namespace Signorini
     /// Values of a condition of the last step.
     std::array<std::optional<DeckSeries>, 3> values(const DeckBoundary &condition) const;
 
+    /// Values of a direction of a single node, where a condition of the last step holds it.
+    std::optional<DeckSeries> value_at(const unsigned int node, const unsigned int direction) const;
+
+    /// Values of a rotation of a reference node, where a condition of the last step holds it.
+    std::optional<DeckSeries> rotation_at(const unsigned int node, const unsigned int axis) const;
+
     /// By node and direction; by element and side.
     std::map<std::pair<unsigned int, unsigned int>, DeckSeries> forces() const;
     std::map<std::pair<unsigned int, unsigned int>, DeckSeries> pressures() const;

@@ -317,8 +317,13 @@ namespace Signorini
       if (!(smallest < -1e-12 * size) || coupled.pairs[p].is_tied)
         return;
       refuse_large_overlap(coupled, p);
+      // The weighted gap is negative where surfaces bend within a face, too.
+      const double gap =
+          smallest_initial_gap(coupled.pairs[p], coupled.constrained.nodal().communicator()).value;
+      if (!(gap < -1e-12 * size))
+        return;
       std::ostringstream text;
-      text << "pair " << definition.name << ": initial penetration of " << -smallest << " (weighted gap)";
+      text << "pair " << definition.name << ": initial penetration of " << -gap;
       if (definition.penetration == InitialPenetration::refuse)
         throw InputError(text.str() + "; \"Initial penetration = refuse\" does not allow it.");
       journal.note(text.str() + ", resolved as an interference fit.");

@@ -8,11 +8,13 @@ signorini_add_layer(application
   contact_solve.cc
   deck_adjust.cc
   deck_bodies.cc
+  deck_constraints.cc
   deck_history.cc
   deck_loads.cc
   deck_model.cc
   deck_problem.cc
   deck_results.cc
+  deck_rigid.cc
   deck_series.cc
   discretization.cc
   error_estimate.cc

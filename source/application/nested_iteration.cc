@@ -84,7 +84,8 @@ namespace Signorini
         text += " Solver/Safety net = true;";
       if (solver.max_iterations < 100)
         text += " more Maximal iterations;";
-      return text + " the softer body as Pair/Nonmortar; cells that are less stretched (contrib/plots/render.py shows "
+      return text + " the softer body as Pair/Nonmortar; cells that are less stretched "
+                    "(contrib/plots/render.py shows "
                     "them); a condition that stops bodies from sliding where only contact holds them.";
     }
 
@@ -322,7 +323,8 @@ namespace Signorini
     const Refinement refinement(parameters.refinement);
     auto             space = std::make_shared<const ConstrainedSpace>(model);
     for (unsigned int c = 1; c <= refinement.n_cycles(); ++c)
-      if (!refinement.is_adaptive(c) && model.refine(space->nodal(), refinement.mark(model.bodies(), space->nodal(), c)))
+      if (!refinement.is_adaptive(c) &&
+          model.refine(space->nodal(), refinement.mark(model.bodies(), space->nodal(), c)))
         {
           model.note_movement(journal);
           space = std::make_shared<const ConstrainedSpace>(model);

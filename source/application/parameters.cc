@@ -150,10 +150,11 @@ namespace Signorini
           if (name.empty())
             continue;
           // They are parts of file names, of "Section/Name" and of "body: boundary".
-          if (const std::size_t bad = name.find_first_of("/\\:;\"\t"); bad != std::string::npos || name[0] == '.')
+          if (const std::size_t bad = name.find_first_of("/\\:;\"\t");
+              bad != std::string::npos || name[0] == '.')
             throw InputError(where + ": the name \"" + name + "\" must not " +
-                             (bad != std::string::npos ? "contain \"" + name.substr(bad, 1) + "\"." :
-                                                         std::string("begin with a dot.")));
+                             (bad != std::string::npos ? "contain \"" + name.substr(bad, 1) + "\"."
+                                                       : std::string("begin with a dot.")));
           if (std::find(result.begin(), result.end(), name) != result.end())
             throw InputError(where + ": the name \"" + name + "\" appears twice.");
           result.push_back(name);
@@ -209,7 +210,7 @@ namespace Signorini
       std::vector<std::string> path = Utilities::split_string_list(text.substr(0, equals), '/');
       if (path.empty() || std::find(path.begin(), path.end(), "") != path.end())
         throw InputError("--set \"" + text + "\": expected \"Section/Name=value\".");
-      const std::string        name = path.back();
+      const std::string name = path.back();
       path.pop_back();
       if (skip_unknown && !(path.empty() && (name == "Bodies" || name == "Contact pairs")))
         return;
@@ -400,8 +401,8 @@ namespace Signorini
         if (text.find_first_not_of("0123456789") != std::string::npos || text.size() > 2 ||
             (!text.empty() && std::stoi(text) > 20))
           throw InputError(where + ": \"" + text + "\" should be a number of levels between 0 and 20.");
-        result.push_back(text.empty() ? refinement.initial_global :
-                                        static_cast<unsigned int>(std::stoi(text)));
+        result.push_back(text.empty() ? refinement.initial_global
+                                      : static_cast<unsigned int>(std::stoi(text)));
       }
     return result;
   }
@@ -456,7 +457,7 @@ namespace Signorini
   NestedParameters ParameterFile::nested() const
   {
     NestedParameters result;
-    result.refinement = refinement;
+    result.refinement                 = refinement;
     result.refinement.initial_of_body = initial_levels();
     for (const RefinementRegion &region : refinement.regions)
       if (!region.body.empty() && std::none_of(bodies.begin(), bodies.end(), [&](const BodySection &section) {
@@ -464,7 +465,7 @@ namespace Signorini
           }))
         throw InputError("Refinement/Regions: there is no body \"" + region.body + "\"; the bodies are " +
                          top_level.bodies + ".");
-    result.solve      = {solver, compare_linear, the_output.measure_sweeps, coarse_levels};
+    result.solve = {solver, compare_linear, the_output.measure_sweeps, coarse_levels};
     if (deck_problem)
       result.exact_displacements.resize(deck_problem->problem.bodies.size());
     for (unsigned int b = 0; b < bodies.size(); ++b)

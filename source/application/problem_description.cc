@@ -69,7 +69,8 @@ namespace Signorini
           << coupling.covered_area / coupling.area << std::endl;
       if (smallest.value < std::numeric_limits<double>::max())
         out << "  smallest distance of the true surfaces: " << smallest.value
-            << (smallest.value < 0. ? " (they overlap)" : "") << ", at (" << smallest.place << ")" << std::endl;
+            << (smallest.value < 0. ? " (they overlap)" : "") << ", at (" << smallest.place << ")"
+            << std::endl;
     }
 
     std::string text(const Vector3 &v)
@@ -80,8 +81,8 @@ namespace Signorini
     }
 
     /// Collective. One line for each load that acts on a body.
-    void describe_load(std::ostream &out, const ContactModel &model, const Discretization &d, const Loads &loads,
-                       const std::string &what)
+    void describe_load(std::ostream &out, const ContactModel &model, const Discretization &d,
+                       const Loads &loads, const std::string &what)
     {
       const auto resultants = load_resultants(model, d, loads);
       for (const Resultant &r : resultants)
@@ -155,11 +156,12 @@ namespace Signorini
           const double n = Utilities::MPI::sum(conditions[k].n_nodes, comm);
           for (unsigned int c = 0; c < dim; ++c)
             {
-              const double low = Utilities::MPI::min(conditions[k].low[c], comm),
+              const double low  = Utilities::MPI::min(conditions[k].low[c], comm),
                            high = Utilities::MPI::max(conditions[k].high[c], comm);
               if (low <= high)
                 {
-                  out << " u_" << "xyz"[c] << " = " << low;
+                  out << " u_"
+                      << "xyz"[c] << " = " << low;
                   if (high > low)
                     out << " to " << high;
                   out << ",";

@@ -2,15 +2,15 @@
 // Copyright (C) 2026 by the Signorini authors
 
 #include <signorini/algebra/input_error.h>
-#include <signorini/application/deck_results.h>
 #include <signorini/application/body_evaluation.h>
+#include <signorini/application/deck_results.h>
 #include <signorini/application/write_results.h>
 #include <signorini/mesh/surface_extraction.h>
 #include <signorini/mortar/contact_forces.h>
 #include <signorini/mortar/surface_values.h>
 #include <signorini/output/field_output.h>
-#include <signorini/output/load_curve.h>
 #include <signorini/output/final_words.h>
+#include <signorini/output/load_curve.h>
 #include <signorini/output/summary.h>
 
 #include <deal.II/base/config.h>
@@ -205,8 +205,8 @@ namespace Signorini
     {
       const Discretization &d       = *nested.discretization;
       Results              &results = nested.results;
-      const auto stress = nodal_stress(d.nodal(), relevant_values(d, nested.solution.displacement),
-                                       model.bodies(), model.loads());
+      const auto            stress = nodal_stress(d.nodal(), relevant_values(d, nested.solution.displacement),
+                                                  model.bodies(), model.loads());
       results.bodies = evaluate_bodies(model, d, nested.solution.displacement, stress[1].values, results);
       for (unsigned int p = 0; p < results.pairs.size(); ++p)
         {
@@ -253,8 +253,7 @@ namespace Signorini
         std::vector<OutputField> fields;
         fields.push_back({"displacement", 3, relevant_values(d, solution.displacement)});
         if (output.stress)
-          for (OutputField &field :
-               nodal_stress(d.nodal(), fields[0].values, model.bodies(), model.loads()))
+          for (OutputField &field : nodal_stress(d.nodal(), fields[0].values, model.bodies(), model.loads()))
             fields.push_back(std::move(field));
         write_bodies(folder.path(), "bodies" + suffix, d.nodal(), fields, [&](const types::material_id id) {
           return static_cast<double>(model.bodies().body_of_material(id));

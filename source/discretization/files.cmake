@@ -13,6 +13,8 @@ signorini_add_layer(discretization
   interpolation_exchange.cc
   level_hierarchy.cc
   level_spaces.cc
+  load_parameters.cc
+  node_conditions.cc
   rigid_faces.cc
   rigid_support.cc
   transformed_rows.cc

@@ -375,9 +375,9 @@ namespace Signorini
       std::set<types::boundary_id> result(boundary.begin(), boundary.end());
       for (std::size_t t = 0; t < boundary.size(); ++t)
         {
-          const auto        &[a, b, c] = mesh.triangles[t];
-          const Tensor<1, 3> normal    = cross_product_3d(mesh.vertices[b] - mesh.vertices[a],
-                                                          mesh.vertices[c] - mesh.vertices[a]);
+          const auto &[a, b, c] = mesh.triangles[t];
+          const Tensor<1, 3> normal =
+              cross_product_3d(mesh.vertices[b] - mesh.vertices[a], mesh.vertices[c] - mesh.vertices[a]);
           if (!(direction->second * normal[direction->first] > (1. - 1e-6) * normal.norm()))
             result.erase(boundary[t]);
         }

@@ -40,18 +40,21 @@ namespace Signorini
     prm.add_parameter("Upper corner", upper_corner, "Opposite corner of a block (length).");
     prm.add_parameter("Divisions", divisions, "Cells of a block in x, y, z.",
                       Patterns::List(Patterns::Integer(1, 1000000), 3, 3));
-    prm.add_parameter("Round divisions", round_divisions,
-                      "Cells of tubes, annuli, half cylinders and prisms in radial direction, around and along "
-                      "the axis; 0 where edges should be about equal.",
-                      Patterns::List(Patterns::Integer(0, 1000000), 3, 3));
-    prm.add_parameter("Corners", corners,
-                      "Corners of the base of a prism, convex, with the inside on the left: \"(x, y); (x, y); "
-                      "(x, y); ...\".");
-    prm.add_parameter("Grading", grading,
-                      "Where the cells of a generated block, tube, annulus, half cylinder or prism are small, "
-                      "and width of the largest / width of the smallest cells in each direction: \"(x, y, z), "
-                      "ratio\" in the frame of the mesh, or \"boundary, ratio\"; empty for cells of one "
-                      "size.");
+    prm.add_parameter(
+        "Round divisions", round_divisions,
+        "Cells of tubes, annuli, half cylinders and prisms in radial direction, around and along "
+        "the axis; 0 where edges should be about equal.",
+        Patterns::List(Patterns::Integer(0, 1000000), 3, 3));
+    prm.add_parameter(
+        "Corners", corners,
+        "Corners of the base of a prism, convex, with the inside on the left: \"(x, y); (x, y); "
+        "(x, y); ...\".");
+    prm.add_parameter(
+        "Grading", grading,
+        "Where the cells of a generated block, tube, annulus, half cylinder or prism are small, "
+        "and width of the largest / width of the smallest cells in each direction: \"(x, y, z), "
+        "ratio\" in the frame of the mesh, or \"boundary, ratio\"; empty for cells of one "
+        "size.");
     prm.add_parameter(
         "Boundary shapes", shapes,
         "True shapes that new nodes of boundaries move to, in the frame of the mesh: \"boundary: sphere: "
@@ -75,8 +78,8 @@ namespace Signorini
         {{ElementChoice::automatic, "automatic"},
          {ElementChoice::standard, "standard"},
          {ElementChoice::mean_dilatation, "mean dilatation"}},
-        "What hexahedra are made of: displacements alone (standard), or with the mean change of volume of "
-        "each cell (mean dilatation), which does not lock where Poisson's ratio is near 0.5; automatic: mean "
+        "What hexahedra are made of. standard: displacements alone. mean dilatation: with the mean change of "
+        "volume of each cell, which does not lock where Poisson's ratio is near 0.5. automatic: mean "
         "dilatation where it is above 0.4, material by material.");
     prm.add_parameter(
         "Volumes", volumes,
@@ -238,7 +241,8 @@ namespace Signorini
         return grading;
       const auto parts = split_list(text, ',', "Grading");
       if (parts.size() != 2 || parts[0].empty())
-        throw InputError("Grading: \"" + text + "\" should read \"(x, y, z), ratio\" or \"boundary, ratio\".");
+        throw InputError("Grading: \"" + text +
+                         "\" should read \"(x, y, z), ratio\" or \"boundary, ratio\".");
       if (parts[0][0] == '(')
         grading.point = parse_point(parts[0], "Grading");
       else
@@ -248,13 +252,15 @@ namespace Signorini
     }
 
     /// Before they are made.
-    void check_number_of_cells(const GeneratedMeshParameters &g, const std::string &where, const MPI_Comm comm)
+    void check_number_of_cells(const GeneratedMeshParameters &g, const std::string &where,
+                               const MPI_Comm comm)
     {
       const bool block = g.kind == "block";
       double     n     = 1.;
       for (const unsigned int d : block ? g.divisions : g.round_divisions)
         n *= std::max(1u, d);
-      refuse_too_many_cells(n, where, std::string("Take fewer \"") + (block ? "Divisions" : "Round divisions") + "\".",
+      refuse_too_many_cells(n, where,
+                            std::string("Take fewer \"") + (block ? "Divisions" : "Round divisions") + "\".",
                             comm, 3.);
     }
 

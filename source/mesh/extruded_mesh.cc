@@ -59,7 +59,7 @@ namespace Signorini
       Places places(const unsigned int n, const char *low, const char *high, const double at) const
       {
         const bool is_low = p.grading.boundary == low, is_high = p.grading.boundary == high;
-        known             = known || is_low || is_high;
+        known               = known || is_low || is_high;
         const double centre = is_low ? 0. : is_high ? 1. : std::clamp(at, 0., 1.);
         const bool   wanted = is_low || is_high || (p.grading.boundary.empty() && std::isfinite(at));
         return graded_places(n, wanted ? centre : 0., wanted ? p.grading.ratio : 1.);
@@ -69,7 +69,8 @@ namespace Signorini
       void check() const
       {
         if (!p.grading.boundary.empty() && !known)
-          throw InputError("Grading: a " + p.kind + " cannot be graded toward \"" + p.grading.boundary + "\".");
+          throw InputError("Grading: a " + p.kind + " cannot be graded toward \"" + p.grading.boundary +
+                           "\".");
       }
 
       const Point<3> &point() const
@@ -124,7 +125,7 @@ namespace Signorini
       require_positive(p.radius - p.inner_radius, "Radius minus Inner radius");
       require_positive(p.height, "Height");
       const double angle = angle_of_tube(p), wall = p.radius - p.inner_radius,
-                   middle = .5 * (p.radius + p.inner_radius);
+                   middle          = .5 * (p.radius + p.inner_radius);
       auto [radial, around, along] = p.round_divisions;
       if (around == 0)
         around = cells_of_width(angle, numbers::PI / 6.);
@@ -141,7 +142,8 @@ namespace Signorini
       if (phi < 0.)
         phi += 2. * numbers::PI;
       // A whole ring has no end that it could be graded from.
-      const Places r = grading.places(radial, "inner", "outer", (std::hypot(x[0], x[1]) - p.inner_radius) / wall),
+      const Places r = grading.places(radial, "inner", "outer",
+                                      (std::hypot(x[0], x[1]) - p.inner_radius) / wall),
                    a = grading.places(around, "symmetry y", "symmetry x", angle > 6. ? nowhere : phi / angle);
       std::vector<Quadrilateral> figure;
       add_patch(figure, r, a, [&](const double s, const double t) {
@@ -166,7 +168,7 @@ namespace Signorini
     {
       const Point<3> &x = grading.point();
       // Of the two halves of the arc, from the lowest point on.
-      const double at = (std::atan2(x[1], std::abs(x[0])) / numbers::PI + .5) * 4.;
+      const double at     = (std::atan2(x[1], std::abs(x[0])) / numbers::PI + .5) * 4.;
       const Places low    = grading.places(n_around, "", "", at <= 1. ? at : nowhere),
                    high   = grading.places(n_around, "", "", at > 1. ? at - 1. : nowhere),
                    radial = grading.places(n_radial, "", "outer", 2. * std::hypot(x[0], x[1]) / radius - 1.);
@@ -200,7 +202,7 @@ namespace Signorini
     {
       require_positive(p.radius, "Radius");
       require_positive(p.height, "Height");
-      const unsigned int quarters = has(p, "half of") ? 1 : 2;
+      const unsigned int quarters  = has(p, "half of") ? 1 : 2;
       auto [radial, around, along] = p.round_divisions;
       if (around % (2 * quarters) != 0)
         throw InputError("Round divisions: the arc of a " + p.kind + " has two parts for each right angle: " +
@@ -240,7 +242,8 @@ namespace Signorini
       double turned = 0.;
       for (std::size_t i = 0; i < n; ++i)
         {
-          const Tensor<1, 2> one = corners[(i + 1) % n] - corners[i], two = corners[(i + 2) % n] - corners[(i + 1) % n];
+          const Tensor<1, 2> one = corners[(i + 1) % n] - corners[i],
+                             two = corners[(i + 2) % n] - corners[(i + 1) % n];
           if (!(cross(one, two) > 1e-6 * one.norm() * two.norm()))
             throw InputError("Corners: those of a prism must be convex, one after the other, with the inside "
                              "on the left.");
@@ -264,16 +267,19 @@ namespace Signorini
         }
       const unsigned int half = std::max(1u, p.round_divisions[0]);
       const unsigned int along =
-          p.round_divisions[2] > 0 ? p.round_divisions[2] : cells_of_width(p.height, around / (2. * static_cast<double>(n) * half));
+          p.round_divisions[2] > 0 ? p.round_divisions[2]
+                                   : cells_of_width(p.height, around / (2. * static_cast<double>(n) * half));
       const Grading              grading(p);
       const Places               s = grading.places(half, "sides", "", 0.);
       std::vector<Quadrilateral> figure;
       for (std::size_t i = 0; i < n; ++i)
         {
-          const Tensor<1, 2> corner(p.corners[i]), after = .5 * (corner + Tensor<1, 2>(p.corners[(i + 1) % n])),
-                             before = .5 * (corner + Tensor<1, 2>(p.corners[(i + n - 1) % n]));
+          const Tensor<1, 2> corner(p.corners[i]),
+              after  = .5 * (corner + Tensor<1, 2>(p.corners[(i + 1) % n])),
+              before = .5 * (corner + Tensor<1, 2>(p.corners[(i + n - 1) % n]));
           add_patch(figure, s, s, [&](const double a, const double b) {
-            return Point<2>((1. - a) * ((1. - b) * corner + b * before) + a * ((1. - b) * after + b * centre));
+            return Point<2>((1. - a) * ((1. - b) * corner + b * before) +
+                            a * ((1. - b) * after + b * centre));
           });
         }
       ShapedCells result = draw_out(figure, p, along, grading);
@@ -297,10 +303,12 @@ namespace Signorini
     // Number of cells from the centre on, up to a factor, and its inverse.
     const auto number = [&](const double t) {
       const double distance = std::abs(t - centre);
-      return std::copysign(slope * distance < 1e-8 ? distance : std::log1p(slope * distance) / slope, t - centre);
+      return std::copysign(slope * distance < 1e-8 ? distance : std::log1p(slope * distance) / slope,
+                           t - centre);
     };
     const auto place = [&](const double m) {
-      const double distance = slope * std::abs(m) < 1e-8 ? std::abs(m) : std::expm1(slope * std::abs(m)) / slope;
+      const double distance =
+          slope * std::abs(m) < 1e-8 ? std::abs(m) : std::expm1(slope * std::abs(m)) / slope;
       return centre + std::copysign(distance, m);
     };
     const double        low = number(0.), high = number(1.);

@@ -19,10 +19,10 @@ namespace Signorini
   /// that vanish on the boundaries, the first that fits counts.
   struct ShapedCells
   {
-    std::vector<HexahedronCorners>                                                           cells;
-    double                                                                                   size;
+    std::vector<HexahedronCorners>                                                       cells;
+    double                                                                               size;
     std::vector<std::pair<std::string, std::function<double(const dealii::Point<3> &)>>> boundaries;
-    std::vector<CurvedBoundary>                                                              curved;
+    std::vector<CurvedBoundary>                                                          curved;
   };
 
   /// Whether a kind is one of those.

@@ -122,7 +122,8 @@ namespace Signorini
       if (grading.boundary == names[c][0] || grading.boundary == names[c][1])
         return graded_places(p.divisions[c], grading.boundary == names[c][0] ? 0. : 1., grading.ratio);
       const double at = (grading.point[c] - p.lower_corner[c]) / (p.upper_corner[c] - p.lower_corner[c]);
-      return graded_places(p.divisions[c], std::clamp(at, 0., 1.), grading.boundary.empty() ? grading.ratio : 1.);
+      return graded_places(p.divisions[c], std::clamp(at, 0., 1.),
+                           grading.boundary.empty() ? grading.ratio : 1.);
     }
 
     void check_grading_of_block(const MeshGrading &grading)

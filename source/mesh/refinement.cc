@@ -14,23 +14,28 @@ namespace Signorini
 
   void RefinementParameters::add_parameters(ParameterHandler &prm)
   {
-    prm.add_parameter("Initial global levels", initial_global, "Global refinements before the first cycle, of bodies without Initial levels of their own.",
-                      Patterns::Integer(0, 20));
+    prm.add_parameter(
+        "Initial global levels", initial_global,
+        "Global refinements before the first cycle, of bodies without Initial levels of their own.",
+        Patterns::Integer(0, 20));
     prm.add_parameter("Global cycles", global_cycles,
-                      "Cycles, each with one global refinement, after the first one.", Patterns::Integer(0, 20));
+                      "Cycles, each with one global refinement, after the first one.",
+                      Patterns::Integer(0, 20));
     prm.declare_entry(
         "Regions", "", Patterns::Anything(),
         "Balls and boxes with the number of levels their cells are refined beyond the global levels, one "
-        "level per cycle: \"ball: (x, y, z), radius, levels; box: (x, y, z), (x, y, z), levels; ...\"; with the "
+        "level per cycle: \"ball: (x, y, z), radius, levels; box: (x, y, z), (x, y, z), levels; ...\"; with "
+        "the "
         "name of a body in front, \"punch: ball: (x, y, z), radius, levels\", only cells of this body.");
     prm.add_action("Regions", [this](const std::string &text) { regions = parse_regions(text); });
     prm.add_parameter("Adaptive cycles", adaptive_cycles,
                       "Cycles, after the regions have been worked through, that refine where the residual "
                       "error indicator is large.",
                       Patterns::Integer(0, 100));
-    add_choice(prm, "Marking", marking, {{Marking::error, "error"}, {Marking::cells, "cells"}},
-               "What an adaptive cycle refines: the cells with the largest indicators that have the "
-               "marking fraction of the (squared) error together, or that fraction of all cells.");
+    add_choice(
+        prm, "Marking", marking, {{Marking::error, "error"}, {Marking::cells, "cells"}},
+        "What an adaptive cycle refines. error: the cells with the largest indicators that have the marking "
+        "fraction of the (squared) error together. cells: that fraction of all cells.");
     prm.add_parameter("Marking fraction", marking_fraction, "Share of the error or of the cells.",
                       Patterns::Double(0., 1.));
     prm.add_parameter(
@@ -88,8 +93,8 @@ namespace Signorini
     for (const auto &[first, entry] : split_named_entries(text, "Refinement/Regions"))
       if (const std::size_t colon = entry.find(':'); colon != std::string::npos)
         {
-          regions.push_back(
-              parse_region(Utilities::trim(entry.substr(0, colon)), Utilities::trim(entry.substr(colon + 1))));
+          regions.push_back(parse_region(Utilities::trim(entry.substr(0, colon)),
+                                         Utilities::trim(entry.substr(colon + 1))));
           regions.back().body = first;
         }
       else
@@ -152,10 +157,10 @@ namespace Signorini
               low[d]  = std::min(low[d], space.position(node)[d]);
               high[d] = std::max(high[d], space.position(node)[d]);
             }
-        const NodalSpace::Cell &cell    = space.cells()[c];
-        const unsigned int      b       = bodies.body_of_material(cell.material);
-        const unsigned int      initial = b < parameters.initial_of_body.size() ? parameters.initial_of_body[b] :
-                                                                                  parameters.initial_global;
+        const NodalSpace::Cell &cell = space.cells()[c];
+        const unsigned int      b    = bodies.body_of_material(cell.material);
+        const unsigned int      initial =
+            b < parameters.initial_of_body.size() ? parameters.initial_of_body[b] : parameters.initial_global;
         for (const RefinementRegion &region : parameters.regions)
           if ((region.body.empty() || region.body == bodies.body_name(b)) &&
               cell.level < initial + std::min(cycle, parameters.global_cycles + region.levels) &&

@@ -54,10 +54,11 @@ namespace Signorini
           out << "the surfaces are separated, there is no contact force\n";
           return;
         }
-      out << "force " << pair.force.norm() << " on " << pair.nonmortar << ", " << text(pair.force, pair.force.norm());
+      out << "force " << pair.force.norm() << " on " << pair.nonmortar << ", "
+          << text(pair.force, pair.force.norm());
       if (pair.contact_area > 0.)
-        out << "\n  contact area " << pair.contact_area << ", largest pressure " << pair.max_pressure << " at "
-            << text(pair.max_pressure_at);
+        out << "\n  contact area " << pair.contact_area << ", largest pressure " << pair.max_pressure
+            << " at " << text(pair.max_pressure_at);
       out << '\n';
     }
 
@@ -110,8 +111,8 @@ namespace Signorini
       if (pair.slip_in_faces > rule.slip_in_faces)
         {
           std::ostringstream line;
-          line << std::setprecision(2) << "pair " << pair.name << ": the surfaces slide by " << pair.slip << ", "
-               << pair.slip_in_faces
+          line << std::setprecision(2) << "pair " << pair.name << ": the surfaces slide by " << pair.slip
+               << ", " << pair.slip_in_faces
                << " widths of the faces there, and the gap is that of the points that face each other at the "
                   "beginning.";
           lines.push_back(line.str());
@@ -123,7 +124,7 @@ namespace Signorini
 
   void print_final_words(std::ostream &out, const Results &results)
   {
-    const auto flags = out.flags();
+    const auto flags  = out.flags();
     const auto digits = out.precision(5);
     for (const BodyResult &body : results.bodies)
       print_body(out, body);

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <iomanip>
 #include <sstream>
 
@@ -29,9 +30,30 @@ namespace Signorini
 
 
 
+  namespace
+  {
+    /// mpirun gives its processes terminals of their own, wherever its own output goes. It is their parent on
+    /// this computer.
+    bool launcher_has_terminal()
+    {
+      const bool is_launched =
+          std::getenv("OMPI_COMM_WORLD_SIZE") != nullptr || std::getenv("PMI_SIZE") != nullptr;
+      if (!is_launched)
+        return true;
+      char              target[64] = "";
+      const std::string link       = "/proc/" + std::to_string(getppid()) + "/fd/1";
+      if (readlink(link.c_str(), target, sizeof(target) - 1) <= 0)
+        return false;
+      const std::string name = target;
+      return name.compare(0, 8, "/dev/pts") == 0 || name.compare(0, 8, "/dev/tty") == 0;
+    }
+  } // namespace
+
+
+
   bool Progress::wanted(const bool is_root, const unsigned int verbosity)
   {
-    return is_root && verbosity > 0 && isatty(STDOUT_FILENO) == 1;
+    return is_root && verbosity > 0 && isatty(STDOUT_FILENO) == 1 && launcher_has_terminal();
   }
 
 
@@ -65,8 +87,8 @@ namespace Signorini
         const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
         const double                        left    = elapsed.count() * std::max(0., all - done) / done;
         text << "   about "
-             << (left < 100. ? std::to_string(std::lround(left)) + " s" :
-                               std::to_string(std::lround(left / 60.)) + " min")
+             << (left < 100. ? std::to_string(std::lround(left)) + " s"
+                             : std::to_string(std::lround(left / 60.)) + " min")
              << " left";
       }
     dealii::Utilities::System::MemoryStats memory;

@@ -212,8 +212,9 @@ namespace Signorini
     bool is_on_plateau(const std::vector<double> &history)
     {
       const std::size_t n = PlateauRule().patience;
-      return history.size() > n && *std::min_element(history.end() - static_cast<long>(n), history.end()) >=
-                                       *std::min_element(history.begin(), history.end() - static_cast<long>(n));
+      return history.size() > n &&
+             *std::min_element(history.end() - static_cast<long>(n), history.end()) >=
+                 *std::min_element(history.begin(), history.end() - static_cast<long>(n));
     }
   } // namespace
 
@@ -221,7 +222,8 @@ namespace Signorini
 
   bool ObstacleSolver::goes_on(const ConvergenceReport &report) const
   {
-    return report.iterations < parameters.max_iterations && !report.converged && !is_on_plateau(report.history);
+    return report.iterations < parameters.max_iterations && !report.converged &&
+           !is_on_plateau(report.history);
   }
 
 

@@ -63,9 +63,10 @@ namespace Signorini
         new_residual -= product;
         minimize_in_subspace();
         check(v, correction);
-        keeps_active  = contact.active() == active;
-        cut_off       = correct();
-        stays_blocked = is_blocked;
+        keeps_active = contact.active() == active;
+        cut_off      = correct();
+        // A body that is still on its way to contacts is not in the way of itself.
+        stays_blocked = is_blocked && !motions.is_driven();
       }
     if (searched)
       check(v, correction);

@@ -319,6 +319,35 @@ def deck_steps(d):
 
 
 @in_folder
+def deck_rigid(d):
+    """A stamp: RIGID BODY, couplings, and equations that make nodes move alike."""
+    text, upper, lower = two_blocks('C3D8', (2, 2, 2), (3, 3, 2), None)
+    text = text.replace('1000., 0.3', '1000., 0.').replace('*STEP', '*NODE\n900, 0.4, 0.5, 2.\n901, 0., 0., 3.\n*STEP', 1)
+    top = upper.plane(2, 1)
+    equations = '*EQUATION\n' + ''.join(f'2\n{n}, {c}, 1., 900, {c}, -1.\n' for n in top for c in (1, 2, 3))
+    upright = ''.join(f'2\n{n}, 3, 1., {top[0]}, 3, -1.\n' for n in top[1:])
+    push, held = '*CLOAD\n900, 3, -5.\n', '*BOUNDARY\n900, 4, 6\n'
+    for words, load in (('*RIGID BODY, NSET=TOP, REF NODE=900\n', push + held), ('*RIGID BODY, NSET=TOP, REF NODE=900, ROT NODE=901\n', push + '*BOUNDARY\n901, 1, 3\n'),
+                        ('*KINEMATIC COUPLING, REF NODE=900\nTOP, 1, 3\n', push + held), ('*COUPLING, CONSTRAINT NAME=c, REF NODE=900, SURFACE=STOP\n*KINEMATIC\n', push + held),
+                        (equations, push), ('*EQUATION\n' + upright, f'*CLOAD\n{top[0]}, 3, -5.\n')):
+        s, (_, _, fields) = d.solve(text.replace('*STEP', words + '*STEP', 1).replace('*STATIC\n', '*STATIC\n' + load))
+        constant_pressure(s, 5., 1e-8)
+        near(s['pairs'][0]['load'], 5., 1e-10, 'load')
+        near(fields['DISP'][top[0]][2], -.01, 1e-5, 'displacement of the stamp')
+    check(any('EQUATION: nodes that move alike' in note for note in s['notes']), f'notes: {s["notes"]}')
+    # By a displacement of the reference node, and an eccentric force that may turn the stamp.
+    s, _ = d.solve(text.replace('*STEP', '*RIGID BODY, NSET=TOP, REF NODE=900\n*STEP', 1).replace('*STATIC\n', '*STATIC\n*BOUNDARY\n900, 3, 3, -0.01\n900, 4, 6\n'))
+    constant_pressure(s, 5., 1e-8)
+    free = text.replace('X0, 1, 1\nY0, 2, 2\n', 'XL, 1, 1\nYL, 2, 2\n').replace('*BOUNDARY', nset('XL', lower.plane(0, 0)) + nset('YL', lower.plane(1, 0)) + '*BOUNDARY', 1)
+    for moment, x in (('', .4), ('900, 5, -0.25\n', .35)):
+        s, _ = d.solve(free.replace('*STEP', '*RIGID BODY, NSET=TOP, REF NODE=900\n*STEP', 1).replace(
+            '*STATIC\n', '*STATIC\n' + push + moment + '*BOUNDARY\n900, 1, 2\n900, 6, 6\n'))
+        near(s['pairs'][0]['load'], 5., 1e-10, 'load')
+        near(s['pairs'][0]['moment'][0], 5 * .5, 1e-8, 'moment about x')
+        near(s['pairs'][0]['moment'][1], -5 * x, 1e-8, 'moment about y')
+
+
+@in_folder
 def deck_adjust(d):
     """Dependent nodes with a gap, or an overlap, are moved onto the other surface without strain."""
     for gap, moved in ((.003, True), (-.003, True), (.02, False)):
@@ -380,7 +409,10 @@ def deck_refused(d):
     equation = f'*EQUATION\n2\n{top[0]}, 1, 1., {top[1]}, 1, -1.\n*STEP'
     refused('*STEP', equation, 'EQUATION')
     refused('*STEP', f'*MPC\nPLANE, {top[0]}, {top[1]}\n*STEP', 'MPC')
-    refused('*STEP', f'*RIGID BODY, NSET=TOP, REF NODE={top[0]}\n*STEP', 'RIGID BODY')
+    refused('*STEP', f'*RIGID BODY, ELSET=Upper, REF NODE={top[0]}\n*STEP', 'RIGID BODY')
+    refused('*STEP', nset('EDGE', top[:2]) + f'*RIGID BODY, NSET=EDGE, REF NODE={top[0]}\n*STEP', 'RIGID BODY', 'whole faces')
+    refused('*STEP', f'*EQUATION\n3\n{top[0]}, 1, 1., {top[1]}, 1, -1., {top[2]}, 1, 2.\n*STEP', 'EQUATION', 'alike')
+    refused('*STEP', f'*KINEMATIC COUPLING, REF NODE={top[0]}\nTOP, 3, 3\n*STEP', 'KINEMATIC COUPLING', 'all directions')
     refused('*STEP', f'*PRE-TENSION SECTION, SURFACE=STOP, NODE={top[0]}\n0., 0., 1.\n*STEP', 'PRE-TENSION SECTION')
     refused('*STEP', '*MODEL CHANGE, TYPE=CONTACT PAIR, REMOVE\nSU, SL\n*STEP', 'MODEL CHANGE')
     refused('*STEP', '*CLEARANCE, MASTER=SL, SLAVE=SU, VALUE=0.1\n*STEP', 'CLEARANCE')
@@ -414,8 +446,7 @@ def deck_refused(d):
                                                'DASHPOT', 'MASS', 'GAP', 'CONNECTOR SECTION']),
                            ('STATIC', ['DYNAMIC', 'FREQUENCY', 'BUCKLE', 'HEAT TRANSFER', 'COUPLED TEMPERATURE-DISPLACEMENT',
                                        'UNCOUPLED TEMPERATURE-DISPLACEMENT', 'VISCO', 'MODAL DYNAMIC', 'STEADY STATE DYNAMICS', 'COMPLEX FREQUENCY']),
-                           ('nodes', ['EQUATION', 'MPC', 'KINEMATIC COUPLING', 'DISTRIBUTING COUPLING', 'COUPLING', 'KINEMATIC', 'DISTRIBUTING']),
-                           ('rigid bodies', ['RIGID BODY']), ('pretension', ['PRE-TENSION SECTION']), ('cyclic', ['CYCLIC SYMMETRY MODEL']),
+                           ('nodes', ['MPC', 'DISTRIBUTING COUPLING', 'DISTRIBUTING']), ('pretension', ['PRE-TENSION SECTION']), ('cyclic', ['CYCLIC SYMMETRY MODEL']),
                            ('CONTACT PAIR', ['CONTACT']), ('are those of the nodes', ['CLEARANCE', 'CONTACT INTERFERENCE']), ('frictionless', ['CHANGE FRICTION']),
                            ('the same in all steps', ['CHANGE CONTACT TYPE', 'MODEL CHANGE']), ('heat', ['GAP CONDUCTANCE']), ('held', ['INERTIA RELIEF'])):
         for keyword in keywords:

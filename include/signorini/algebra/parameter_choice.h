@@ -14,7 +14,8 @@
 
 namespace Signorini
 {
-  /// A word as it is compared with others: in small letters, without blanks around it, "auto" for "automatic".
+  /// A word as it is compared with others: in small letters, without blanks around it, "auto" for
+  /// "automatic".
   inline std::string plain_word(std::string word)
   {
     const auto is_blank = [](const unsigned char c) { return std::isspace(c) != 0; };
@@ -76,7 +77,8 @@ namespace Signorini
         selection += (selection.empty() ? "" : "|") + entry.second;
         list += (list.empty() ? "" : ", ") + entry.second;
       }
-    prm.declare_entry(name, names.at(value), WordPattern(selection), documentation + " One of: " + list + ".");
+    prm.declare_entry(name, names.at(value), WordPattern(selection),
+                      documentation + " One of: " + list + ".");
     prm.add_action(name, [&value, names](const std::string &text) {
       for (const auto &entry : names)
         if (plain_word(entry.second) == plain_word(text))

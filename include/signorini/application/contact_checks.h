@@ -32,8 +32,8 @@ namespace Signorini
   /// the matrix.
   void refuse_dense_coupling(const CoupledPairs &coupled);
 
-  /// The smallest distance of two surfaces: its length along the normal, negative where they overlap, and where
-  /// that is on the nonmortar side.
+  /// The smallest distance of two surfaces: its length along the normal, negative where they overlap, and
+  /// where that is on the nonmortar side.
   struct SmallestGap
   {
     double           value = std::numeric_limits<double>::max();

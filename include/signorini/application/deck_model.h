@@ -93,8 +93,10 @@ namespace Signorini
   {
     /// Where two overlap, the later one counts.
     std::vector<DeckBoundary> boundaries;
-    /// By node and direction: force.
+    /// By node and direction: force; directions 3 to 5 of reference nodes are moments.
     std::map<std::pair<unsigned int, unsigned int>, DeckLoad> forces;
+    /// By reference node and axis: rotation (radian).
+    std::map<std::pair<unsigned int, unsigned int>, double> rotations;
     /// By element and side: pressure.
     std::map<std::pair<unsigned int, unsigned int>, DeckLoad> pressures;
     std::vector<DeckSurfaceLoad>                              surface_loads;
@@ -118,6 +120,24 @@ namespace Signorini
     std::optional<double>     adjust;
     std::vector<unsigned int> adjusted_nodes;
     DeckPlace                 place;
+  };
+
+  /// Nodes that move as a rigid body with a reference node.
+  struct DeckRigid
+  {
+    static constexpr unsigned int none = Deck::none;
+
+    /// The keyword that makes it.
+    std::string keyword;
+    /// The nodes, or else the surface.
+    std::vector<unsigned int> nodes;
+    const DeckSurface        *surface = nullptr;
+    /// The node whose displacements, forces, and (directions 4 to 6) rotations and moments are those of the
+    /// body; the node whose directions 1 to 3 are its rotations.
+    unsigned int reference = none, rotation = none;
+    /// Whether it does not turn.
+    bool      translates_only = false;
+    DeckPlace place;
   };
 
   /// What a deck says beside its mesh, as plain data. What differs from the deck is in the remarks. Errors:
@@ -156,6 +176,12 @@ namespace Signorini
     const std::vector<DeckPair> &pairs() const
     {
       return pair_list;
+    }
+
+    /// RIGID BODY, couplings, equations.
+    const std::vector<DeckRigid> &rigid() const
+    {
+      return rigid_list;
     }
 
     /// At the end of each step.
@@ -208,6 +234,7 @@ namespace Signorini
     std::vector<DeckMaterial>            material_list;
     std::vector<unsigned int>            element_material;
     std::vector<DeckPair>                pair_list;
+    std::vector<DeckRigid>               rigid_list;
     std::vector<DeckState>               step_list;
     std::map<unsigned int, unsigned int> node_frame;
     std::vector<DeckFrame>               frame_list;

@@ -76,11 +76,12 @@ namespace Signorini
   /// -height <= z <= 0 (boundaries "side", "top", "bottom"). A block has "left", "right", "front", "back",
   /// "bottom", "top" (x, y, z from low to high).
   ///
-  /// Tubes, half cylinders and prisms have the axis z and lie in 0 <= z <= height (boundaries "start", "end").
-  /// Tubes and annuli (tubes of one layer of cells) have "inner" and "outer"; the half of one is y >= 0
-  /// ("symmetry y"), a quarter also x >= 0 ("symmetry x"). A half cylinder is the half y <= 0 with "outer" and
-  /// "flat", the half of one also x >= 0 ("symmetry x"). The sides of a prism are "side 1" (from the first
-  /// corner to the second), "side 2", ... Errors: InputError for sizes that make no sense.
+  /// Tubes, half cylinders and prisms have the axis z and lie in 0 <= z <= height (boundaries "start",
+  /// "end"). Tubes and annuli (tubes of one layer of cells) have "inner" and "outer"; the half of one is y >=
+  /// 0
+  /// ("symmetry y"), a quarter also x >= 0 ("symmetry x"). A half cylinder is the half y <= 0 with "outer"
+  /// and "flat", the half of one also x >= 0 ("symmetry x"). The sides of a prism are "side 1" (from the
+  /// first corner to the second), "side 2", ... Errors: InputError for sizes that make no sense.
   GeneratedMesh generate_mesh(const GeneratedMeshParameters &parameters);
 } // namespace Signorini
 

@@ -29,8 +29,8 @@ namespace Signorini
     bool touches(const dealii::Point<3> &lower_corner, const dealii::Point<3> &upper_corner) const;
   };
 
-  /// "ball: (x, y, z), radius, levels; box: (x, y, z), (x, y, z), levels; BODY: ball: ...". Errors: InputError for
-  /// regions that cannot be understood.
+  /// "ball: (x, y, z), radius, levels; box: (x, y, z), (x, y, z), levels; BODY: ball: ...". Errors:
+  /// InputError for regions that cannot be understood.
   std::vector<RefinementRegion> parse_regions(const std::string &text);
 
   /// Prescribed refinement, worked through one level per cycle of the nested iteration.

@@ -60,7 +60,12 @@ namespace Signorini
 
     void find_stretched(std::vector<bool> &is_stretched, std::vector<double> &most_negative) const;
     void find_blocks();
-    void find_patches();
+    /// Whether an entry of a row couples two nodes strongly.
+    bool is_strong(const unsigned int row, const std::size_t entry,
+                   const std::vector<double> &most_negative) const;
+    /// Strong couplings of a node to others in a list, on the mean.
+    double mean_couplings(const std::vector<unsigned int> &rows, const std::vector<double> &most_negative);
+    void   find_patches();
     /// The nodes of a patch, from one node on.
     std::vector<unsigned int> grow_patch(const unsigned int start, const std::vector<double> &diagonal) const;
     /// The first one in which a row of a block is swept: with a node that other ranks see it waits for the

@@ -53,7 +53,7 @@ TEST(DeckProblem, HasBodiesPairsAndLoads)
   const DeckProblem deck =
       problem_of(cubes(contact + "*BOUNDARY\nbase, ENCASTRE\n",
                        "*BOUNDARY\ntop, 1, 2\n*CLOAD\n15, 3, -1.\n15, 1, 2.\n16, 3, -3.\n*DLOAD\n"
-                       "high, P2, 4.\n, GRAV, 10., 0., 0., -2.\n"),
+                       "high, P2, 4.\nhigh, GRAV, 10., 0., 0., -2.\n"),
                  {false, {}});
   ASSERT_EQ(deck.problem.bodies.size(), 2u);
   const BodyProblem &low = deck.problem.bodies[0], &high = deck.problem.bodies[1];
@@ -103,7 +103,7 @@ TEST(DeckProblem, LaterStepsReplaceAndAdd)
     return DeckModel(file.path, {}).steps().back();
   };
   const std::string next  = "*END STEP\n*STEP\n*STATIC\n1., 3.\n";
-  const auto        force = [](const DeckState &s) { return s.forces.at({14, 2}).value; };
+  const auto        force = [](const DeckState &s) { return s.forces.at({12, 2}).value; };
   // In the same step forces add up, in a later one they are replaced; amplitudes at the end of the step.
   EXPECT_EQ(force(state("*CLOAD\n15, 3, 1.\n15, 3, 2.\n")), 3.);
   EXPECT_EQ(force(state("*CLOAD\n15, 3, 1.\n" + next + "*CLOAD\n15, 3, 5.\n")), 5.);

@@ -121,7 +121,8 @@ TEST(Refinement, RegionsOfOneBodyLeaveTheOthers)
     for (const NodalSpace::Cell &cell : space.cells())
       if (cell.is_owned)
         ++n[bodies.body_of_material(cell.material)];
-    return std::make_pair(Utilities::MPI::sum(n[0], MPI_COMM_WORLD), Utilities::MPI::sum(n[1], MPI_COMM_WORLD));
+    return std::make_pair(Utilities::MPI::sum(n[0], MPI_COMM_WORLD),
+                                Utilities::MPI::sum(n[1], MPI_COMM_WORLD));
   };
   const auto refine = [&](const auto &mark) {
     const NodalSpace space(MPI_COMM_WORLD, bodies.mesh());

@@ -350,8 +350,8 @@ TEST(GeneratedMesh, NewVerticesLieOnTheTrueGeometry)
             for (const auto &face : cell->face_iterators())
               if (face->at_boundary() && ids.count(face->boundary_id()) > 0)
                 for (unsigned int v = 0; v < 4; ++v)
-                  EXPECT_NEAR(std::hypot(face->vertex(v)[0], face->vertex(v)[2] - 1.), name == "outer" ? 2. : 1.,
-                              1e-12)
+                  EXPECT_NEAR(std::hypot(face->vertex(v)[0], face->vertex(v)[2] - 1.),
+                              name == "outer" ? 2. : 1., 1e-12)
                       << kind;
         }
     }
@@ -382,19 +382,21 @@ TEST(GeneratedMesh, DirectionsNameBoundariesWhereTheBodyIs)
 
 TEST(GeneratedMesh, GradingHasTheRatioAndKeepsTheShape)
 {
-  const std::vector<std::pair<const char *, const char *>> kinds = {
-      {"block", "(0, 0, 3)"},           {"block", "top"},
-      {"tube", "outer"},                {"quarter of tube", "(1, 0, 0)"},
-      {"half cylinder", "(0, -2, 0)"},  {"half of half cylinder", "outer"},
-      {"prism", "(0, 0, 0)"}};
+  const std::vector<std::pair<const char *, const char *>> kinds = {{"block", "(0, 0, 3)"},
+                                                                    {"block", "top"},
+                                                                    {"tube", "outer"},
+                                                                    {"quarter of tube", "(1, 0, 0)"},
+                                                                    {"half cylinder", "(0, -2, 0)"},
+                                                                    {"half of half cylinder", "outer"},
+                                                                    {"prism", "(0, 0, 0)"}};
   for (const auto &[kind, towards] : kinds)
     {
-      BodyParameters p      = body(kind);
-      p.divisions           = {8, 8, 8};
-      p.round_divisions     = {8, 16, 2};
+      BodyParameters p  = body(kind);
+      p.divisions       = {8, 8, 8};
+      p.round_divisions = {8, 16, 2};
       const Bodies     ungraded(MPI_COMM_WORLD, define_bodies(MPI_COMM_WORLD, {p}, "."));
       const NodalSpace even(MPI_COMM_WORLD, ungraded.mesh());
-      p.grading             = std::string(towards) + ", 10";
+      p.grading = std::string(towards) + ", 10";
       const Bodies     graded(MPI_COMM_WORLD, define_bodies(MPI_COMM_WORLD, {p}, "."));
       const NodalSpace space(MPI_COMM_WORLD, graded.mesh());
       EXPECT_NEAR(volume(space) / volume(even), 1., .02) << kind;
