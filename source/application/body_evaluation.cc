@@ -80,8 +80,12 @@ namespace Signorini
     Vector         nothing;
     d.partition().reinit(nothing);
     nothing.update_ghost_values();
+    // Strains without stress balance themselves: what is left of their forces is rounding.
+    Loads forces_only = loads;
+    forces_only.eigenstrains.clear();
+    forces_only.pretensions.clear();
     // A u - f without u.
-    const Vector forces = physical_residual(model.bodies(), d.nodal(), d.partition(), loads, nothing);
+    const Vector forces = physical_residual(model.bodies(), d.nodal(), d.partition(), forces_only, nothing);
     const std::vector<unsigned int> body = bodies_of_nodes(d, model.bodies());
     std::vector<Resultant>          result(model.bodies().n_bodies());
     for (unsigned int i = 0; i < d.partition().n_owned(); ++i)

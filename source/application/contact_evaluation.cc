@@ -308,6 +308,25 @@ namespace Signorini
 
 
 
+  namespace
+  {
+    /// Those of strains without stress, which may balance themselves altogether.
+    Vector eigenstrain_forces(const ContactModel &model, const Discretization &d)
+    {
+      Loads strains;
+      strains.volume_forces.resize(model.bodies().n_bodies());
+      strains.time         = model.loads().time;
+      strains.eigenstrains = model.loads().eigenstrains;
+      strains.pretensions  = model.loads().pretensions;
+      Vector nothing;
+      d.partition().reinit(nothing);
+      nothing.update_ghost_values();
+      return physical_residual(model.bodies(), d.nodal(), d.partition(), strains, nothing);
+    }
+  } // namespace
+
+
+
   Equilibrium evaluate_equilibrium(const ContactModel &model, const Discretization &d,
                                    const ContactSolution &solution)
   {
@@ -316,6 +335,9 @@ namespace Signorini
         physical_residual(model.bodies(), d.nodal(), d.partition(), model.loads(), solution.displacement);
     Equilibrium result;
     result.largest_nodal_force                   = residual.l2_norm();
+    const Vector initial = model.loads().has_eigenstrains() ? eigenstrain_forces(model, d) : Vector();
+    if (model.loads().has_eigenstrains())
+      result.largest_nodal_force = std::max(result.largest_nodal_force, initial.l2_norm());
     const std::vector<unsigned int> body_of_node = bodies_of_nodes(d, model.bodies());
     std::vector<BodyBalance>        balance(model.bodies().n_bodies());
     const auto                      position = [&](const unsigned int i) -> const Point<3>                      &{
@@ -323,7 +345,12 @@ namespace Signorini
     };
     for (unsigned int i = 0; i < d.partition().n_owned(); ++i)
       if (body_of_node[i] != numbers::invalid_unsigned_int)
-        balance[body_of_node[i]].add_scale(position(i), nodal(residual, i));
+        {
+          Vector3 force = nodal(residual, i);
+          if (model.loads().has_eigenstrains() && nodal(initial, i).norm() > force.norm())
+            force = nodal(initial, i);
+          balance[body_of_node[i]].add_scale(position(i), force);
+        }
     subtract_contact_forces(residual, d, solution.stress);
     RestOfForces forces(d, residual, model.loads().dirichlet.size());
     if (d.dirichlet().rigid != nullptr)

@@ -6,6 +6,7 @@
 #include <signorini/application/contact_solve.h>
 #include <signorini/application/free_bodies.h>
 #include <signorini/application/journal.h>
+#include <signorini/application/pretension.h>
 #include <signorini/application/ties.h>
 
 #include <iomanip>
@@ -344,7 +345,7 @@ namespace Signorini
 
 
 
-  ContactSolution solve_contact(const ContactModel &model, const Discretization &d, CoarserSpaces &coarser,
+  ContactSolution solve_contact(ContactModel &model, const Discretization &d, CoarserSpaces &coarser,
                                 const NestedStart *const start, const SolveParameters &parameters,
                                 Journal &journal)
   {
@@ -354,8 +355,9 @@ namespace Signorini
     const bool      has_tied_part = d.constrained->free_parts.has_tied_part;
     SolveParameters how_to        = parameters;
     how_to.compare_linear         = parameters.compare_linear && !has_tied_part && !d.pairs.empty();
+    foretell_pretension(model, d);
     ContactSolver   solver(model, d, coarser, start, how_to, journal);
-    ContactSolution result = solver.solve(d);
+    ContactSolution result = solve_with_pretension(model, solver, d, journal);
     if (parameters.measure_sweeps)
       result.sweeps = solver.measure();
     if (parameters.compare_linear && has_tied_part)

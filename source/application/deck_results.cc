@@ -44,9 +44,7 @@ namespace Signorini
       for (const NodeIndex node : space.relevant())
         for (unsigned int c = 0; c < dim; ++c)
           u.push_back(solution.displacement.local_element(dim * d.partition().to_local(node) + c));
-      const auto stress = nodal_stress(space, u, [&](const types::material_id id) -> const Material & {
-        return model.bodies().material(id);
-      });
+      const auto stress = nodal_stress(space, u, model.bodies(), model.loads());
       std::vector<NodeRow> rows;
       for (const NodeIndex node : space.owned())
         {

@@ -24,6 +24,7 @@ signorini_add_layer(application
   load_steps.cc
   nested_iteration.cc
   parameters.cc
+  pretension.cc
   problem_description.cc
   ties.cc
   write_results.cc

@@ -4,6 +4,7 @@
 #include <signorini/algebra/input_error.h>
 #include <signorini/application/journal.h>
 #include <signorini/application/load_steps.h>
+#include <signorini/application/pretension.h>
 #include <signorini/mesh/expression.h>
 
 #include <deal.II/base/utilities.h>
@@ -58,6 +59,7 @@ namespace Signorini
       result.pairs                       = evaluation.pairs;
       result.boundaries                  = evaluation.equilibrium.reactions;
       result.probes                      = evaluate_probes(model, d, solution, probes);
+      result.pretensions                 = solution.pretensions;
       return result;
     }
 
@@ -96,6 +98,7 @@ namespace Signorini
         const Discretization &full = *last.discretization;
         discretization             = std::make_unique<const Discretization>(
             full, std::make_shared<const ConstrainedSpace>(*full.constrained, model));
+        foretell_pretension(model, *discretization);
         const Vector start = foretell(time);
         if (solver == nullptr)
           {
@@ -107,7 +110,7 @@ namespace Signorini
           }
         else
           solver->change_loads(*discretization, start);
-        ContactSolution solution = solver->solve(*discretization);
+        ContactSolution solution = solve_with_pretension(model, *solver, *discretization, journal);
         before.swap(previous);
         previous      = solution.displacement;
         time_before   = time_previous;
@@ -157,7 +160,8 @@ namespace Signorini
     NestedSolution last = run_nested_iteration(model, parameters, journal);
     if (times.empty() || !last.results.converged)
       return last;
-    std::vector<StepResult> steps;
+    std::vector<StepResult>       steps;
+    const std::vector<Pretension> tightened = model.pretensions();
     {
       LoadSteps series(model, parameters, last, journal);
       for (std::size_t k = 0; k + 1 < times.size() && last.results.converged; ++k)
@@ -173,6 +177,7 @@ namespace Signorini
         }
     }
     model.set_time(times.back());
+    model.pretensions() = tightened;
     steps.push_back(step_result(times.back(), model, *last.discretization, last.solution, parameters.probes));
     journal.print(describe(steps.back()));
     observe(static_cast<unsigned int>(times.size() - 1), *last.discretization, last.solution);

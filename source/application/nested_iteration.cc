@@ -287,6 +287,7 @@ namespace Signorini
         results.boundaries          = std::move(evaluation.equilibrium.reactions);
         results.largest_nodal_force = evaluation.equilibrium.largest_nodal_force;
         results.pairs               = std::move(evaluation.pairs);
+        results.pretensions         = last.solution.pretensions;
         results.pressure            = std::move(evaluation.pressure);
       }
 

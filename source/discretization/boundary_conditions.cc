@@ -58,6 +58,8 @@ namespace Signorini
                            force.traction, force.pressure, force.total_force});
     volume_forces.resize(std::max<std::size_t>(volume_forces.size(), body + 1));
     volume_forces[body] = definition.volume_force;
+    add_initial_strains(bodies, body, definition);
+    add_pretensions(bodies, body, definition);
   }
 
 

@@ -25,6 +25,8 @@ namespace Signorini
       dealii::ArrayView<const NodeIndex> vertices;
       std::array<double, 576>            stiffness;
       std::array<Vector3, 8>             load;
+      /// ½ eps0 : C : eps0 over the cell.
+      double initial_energy = 0.;
 
       unsigned int n() const
       {
@@ -49,6 +51,29 @@ namespace Signorini
           const Vector3                force = forces.force(traction, point.position, point.area);
           for (unsigned int v = 0; v < shape.n_corners(); ++v)
             data.load[shape.vertex(v)] += point.shape[v] * force;
+        }
+    }
+
+
+
+    /// Forces and energy of the strain without stress, in the strains that the stiffness is made of.
+    void add_eigenstrain(CellData &data, const Material &material, const CellEigenstrain &eigenstrain)
+    {
+      data.initial_energy = 0.;
+      if (eigenstrain.is_zero)
+        return;
+      const CellDisplacement free(data.element, material, {}, eigenstrain);
+      std::array<Vector3, 8> gradients;
+      for (unsigned int q = 0; q < data.element.n_points(); ++q)
+        {
+          const Point<3> reference = data.element.reference_point(q);
+          if (!data.element.shape_gradients(gradients, reference))
+            continue;
+          const double weight  = data.element.volume_element(q).first;
+          const Block  elastic = free.elastic_gradient(reference), sigma = stress(elastic, material);
+          data.initial_energy += .5 * weight * scalar_product(sigma, elastic);
+          for (unsigned int v = 0; v < data.n(); ++v)
+            data.load[v] -= weight * (sigma * gradients[v]);
         }
     }
 
@@ -99,6 +124,8 @@ namespace Signorini
       void add_load(CellData &data, const unsigned int index) const
       {
         const auto &material = bodies.material(space.cells()[index].material);
+        if (loads.has_eigenstrains())
+          add_eigenstrain(data, material, loads.eigenstrain(space, space.cells()[index]));
         if (const VectorField &force = loads.volume_forces[material.body])
           for (unsigned int q = 0; q < data.element.n_points(); ++q)
             {
@@ -457,6 +484,7 @@ namespace Signorini
           const std::array<Vector3, 8> load   = data.load;
           const std::array<Vector3, 8> cell_u = cell_values(data, partition, u);
           subtract_stiffness(data, cell_u);
+          energy += data.initial_energy;
           // The load is now f - K u.
           for (unsigned int v = 0; v < data.n(); ++v)
             energy -= .5 * cell_u[v] * (load[v] + data.load[v]);

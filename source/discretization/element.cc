@@ -198,15 +198,17 @@ namespace Signorini
 
 
   CellDisplacement::CellDisplacement(const Element &element, const Material &material,
-                                     const std::array<Vector3, CellShape::max_vertices> &u)
+                                     const std::array<Vector3, CellShape::max_vertices> &u,
+                                     const CellEigenstrain                              &eigenstrain)
     : element(element)
     , material(material)
     , u(u)
+    , eigenstrain(eigenstrain)
   {
     // That of linear tetrahedra is constant.
     if (!material.mean_dilatation || element.n_vertices() == CellShape::tetrahedron)
       return;
-    double volume = 0., sum = 0.;
+    double volume = 0., sum = 0., free = 0.;
     Block  gradient;
     for (unsigned int q = 0; q < element.n_points(); ++q)
       if (plain_gradient(gradient, element.reference_point(q)))
@@ -214,11 +216,14 @@ namespace Signorini
           const double weight = element.volume_element(q).first;
           volume += weight;
           sum += weight * trace(gradient);
+          if (!eigenstrain.is_zero)
+            free += weight * trace(eigenstrain.value(element.shape_at_point(q)));
         }
     if (volume > 0.)
       {
         has_mean_dilatation = true;
         mean_dilatation     = sum / volume;
+        mean_of_eigenstrain = free / volume;
       }
   }
 
@@ -248,6 +253,35 @@ namespace Signorini
         for (unsigned int c = 0; c < 3; ++c)
           result[c][c] += change;
       }
+    return result;
+  }
+
+
+
+  Block CellDisplacement::elastic_gradient(const Point<3> &reference) const
+  {
+    Block result = gradient(reference);
+    if (eigenstrain.is_zero)
+      return result;
+    Block free = eigenstrain.value(element.shape_values(reference));
+    if (has_mean_dilatation)
+      {
+        const double change = (mean_of_eigenstrain - trace(free)) / 3.;
+        for (unsigned int c = 0; c < 3; ++c)
+          free[c][c] += change;
+      }
+    return result - free;
+  }
+
+
+
+  Vector3 CellDisplacement::eigenstress_divergence() const
+  {
+    Vector3                                      result;
+    std::array<Vector3, CellShape::max_vertices> g;
+    if (!eigenstrain.is_zero && element.shape_gradients(g, Point<3>(.25, .25, .25)))
+      for (unsigned int v = 0; v < element.n_vertices(); ++v)
+        result += Signorini::stress(eigenstrain.at_vertices[v], material) * g[v];
     return result;
   }
 

@@ -31,28 +31,30 @@ namespace Signorini
     {
     public:
       CellStress(const Bodies &bodies, const NodalSpace &space, const NodePartition &partition,
-                 const Vector &displacement, const NodalSpace::Cell &cell)
+                 const Loads &loads, const Vector &displacement, const NodalSpace::Cell &cell)
         : CellDisplacement(Element(space, cell), bodies.material(cell.material),
-                           cell_values(space, partition, displacement, cell))
+                           cell_values(space, partition, displacement, cell), loads.eigenstrain(space, cell))
       {
       }
 
       /// At a point in space.
       Block at_point(const Point<3> &point) const
       {
-        Point<3> reference(.25, .25, .25);
-        if (element.n_vertices() == CellShape::hexahedron && !element.invert_map(reference, point))
-          reference = Point<3>(.5, .5, .5);
+        // Everywhere the same in a tetrahedron, but for the eigenstrain.
+        const bool is_hexahedron = element.n_vertices() == CellShape::hexahedron;
+        Point<3>   reference(.25, .25, .25);
+        if ((is_hexahedron || !eigenstrain.is_zero) && !element.invert_map(reference, point))
+          reference = is_hexahedron ? Point<3>(.5, .5, .5) : Point<3>(.25, .25, .25);
         return stress(reference);
       }
 
       /// At the centre, by differences of the stress between opposite faces (exact where the stress is
-      /// quadratic in reference coordinates, as on parallelepipeds). Zero on tetrahedra.
+      /// quadratic in reference coordinates, as on parallelepipeds). On tetrahedra that of the eigenstrain.
       Vector3 divergence() const
       {
         Vector3 result;
         if (element.n_vertices() == CellShape::tetrahedron)
-          return result;
+          return -eigenstress_divergence();
         Block jacobian;
         for (unsigned int d = 0; d < dim; ++d)
           for (unsigned int v = 0; v < 8; ++v)
@@ -212,7 +214,7 @@ namespace Signorini
     const auto         &cells = space.cells();
     std::vector<double> indicator(cells.size(), 0.);
     const auto          stress_in = [&](const unsigned int cell) {
-      return CellStress(bodies, space, partition, displacement, cells[cell]);
+      return CellStress(bodies, space, partition, loads, displacement, cells[cell]);
     };
     for (unsigned int c = 0; c < cells.size(); ++c)
       if (cells[c].is_owned)

@@ -45,6 +45,26 @@ namespace Signorini
         "for tilts about these "
         "edges: rotation (0, 0, 0) excludes them.");
     prm.add_parameter("Volume force", volume_force, "Force per volume, \"(fx, fy, fz)\"; empty for none.");
+    prm.add_parameter("Temperature", temperature,
+                      "Difference to the temperature at which the body is free of stress, an expression in x, "
+                      "y, z, t.");
+    prm.add_parameter("Thermal expansion", expansion,
+                      "Coefficient of linear expansion (per degree of the temperature): 1.2e-5 for steel.");
+    prm.add_parameter("Initial strain", initial_strain,
+                      "Strain that the body has where it is free of stress, beside that of its temperature: "
+                      "\"(exx, eyy, ezz, exy, eyz, ezx)\", expressions; exy is half of the engineering shear.");
+    prm.add_parameter("Volume temperatures", volume_temperatures,
+                      "Temperatures of single physical volumes instead of that of the body, \"name: T; ...\".");
+    prm.add_parameter("Volume thermal expansions", volume_expansions,
+                      "Coefficients of expansion of single physical volumes, \"name: alpha; ...\".");
+    prm.add_parameter("Volume initial strains", volume_initial_strains,
+                      "Initial strains of single physical volumes, \"name: (exx, ...); ...\".");
+    prm.add_parameter(
+        "Pretension", pretension,
+        "Bolts: \"volume: axis (x, y, z), force F; ...\". The strain of the volume (the shank between its "
+        "ends) along the axis is found such that its section carries the force F (an expression in t). "
+        "Without such a volume in the mesh \"name: axis (x, y, z), force F, region f(x,y,z)\" takes the "
+        "cells at whose centres f is positive.");
   }
 
 
@@ -219,6 +239,8 @@ namespace Signorini
           parse_rigid(name, text, section + "Rigid, boundary \"" + name + "\""));
     if (!Utilities::trim(volume_force).empty())
       result.volume_force = parse_vector_field(volume_force, section + "Volume force");
+    parse_initial_strains(result, section);
+    parse_pretensions(result, section);
     return result;
   }
 } // namespace Signorini

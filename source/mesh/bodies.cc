@@ -92,23 +92,46 @@ namespace Signorini
   void Bodies::add_materials(const BodyDefinition &definition, Placed &placed)
   {
     const std::string section = "Body " + definition.name + "/";
-    const auto       &volumes = placed.mesh.volume_names;
-    // One for the body, and one for each volume with its own.
-    const auto add = [&](const IsotropicMaterial &material) {
-      materials.push_back({material, n_bodies() - 1, false, n_parts()});
-      return static_cast<unsigned int>(materials.size() - 1);
-    };
+    const auto       &named   = placed.mesh.volume_names;
+    volumes.push_back(named);
     check_material(definition.material, section);
-    placed.material_of_volume.assign(volumes.size(), add(definition.material));
+    std::vector<IsotropicMaterial> of_volume(named.size(), definition.material);
     for (const auto &[name, material] : definition.volume_materials)
       {
-        const auto it = std::find(volumes.begin(), volumes.end(), name);
-        if (it == volumes.end())
+        const auto it = std::find(named.begin(), named.end(), name);
+        if (it == named.end())
           throw InputError(section + "Volume materials: the mesh has no volume \"" + name + "\"; it has " +
-                           listed(volumes) + ".");
+                           listed(named) + ".");
         check_material(material, section, " of volume \"" + name + "\"");
-        placed.material_of_volume[it - volumes.begin()] = add(material);
+        of_volume[it - named.begin()] = material;
       }
+    // The first is that of the body, whether its cells have it or not.
+    const auto add = [&](const IsotropicMaterial &material, const std::size_t volume) {
+      materials.push_back(
+          {material, n_bodies() - 1, false, n_parts(), static_cast<unsigned int>(volume)});
+    };
+    add(definition.material, named.size());
+    for (std::size_t v = 0; v < named.size(); ++v)
+      {
+        placed.material_of_volume.push_back(static_cast<unsigned int>(materials.size()));
+        add(of_volume[v], v);
+      }
+  }
+
+
+
+  std::set<types::material_id> Bodies::material_ids(const unsigned int body, const std::string &volume,
+                                                    const std::string &where) const
+  {
+    const auto number = std::find(volumes[body].begin(), volumes[body].end(), volume) - volumes[body].begin();
+    if (!volume.empty() && !has_volume(body, volume))
+      throw InputError(where + ": the mesh has no volume \"" + volume + "\"; it has " +
+                       listed(volumes[body]) + ".");
+    std::set<types::material_id> result;
+    for (types::material_id id = 0; id < materials.size(); ++id)
+      if (materials[id].body == body && (volume.empty() || materials[id].volume == number))
+        result.insert(id);
+    return result;
   }
 
 

@@ -296,8 +296,8 @@ namespace Signorini
 
 
   std::vector<OutputField>
-  nodal_stress(const NodalSpace &space, const std::vector<double> &displacement,
-               const std::function<const Material &(const types::material_id material)> &material)
+  nodal_stress(const NodalSpace &space, const std::vector<double> &displacement, const Bodies &bodies,
+               const Loads &loads)
   {
     NodalMeans means(space);
     for (const NodalSpace::Cell &cell : space.cells())
@@ -310,8 +310,10 @@ namespace Signorini
             for (unsigned int c = 0; c < 3; ++c)
               u[v][c] = displacement[3 * space.relevant().index_within_set(nodes[v]) + c];
           // The centre is the most accurate point of a hexahedron.
-          means.add(cell, CellDisplacement(element, material(cell.material), u).stress(Point<3>(.5, .5, .5)),
-                    element.volume());
+          const double           c = nodes.size() == CellShape::hexahedron ? .5 : .25;
+          const CellDisplacement cell_displacement(element, bodies.material(cell.material), u,
+                                                   loads.eigenstrain(space, cell));
+          means.add(cell, cell_displacement.stress(Point<3>(c, c, c)), element.volume());
         }
     means.finish();
 

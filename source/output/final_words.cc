@@ -62,6 +62,16 @@ namespace Signorini
       out << '\n';
     }
 
+    void print_pretension(std::ostream &out, const PretensionResult &bolt)
+    {
+      out << "pretension " << bolt.body << ": " << bolt.name << ": section force " << bolt.force << " (wanted "
+          << bolt.wanted << "), shortening " << bolt.shortening << " = strain " << bolt.strain << " times length "
+          << bolt.length << "; solved " << bolt.iterations.size() << " times, iterations";
+      for (std::size_t i = 0; i < bolt.iterations.size(); ++i)
+        out << (i > 0 ? ", " : " ") << bolt.iterations[i];
+      out << '\n';
+    }
+
     void print_smallness(std::ostream &out, const Results &results)
     {
       double rotation = 0., slip = 0.;
@@ -120,6 +130,8 @@ namespace Signorini
       print_body(out, body);
     for (const PairResult &pair : results.pairs)
       print_pair(out, pair);
+    for (const PretensionResult &bolt : results.pretensions)
+      print_pretension(out, bolt);
     print_smallness(out, results);
     if (results.certificate.objections.empty())
       out << "contact conditions hold: yes\n";

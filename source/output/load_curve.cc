@@ -33,6 +33,11 @@ namespace Signorini
         }
       for (const BoundaryResult &boundary : step.boundaries)
         vector(boundary.body + ": " + boundary.name + ": reaction", boundary.reaction);
+      for (const PretensionResult &bolt : step.pretensions)
+        {
+          f(bolt.body + ": " + bolt.name + ": section force", bolt.force);
+          f(bolt.body + ": " + bolt.name + ": shortening", bolt.shortening);
+        }
       for (const ProbeResult &probe : step.probes)
         vector(probe.name + ": displacement", probe.displacement);
     }

@@ -216,6 +216,23 @@ namespace Signorini
       json.end('}');
     }
 
+    void write_pretension(JsonWriter &json, const PretensionResult &bolt)
+    {
+      json.begin('{');
+      json.text("body", bolt.body);
+      json.text("name", bolt.name);
+      json.number("wanted", bolt.wanted);
+      json.number("force", bolt.force);
+      json.number("strain", bolt.strain);
+      json.number("length", bolt.length);
+      json.number("shortening", bolt.shortening);
+      json.begin('[', "iterations");
+      for (const unsigned int n : bolt.iterations)
+        json.number("", n);
+      json.end(']');
+      json.end('}');
+    }
+
     template <typename Entry>
     void write_list(JsonWriter &json, const std::string &name, const std::vector<Entry> &list,
                     void (*const write)(JsonWriter &, const Entry &))
@@ -292,6 +309,8 @@ namespace Signorini
     json.boolean("displacements_are_small", large_displacements(results).empty());
     write_list(json, "boundaries", results.boundaries, write_boundary);
     write_list(json, "probes", results.probes, write_probe);
+    if (!results.pretensions.empty())
+      write_list(json, "pretension", results.pretensions, write_pretension);
     write_certificate(json, results.certificate);
     json.begin('[', "notes");
     for (const std::string &note : results.notes)

@@ -81,6 +81,12 @@ namespace Signorini
       the_loads.time = time;
     }
 
+    /// Bolts, whose strains are found while the problem is solved (solve_with_pretension()).
+    std::vector<Pretension> &pretensions()
+    {
+      return the_loads.pretensions;
+    }
+
     /// Collective. As Bodies::refine(). Spaces and discretizations of the mesh before stay as they are.
     bool refine(const NodalSpace &space, const std::vector<bool> &marked)
     {

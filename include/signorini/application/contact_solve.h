@@ -8,6 +8,7 @@
 #include <signorini/application/linear_comparison.h>
 #include <signorini/discretization/level_hierarchy.h>
 #include <signorini/mesh/coarser_meshes.h>
+#include <signorini/output/results.h>
 #include <signorini/solvers/obstacle_solver.h>
 #include <signorini/solvers/sweep_measurement.h>
 
@@ -71,6 +72,8 @@ namespace Signorini
     /// Physical, on the partition of the space, ghosts up to date.
     Vector        displacement;
     ContactStress stress;
+    /// Bolts, if there are any.
+    std::vector<PretensionResult> pretensions;
     /// Active contact nodes; tied ones do not count.
     std::size_t n_active = 0;
     /// Of the multigrid hierarchy.
@@ -120,12 +123,12 @@ namespace Signorini
     std::unique_ptr<AlgebraicProblem> algebraic;
   };
 
-  /// Collective. Solves the contact problem of one mesh.
+  /// Collective. Solves the contact problem of one mesh, the strains of bolts too, which the model keeps.
   /// @param coarser the spaces below, kept from mesh to mesh
   /// @param start null on the first mesh
   /// Errors: those of check_method() and check_free_parts(); InputError for loads that press no body into
   /// contact that could hold it.
-  ContactSolution solve_contact(const ContactModel &model, const Discretization &discretization,
+  ContactSolution solve_contact(ContactModel &model, const Discretization &discretization,
                                 CoarserSpaces &coarser, const NestedStart *const start,
                                 const SolveParameters &parameters, Journal &journal);
 } // namespace Signorini

@@ -6,6 +6,7 @@
 
 #include <signorini/algebra/fixed_directions.h>
 #include <signorini/discretization/condition_frame.h>
+#include <signorini/discretization/element.h>
 #include <signorini/discretization/rigid_faces.h>
 #include <signorini/mesh/bodies.h>
 #include <signorini/mesh/field.h>
@@ -73,6 +74,33 @@ namespace Signorini
       Vector3 direction = Vector3();
     };
 
+    /// What a body, or one of its volumes, would strain if it were free: thermal expansion and more. What is
+    /// not given for a volume is that of the body.
+    struct InitialStrain
+    {
+      /// A volume that the mesh names; empty for the whole body.
+      std::string volume;
+      /// Difference to the temperature without stress; coefficient of linear expansion (per degree).
+      ScalarField           temperature = ScalarField();
+      std::optional<double> expansion   = std::nullopt;
+      /// Strains beside those of the temperature.
+      StrainField strain = StrainField();
+    };
+
+    /// A part of the body, a bolt's shank, whose strain along an axis is found such that its section carries
+    /// a force.
+    struct Pretension
+    {
+      /// The volume of the mesh that it is, if there is no region.
+      std::string name;
+      /// Along the shank; of any length.
+      Vector3 axis;
+      /// Of the section, positive for tension (its value at the origin counts).
+      ScalarField force;
+      /// Positive at the centres of its cells; empty for the volume.
+      ScalarField region = ScalarField();
+    };
+
     /// Where conditions overlap, the later one counts.
     std::vector<Displacement>  displacements;
     std::vector<RigidBoundary> rigid_boundaries;
@@ -80,6 +108,9 @@ namespace Signorini
     std::vector<NodalForce>    nodal_forces;
     /// Force per volume; empty for none.
     VectorField volume_force;
+    /// Where volumes overlap, the later one counts.
+    std::vector<InitialStrain> initial_strains;
+    std::vector<Pretension>    pretensions;
   };
 
   /// The same as a user writes it, in the subsection of the body.
@@ -87,6 +118,8 @@ namespace Signorini
   {
     /// Lists as the parameter file has them, one condition after the other.
     std::string dirichlet, tractions, pressures, forces, rigid, volume_force;
+    std::string temperature, expansion, initial_strain, volume_temperatures, volume_expansions,
+        volume_initial_strains, pretension;
 
     /// Declares the parameters in the current subsection.
     void add_parameters(dealii::ParameterHandler &prm);
@@ -94,6 +127,10 @@ namespace Signorini
     /// Errors: InputError for texts that cannot be understood; `section` is what the names of the parameters
     /// get in front.
     LoadDefinition definition(const std::string &section) const;
+
+  private:
+    void parse_initial_strains(LoadDefinition &result, const std::string &section) const;
+    void parse_pretensions(LoadDefinition &result, const std::string &section) const;
   };
 
   /// Prescribed displacement on a boundary; empty components are free.
@@ -136,6 +173,35 @@ namespace Signorini
     Vector3                              direction;
   };
 
+  /// The strain without stress of the cells with a material.
+  struct Eigenstrain
+  {
+    /// As LoadDefinition::InitialStrain has them.
+    ScalarField temperature;
+    double      expansion = 0.;
+    StrainField strain;
+  };
+
+  /// Cells whose strain along an axis makes a section force, as LoadDefinition::Pretension has them, and how
+  /// far it has been found.
+  struct Pretension
+  {
+    /// What messages begin with; of which body, and what results call it.
+    std::string                          where;
+    unsigned int                         body;
+    std::string                          name;
+    std::set<dealii::types::material_id> materials;
+    /// Empty for all cells of the materials.
+    ScalarField region;
+    /// A unit vector.
+    Vector3     axis;
+    ScalarField force;
+    /// The shortening per length without stress; the section force with it, and by how much that grows with
+    /// the strains of all of them (force; empty before the first solution).
+    double              strain = 0., reached = 0.;
+    std::vector<double> slopes = {};
+  };
+
   /// All conditions and loads of all bodies.
   struct Loads
   {
@@ -147,12 +213,31 @@ namespace Signorini
     std::map<unsigned int, std::vector<VectorField>> nodal_forces;
     /// Force per volume of each body; an entry for all of them is needed, so add() every body.
     std::vector<VectorField> volume_forces;
+    /// By material id; those beyond the end have none.
+    std::vector<Eigenstrain> eigenstrains;
+    std::vector<Pretension>  pretensions;
     /// The pseudo-time at which conditions and forces are evaluated.
     double time = ScalarField::end;
 
     /// Takes in what acts on one body. Errors: InputError for unknown boundaries.
     void add(const Bodies &bodies, const unsigned int body, const LoadDefinition &definition);
+
+    /// Whether any cell strains without stress.
+    bool has_eigenstrains() const
+    {
+      return !eigenstrains.empty() || !pretensions.empty();
+    }
+
+    /// The strain without stress of a cell. Errors: InputError where it is no small one (not collective).
+    CellEigenstrain eigenstrain(const NodalSpace &space, const NodalSpace::Cell &cell) const;
+
+  private:
+    void add_initial_strains(const Bodies &bodies, const unsigned int body, const LoadDefinition &definition);
+    void add_pretensions(const Bodies &bodies, const unsigned int body, const LoadDefinition &definition);
   };
+
+  /// Whether a cell belongs to the part of a body that a pretension shortens.
+  bool is_in(const Pretension &pretension, const NodalSpace &space, const NodalSpace::Cell &cell);
 
   /// The surface forces of a problem on one mesh, which total forces are spread over.
   class SurfaceForces

@@ -46,8 +46,9 @@ namespace Signorini
   double strain_energy(const Bodies &bodies, const NodalSpace &space, const NodePartition &partition,
                        const Vector &u);
 
-  /// Collective. The potential energy ½uᵀAu - fᵀu of a displacement (as in physical_residual()), prescribed
-  /// displacements included: what meshes can be compared by.
+  /// Collective. The potential energy ½uᵀAu - fᵀu + ½∫ε0:C:ε0 of a displacement (as in physical_residual()),
+  /// prescribed displacements included and strains ε0 without stress, whose forces are in f: what meshes can
+  /// be compared by.
   double potential_energy(const Bodies &bodies, const NodalSpace &space, const NodePartition &partition,
                           const Loads &loads, const Vector &u);
 } // namespace Signorini

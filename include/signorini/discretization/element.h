@@ -81,6 +81,22 @@ namespace Signorini
     Hexahedron::Corners corners;
   };
 
+  /// The strain without stress in a cell: symmetric values at the vertices, in between by the shape functions.
+  struct CellEigenstrain
+  {
+    bool                                       is_zero = true;
+    std::array<Block, CellShape::max_vertices> at_vertices;
+
+    /// Where the shape functions have these values.
+    Block value(const Element::Shape &shape) const
+    {
+      Block result;
+      for (unsigned int v = 0; v < CellShape::max_vertices; ++v)
+        result += shape[v] * at_vertices[v];
+      return result;
+    }
+  };
+
   /// Stress lambda tr(eps) I + 2 mu eps of a displacement gradient.
   Block stress(const Block &gradient, const Material &material);
 
@@ -90,28 +106,36 @@ namespace Signorini
   public:
     /// u: at the vertices of the cell.
     CellDisplacement(const Element &element, const Material &material,
-                     const std::array<Vector3, CellShape::max_vertices> &u);
+                     const std::array<Vector3, CellShape::max_vertices> &u,
+                     const CellEigenstrain                              &eigenstrain = CellEigenstrain());
 
     /// The gradient in space; with mean dilatation its trace is the mean over the cell. Zero where the
     /// Jacobian is not positive.
     Block gradient(const dealii::Point<3> &reference) const;
 
+    /// The same without the eigenstrain; with mean dilatation the trace of that, too, is its mean.
+    Block elastic_gradient(const dealii::Point<3> &reference) const;
+
     /// Stress (force per area) at reference coordinates.
     Block stress(const dealii::Point<3> &reference) const
     {
-      return Signorini::stress(gradient(reference), material);
+      return Signorini::stress(elastic_gradient(reference), material);
     }
+
+    /// div C : eps0 (force per volume) on tetrahedra, where the eigenstrain eps0 is linear.
+    Vector3 eigenstress_divergence() const;
 
     /// What it was made from.
     const Element                                      element;
     const Material                                    &material;
     const std::array<Vector3, CellShape::max_vertices> u;
+    const CellEigenstrain                              eigenstrain;
 
   private:
     bool plain_gradient(Block &gradient, const dealii::Point<3> &reference) const;
 
     bool   has_mean_dilatation = false;
-    double mean_dilatation     = 0.;
+    double mean_dilatation     = 0., mean_of_eigenstrain = 0.;
   };
 
   /// A face of a cell: its corners (in the order of CellShape::face), and Gauss points (2x2 on

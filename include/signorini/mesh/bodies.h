@@ -121,6 +121,23 @@ namespace Signorini
       return materials[id].body;
     }
 
+    /// Number of materials: their ids are 0 ... n_materials() - 1.
+    unsigned int n_materials() const
+    {
+      return static_cast<unsigned int>(materials.size());
+    }
+
+    /// Ids of the materials of the cells of a body, or of one of the volumes that its mesh names. Errors:
+    /// InputError listing the volumes, for the parameter `where`.
+    std::set<dealii::types::material_id> material_ids(const unsigned int body, const std::string &volume = "",
+                                                      const std::string &where = "") const;
+
+    /// Whether the mesh of a body has a volume of that name.
+    bool has_volume(const unsigned int body, const std::string &name) const
+    {
+      return std::find(volumes[body].begin(), volumes[body].end(), name) != volumes[body].end();
+    }
+
     /// Connected parts, those of the first body first. Cells of different parts have different materials.
     unsigned int n_parts() const
     {
@@ -248,6 +265,8 @@ namespace Signorini
     std::vector<Material>                                            materials;
     std::vector<BodyPart>                                            parts;
     std::vector<std::vector<std::string>>                            boundaries;
+    /// By body: names of its volumes.
+    std::vector<std::vector<std::string>>                            volumes;
     std::vector<dealii::types::boundary_id>                          first_boundary;
     /// By body: groups of boundaries by name, as numbers of its boundaries.
     std::vector<std::vector<std::pair<std::string, std::vector<unsigned int>>>> groups;

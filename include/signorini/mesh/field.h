@@ -54,6 +54,8 @@ namespace Signorini
 
   using ScalarField = Field<double>;
   using VectorField = Field<Vector3>;
+  /// Strains: symmetric, the diagonal is that of elongations, the rest half of the engineering shear.
+  using StrainField = Field<Block>;
 } // namespace Signorini
 
 #endif

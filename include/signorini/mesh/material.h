@@ -54,6 +54,8 @@ namespace Signorini
     bool mean_dilatation = false;
     /// The part of the body (Bodies::part()).
     unsigned int part = 0;
+    /// The volume of the mesh of the body (Bodies::material_ids()).
+    unsigned int volume = 0;
   };
 } // namespace Signorini
 

@@ -4,6 +4,7 @@
 #ifndef signorini_output_field_output_h
 #define signorini_output_field_output_h
 
+#include <signorini/discretization/boundary_conditions.h>
 #include <signorini/mesh/bodies.h>
 #include <signorini/mesh/contact_surface.h>
 #include <signorini/mesh/nodal_space.h>
@@ -44,9 +45,8 @@ namespace Signorini
   /// Collective. Volume weighted nodal averages of the stress: fields "stress" (xx, yy, zz, xy, yz, zx),
   /// "von Mises" and "principal stress" (3, largest first), in the unit of E.
   /// displacement: values at the relevant nodes, three each. Cells with mean dilatation have its stress.
-  std::vector<OutputField>
-  nodal_stress(const NodalSpace &space, const std::vector<double> &displacement,
-               const std::function<const Material &(const dealii::types::material_id material)> &material);
+  std::vector<OutputField> nodal_stress(const NodalSpace &space, const std::vector<double> &displacement,
+                                        const Bodies &bodies, const Loads &loads);
 } // namespace Signorini
 
 #endif

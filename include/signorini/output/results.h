@@ -192,6 +192,19 @@ namespace Signorini
     double time = 0.;
   };
 
+  /// A bolt's shank whose section carries a given force.
+  struct PretensionResult
+  {
+    /// Of the body, and what the parameter file calls it.
+    std::string body, name;
+    /// The force that was asked for, and that of the section.
+    double wanted = 0., force = 0.;
+    /// Shortening per length without stress; length of the shank; strain times length (length).
+    double strain = 0., length = 0., shortening = 0.;
+    /// Of each of the solutions by which the strain was found on the last mesh.
+    std::vector<unsigned int> iterations;
+  };
+
   /// One load step.
   struct StepResult
   {
@@ -202,8 +215,9 @@ namespace Signorini
     std::size_t       active_nodes = 0;
     /// As in Results.
     std::vector<PairResult>     pairs;
-    std::vector<BoundaryResult> boundaries;
-    std::vector<ProbeResult>    probes;
+    std::vector<BoundaryResult>   boundaries;
+    std::vector<ProbeResult>      probes;
+    std::vector<PretensionResult> pretensions;
   };
 
   /// All that is reported about a run.
@@ -223,6 +237,7 @@ namespace Signorini
     std::vector<BodyResult>     bodies;
     std::vector<ProbeResult>    probes;
     Certificate                 certificate;
+    std::vector<PretensionResult> pretensions;
     /// Load steps, if there were any; the last is what is in the rest of the results.
     std::vector<StepResult> steps;
     /// Norm of the nodal forces before reactions and contact forces are taken off (force).

@@ -54,9 +54,7 @@ TEST(NodalStress, OfTheMeanDilatation)
               }
           }
       const auto fields =
-          nodal_stress(space, u, [&](const dealii::types::material_id id) -> const Material & {
-            return bodies.material(id);
-          });
+          nodal_stress(space, u, bodies, Loads());
       double worst = 0., largest = 0.;
       for (const NodeIndex node : space.owned())
         {

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/algebra/input_error.h>
+#include <signorini/application/journal.h>
+#include <signorini/application/pretension.h>
+#include <signorini/discretization/element.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <Eigen/LU>
+
+#include <limits>
+#include <sstream>
+
+namespace Signorini
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// The cells that a pretension shortens.
+    struct Shank
+    {
+      /// Along the axis (length).
+      double low = std::numeric_limits<double>::max(), high = -std::numeric_limits<double>::max();
+      /// Integrals of Young's modulus and of the stress along the axis (force times length).
+      double modulus = 0., tension = 0.;
+
+      double length() const
+      {
+        return high - low;
+      }
+
+      /// E A: the force per strain between rigid plates.
+      double stiffness() const
+      {
+        return modulus / length();
+      }
+
+      /// The mean of the section force over the length.
+      double force() const
+      {
+        return tension / length();
+      }
+    };
+
+    void add_cell(Shank &shank, const Pretension &bolt, const CellDisplacement &displacement)
+    {
+      const Element &element = displacement.element;
+      for (unsigned int v = 0; v < element.n_vertices(); ++v)
+        {
+          const double z = bolt.axis * Vector3(element.corner(v));
+          shank.low      = std::min(shank.low, z);
+          shank.high     = std::max(shank.high, z);
+        }
+      for (unsigned int q = 0; q < element.n_points(); ++q)
+        {
+          const double weight = element.volume_element(q).first;
+          shank.modulus += weight * displacement.material.young;
+          shank.tension +=
+              weight * (bolt.axis * (displacement.stress(element.reference_point(q)) * bolt.axis));
+        }
+    }
+
+    /// Collective. By bolt; without stresses for an empty displacement.
+    std::vector<Shank> measure(const ContactModel &model, const Discretization &d, const Vector &displacement)
+    {
+      const auto        &bolts = model.loads().pretensions;
+      const NodalSpace  &space = d.nodal();
+      std::vector<Shank> shanks(bolts.size());
+      for (const NodalSpace::Cell &cell : space.cells())
+        for (std::size_t i = 0; i < bolts.size() && cell.is_owned; ++i)
+          if (is_in(bolts[i], space, cell))
+            {
+              std::array<Vector3, CellShape::max_vertices> u;
+              for (unsigned int v = 0; v < cell.n_vertices && displacement.size() > 0; ++v)
+                for (unsigned int c = 0; c < dim; ++c)
+                  u[v][c] = displacement.local_element(
+                      dim * d.partition().to_local(space.nodes(cell)[v]) + c);
+              add_cell(shanks[i], bolts[i],
+                       CellDisplacement(Element(space, cell), model.bodies().material(cell.material), u,
+                                        model.loads().eigenstrain(space, cell)));
+            }
+      const MPI_Comm comm = model.communicator();
+      for (Shank &shank : shanks)
+        {
+          shank.low     = Utilities::MPI::min(shank.low, comm);
+          shank.high    = Utilities::MPI::max(shank.high, comm);
+          shank.modulus = Utilities::MPI::sum(shank.modulus, comm);
+          shank.tension = Utilities::MPI::sum(shank.tension, comm);
+        }
+      return shanks;
+    }
+
+    double wanted_force(const ContactModel &model, const Pretension &bolt)
+    {
+      return bolt.force(Point<3>(), model.loads().time);
+    }
+
+    /// By how much the strains of all bolts have to change, times their stiffnesses E A (forces).
+    /// @param missing forces
+    Eigen::VectorXd secant_step(const std::vector<Pretension> &bolts, const Eigen::VectorXd &missing)
+    {
+      const auto      n = static_cast<Eigen::Index>(bolts.size());
+      Eigen::MatrixXd slopes(n, n);
+      for (Eigen::Index i = 0; i < n; ++i)
+        for (Eigen::Index j = 0; j < n; ++j)
+          slopes(i, j) = bolts[i].slopes[j];
+      const Eigen::FullPivLU<Eigen::MatrixXd> inverse(slopes);
+      return inverse.isInvertible() ? Eigen::VectorXd(inverse.solve(missing)) : missing;
+    }
+
+    /// Broyden's: the matrix next to the old one that explains what the last step did.
+    void update_slopes(std::vector<Pretension> &bolts, const Eigen::VectorXd &step,
+                       const Eigen::VectorXd &change)
+    {
+      for (std::size_t i = 0; i < bolts.size(); ++i)
+        {
+          std::vector<double> &slopes   = bolts[i].slopes;
+          double               expected = 0.;
+          for (std::size_t j = 0; j < bolts.size(); ++j)
+            expected += slopes[j] * step[j];
+          for (std::size_t j = 0; j < bolts.size(); ++j)
+            slopes[j] += (change[i] - expected) * step[j] / step.squaredNorm();
+          slopes[i] = std::max(slopes[i], PretensionRule().smallest_slope);
+        }
+    }
+
+    Eigen::VectorXd forces_of(const std::vector<Shank> &shanks)
+    {
+      Eigen::VectorXd forces(static_cast<Eigen::Index>(shanks.size()));
+      for (std::size_t i = 0; i < shanks.size(); ++i)
+        forces[i] = shanks[i].force();
+      return forces;
+    }
+
+    /// The forces that are missing, and whether they are small enough.
+    struct Missing
+    {
+      Eigen::VectorXd forces;
+      bool            is_small = true;
+
+      Missing(const ContactModel &model, const Eigen::VectorXd &present)
+        : forces(present)
+      {
+        const auto &bolts   = model.loads().pretensions;
+        double      largest = 0.;
+        for (const Pretension &bolt : bolts)
+          largest = std::max(largest, wanted_force(model, bolt));
+        for (std::size_t i = 0; i < bolts.size(); ++i)
+          {
+            const double wanted = wanted_force(model, bolts[i]);
+            forces[i]           = wanted - present[i];
+            // Bolts that should be loose are compared with the others.
+            const double scale = wanted > 0. ? wanted : largest;
+            is_small = is_small && std::abs(forces[i]) <= PretensionRule().tolerance * scale;
+          }
+      }
+    };
+
+    std::vector<PretensionResult> results_of(const ContactModel &model, const std::vector<Shank> &shanks,
+                                             const std::vector<unsigned int> &iterations)
+    {
+      std::vector<PretensionResult> results;
+      for (std::size_t i = 0; i < shanks.size(); ++i)
+        {
+          const Pretension &bolt = model.loads().pretensions[i];
+          results.push_back({model.bodies().body_name(bolt.body), bolt.name, wanted_force(model, bolt),
+                             shanks[i].force(), bolt.strain, shanks[i].length(),
+                             bolt.strain * shanks[i].length(), iterations});
+        }
+      return results;
+    }
+  } // namespace
+
+
+
+  void foretell_pretension(ContactModel &model, const Discretization &d)
+  {
+    std::vector<Pretension> &bolts = model.pretensions();
+    if (bolts.empty())
+      return;
+    const std::vector<Shank> shanks = measure(model, d, Vector());
+    Eigen::VectorXd          missing(static_cast<Eigen::Index>(bolts.size()));
+    for (std::size_t i = 0; i < bolts.size(); ++i)
+      {
+        if (!(shanks[i].modulus > 0.))
+          throw InputError(bolts[i].where + ": there is no cell in the region.");
+        const double wanted = wanted_force(model, bolts[i]);
+        if (!(wanted >= 0.))
+          throw InputError(bolts[i].where + ": the force " + std::to_string(wanted) +
+                           " is negative; a bolt is under tension.");
+        missing[i] = wanted - bolts[i].reached;
+        if (bolts[i].slopes.empty())
+          {
+            bolts[i].slopes.assign(bolts.size(), 0.);
+            bolts[i].slopes[i] = 1.;
+          }
+      }
+    const Eigen::VectorXd step = secant_step(bolts, missing);
+    for (std::size_t i = 0; i < bolts.size(); ++i)
+      bolts[i].strain += step[i] / shanks[i].stiffness();
+  }
+
+
+
+  ContactSolution solve_with_pretension(ContactModel &model, ContactSolver &solver, const Discretization &d,
+                                        Journal &journal)
+  {
+    const PretensionRule     rule;
+    std::vector<Pretension> &bolts    = model.pretensions();
+    ContactSolution          solution = solver.solve(d);
+    if (bolts.empty())
+      return solution;
+    std::vector<unsigned int> iterations = {solution.report.iterations};
+    std::vector<Shank>        shanks     = measure(model, d, solution.displacement);
+    Vector                    before;
+    Eigen::VectorXd           forces = forces_of(shanks), last_step;
+    Missing                   missing(model, forces);
+    while (solution.report.converged && !missing.is_small && iterations.size() < rule.solutions)
+      {
+        const Eigen::VectorXd step = secant_step(bolts, missing.forces);
+        for (std::size_t i = 0; i < bolts.size(); ++i)
+          bolts[i].strain += step[i] / shanks[i].stiffness();
+        // What the last step did to the displacement, this one will do in proportion.
+        Vector start = solution.displacement;
+        if (last_step.size() > 0)
+          {
+            const double share = step.dot(last_step) / last_step.squaredNorm();
+            start.sadd(1. + share, -share, before);
+            start.update_ghost_values();
+          }
+        before    = solution.displacement;
+        last_step = step;
+        solver.change_loads(d, start);
+        solution = solver.solve(d);
+        iterations.push_back(solution.report.iterations);
+        shanks                        = measure(model, d, solution.displacement);
+        const Eigen::VectorXd present = forces_of(shanks);
+        update_slopes(bolts, step, present - forces);
+        forces  = present;
+        missing = Missing(model, forces);
+      }
+    for (std::size_t i = 0; i < bolts.size(); ++i)
+      bolts[i].reached = forces[i];
+    if (solution.report.converged && !missing.is_small)
+      {
+        solution.report.converged = false;
+        solution.report.note      = "the pretension was not reached in " + std::to_string(rule.solutions) +
+                               " solutions: does anything hold the ends of the bolts?";
+      }
+    solution.pretensions = results_of(model, shanks, iterations);
+    journal.show("pretension");
+    return solution;
+  }
+} // namespace Signorini
