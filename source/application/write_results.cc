@@ -205,8 +205,8 @@ namespace Signorini
     {
       const Discretization &d       = *nested.discretization;
       Results              &results = nested.results;
-      const auto stress = nodal_stress(d.nodal(), relevant_values(d, nested.solution.displacement),
-                                       model.bodies(), model.loads());
+      const auto            stress = nodal_stress(d.nodal(), relevant_values(d, nested.solution.displacement),
+                                                  model.bodies(), model.loads());
       results.bodies = evaluate_bodies(model, d, nested.solution.displacement, stress[1].values, results);
       for (unsigned int p = 0; p < results.pairs.size(); ++p)
         {
@@ -253,8 +253,7 @@ namespace Signorini
         std::vector<OutputField> fields;
         fields.push_back({"displacement", 3, relevant_values(d, solution.displacement)});
         if (output.stress)
-          for (OutputField &field :
-               nodal_stress(d.nodal(), fields[0].values, model.bodies(), model.loads()))
+          for (OutputField &field : nodal_stress(d.nodal(), fields[0].values, model.bodies(), model.loads()))
             fields.push_back(std::move(field));
         write_bodies(folder.path(), "bodies" + suffix, d.nodal(), fields, [&](const types::material_id id) {
           return static_cast<double>(model.bodies().body_of_material(id));
