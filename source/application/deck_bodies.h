@@ -37,6 +37,15 @@ namespace Signorini
   std::set<unsigned int> add_rigid_faces(std::vector<DeckBody> &bodies, const DeckModel &model,
                                          const DeckHistory &history);
 
+  /// Makes temperatures strains without stress, of the bodies whose materials expand.
+  void add_temperatures(std::vector<DeckBody> &bodies, const DeckModel &model, const DeckHistory &history);
+
+  /// Makes sections of bolts volumes with pretension. Returns their nodes, whose forces have been taken with
+  /// them. Errors: InputError where the elements behind a section are no layer between two planes, and for
+  /// sections without a force.
+  std::set<unsigned int> add_bolts(std::vector<DeckBody> &bodies, const DeckModel &model,
+                                   const DeckHistory &history);
+
   /// Moves nodes of the dependent surface of a pair onto the other one, as ADJUST says. Returns a remark, or
   /// nothing if none was moved.
   std::string adjust_nodes(DeckBody &first, const DeckBody &second, const DeckPair &pair);

@@ -50,6 +50,33 @@ namespace Signorini
 
 
 
+  void DeckModelReader::read_pretension(const Keyword &keyword, const unsigned int instance)
+  {
+    if (keyword.get("SURFACE").empty() || keyword.get("NODE").empty())
+      {
+        model.refuse(keyword.place, "PRE-TENSION SECTION",
+                     "pretension acts on a SURFACE between solid elements, by the force of a NODE.");
+        return;
+      }
+    DeckPretension bolt;
+    bolt.place   = keyword.place;
+    bolt.surface = &deck.surface(keyword.get("SURFACE"), keyword.place, instance);
+    bolt.node    = only_node(keyword, "NODE", instance);
+    if (!keyword.lines.empty())
+      bolt.axis = direction(deck_words(keyword.lines[0].text), 0, keyword.lines[0]);
+    if (std::any_of(bolt.surface->faces.begin(), bolt.surface->faces.end(),
+                    [](const DeckSurface::Faces &faces) { return faces.side.empty(); }) ||
+        bolt.surface->faces.empty())
+      {
+        model.refuse(keyword.place, "PRE-TENSION SECTION",
+                     "the surface should be sides (S1, S2, ...) of the elements behind the section.");
+        return;
+      }
+    model.pretension_list.push_back(bolt);
+  }
+
+
+
   void DeckModelReader::read_kinematic_coupling(const Keyword &keyword, const unsigned int instance)
   {
     DeckRigid rigid;

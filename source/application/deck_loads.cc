@@ -72,6 +72,7 @@ namespace Signorini
       void add()
       {
         references = add_rigid_faces(bodies, model, history);
+        references.merge(add_bolts(bodies, model, history));
         add_forces();
         add_pressures();
         for (const auto &[surface, load] : history.surface_loads())
@@ -79,7 +80,7 @@ namespace Signorini
         // Sets of nodes get names that no surface has.
         for (const DeckBoundary &condition : state.boundaries)
           add_condition(condition);
-        check_temperatures();
+        add_temperatures(bodies, model, history);
         for (unsigned int k = 0; k < history.n_steps(); ++k)
           for (const DeckVolumeLoad &load : history.step(k).volume_loads)
             add_volume_load(load, k);
@@ -251,24 +252,6 @@ namespace Signorini
                                            "\" is on the boundary of a body.");
       }
 
-      /// Thermal strains are not computed.
-      void check_temperatures() const
-      {
-        for (const auto &[node, load] : state.temperatures)
-          {
-            const auto   it      = model.initial_temperatures().find(node);
-            const double initial = it == model.initial_temperatures().end() ? 0. : it->second;
-            if (load.value == initial)
-              continue;
-            for (const DeckBody &body : bodies)
-              for (const unsigned int m : body.materials)
-                if (const DeckMaterial &material = model.materials()[m];
-                    material.expansion && *material.expansion != 0. &&
-                    body.cells->vertex(node) != VolumeMesh::no_vertex)
-                  model.refuse(material.place, "EXPANSION", "thermal strains of a deck are not computed.");
-          }
-      }
-
       void add_volume_load(const DeckVolumeLoad &load, const unsigned int step)
       {
         const std::set<unsigned int> elements(load.elements.begin(), load.elements.end());
@@ -386,7 +369,7 @@ namespace Signorini
       const Deck            &deck;
       const DeckHistory      history;
       const DeckState       &state;
-      /// Nodes of rigid faces, which have been dealt with.
+      /// Nodes of rigid faces and bolts, which have been dealt with.
       std::set<unsigned int>    references;
       std::vector<std::string> &remarks;
       /// By element of the body and step.

@@ -60,6 +60,7 @@ namespace Signorini
                                                          {"COUPLING", &R::read_coupling},
                                                          {"KINEMATIC", &R::read_kinematic},
                                                          {"EQUATION", &R::read_equation},
+                                                         {"PRE-TENSION SECTION", &R::read_pretension},
                                                          {"MATERIAL", &R::read_material},
                                                          {"ELASTIC", &R::read_elastic},
                                                          {"DENSITY", &R::read_density},
@@ -128,7 +129,6 @@ namespace Signorini
         {"MPC", "constraints between nodes are not taken."},
         {"DISTRIBUTING COUPLING", "couplings of nodes are not taken."},
         {"DISTRIBUTING", "couplings of nodes are not taken."},
-        {"PRE-TENSION SECTION", "pretension of a deck is not taken."},
         {"CYCLIC SYMMETRY MODEL", "cyclic symmetry is not computed."},
         {"CONTACT", "general contact is not taken: name the surfaces with CONTACT PAIR."},
         {"CLEARANCE", "gaps are those of the nodes."},
@@ -332,11 +332,14 @@ namespace Signorini
   void DeckModelReader::read_expansion(const Keyword &keyword, const unsigned int)
   {
     const std::string type = deck_upper(keyword.get("TYPE"));
-    if (!type.empty() && type != "ISO")
+    if (!type.empty() && type != "ISO" && type != "ISOTROPIC")
       model.refuse(keyword.place, "EXPANSION", "expansion is isotropic, TYPE=" + type + " is not.");
     if (keyword.lines.empty())
       fail(keyword.place, "EXPANSION needs a number.");
     material(keyword).expansion = number(deck_words(keyword.lines[0].text), 0, keyword.lines[0]);
+    // With one coefficient the temperature ZERO, from which it counts, has no influence.
+    if (keyword.lines.size() > 1)
+      model.differ(keyword.place, "EXPANSION depends on temperature; the first row is taken.");
   }
 
 

@@ -58,6 +58,8 @@ namespace Signorini
     void read_tie(const Keyword &keyword, const unsigned int instance);
     void read_initial_conditions(const Keyword &keyword, const unsigned int instance);
 
+    void read_pretension(const Keyword &keyword, const unsigned int instance);
+
     // Nodes that move together.
     void read_rigid_body(const Keyword &keyword, const unsigned int instance);
     void read_kinematic_coupling(const Keyword &keyword, const unsigned int instance);

@@ -8,7 +8,9 @@ signorini_add_layer(application
   contact_solve.cc
   deck_adjust.cc
   deck_bodies.cc
+  deck_bolts.cc
   deck_constraints.cc
+  deck_heat.cc
   deck_history.cc
   deck_loads.cc
   deck_model.cc
@@ -19,6 +21,7 @@ signorini_add_layer(application
   discretization.cc
   error_estimate.cc
   free_bodies.cc
+  interpolated_field.cc
   journal.cc
   linear_comparison.cc
   load_steps.cc

@@ -54,9 +54,8 @@ namespace Signorini
       AssertThrow(exact.size() <= model.bodies().n_bodies(), ExcMessage("There is no such body."));
       for (unsigned int b = 0; b < exact.size(); ++b)
         if (exact[b])
-          result.exact_errors[model.bodies().body_name(b)] =
-              compute_exact_error(model.bodies(), model.loads(), d.nodal(), d.partition(), displacement,
-                                  {b, exact[b]});
+          result.exact_errors[model.bodies().body_name(b)] = compute_exact_error(
+              model.bodies(), model.loads(), d.nodal(), d.partition(), displacement, {b, exact[b]});
     }
 
     /// What a cycle says on the terminal.

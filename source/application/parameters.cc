@@ -393,7 +393,9 @@ namespace Signorini
 
   std::vector<unsigned int> ParameterFile::initial_levels() const
   {
-    std::vector<unsigned int> result;
+    // Bodies of a deck have no sections.
+    std::vector<unsigned int> result(deck_problem ? deck_problem->problem.bodies.size() : 0,
+                                     refinement.initial_global);
     for (const BodySection &section : bodies)
       {
         const std::string where = "Body " + section.body.name + "/Initial levels";
@@ -459,12 +461,20 @@ namespace Signorini
     NestedParameters result;
     result.refinement                 = refinement;
     result.refinement.initial_of_body = initial_levels();
+    std::string           names       = top_level.bodies;
+    std::set<std::string> known;
+    for (const BodySection &section : bodies)
+      known.insert(section.body.name);
+    for (std::size_t b = 0; deck_problem && b < deck_problem->problem.bodies.size(); ++b)
+      {
+        const std::string &name = deck_problem->problem.bodies[b].body.name;
+        known.insert(name);
+        names += (b == 0 ? "" : ", ") + name;
+      }
     for (const RefinementRegion &region : refinement.regions)
-      if (!region.body.empty() && std::none_of(bodies.begin(), bodies.end(), [&](const BodySection &section) {
-            return section.body.name == region.body;
-          }))
+      if (!region.body.empty() && known.count(region.body) == 0)
         throw InputError("Refinement/Regions: there is no body \"" + region.body + "\"; the bodies are " +
-                         top_level.bodies + ".");
+                         names + ".");
     result.solve = {solver, compare_linear, the_output.measure_sweeps, coarse_levels};
     if (deck_problem)
       result.exact_displacements.resize(deck_problem->problem.bodies.size());

@@ -53,11 +53,11 @@ namespace Signorini
           const CellDisplacement discrete(element, material, u, loads.eigenstrain(space, cell));
           for (unsigned int q = 0; q < element.n_points(); ++q)
             {
-              const auto [weight, point]   = element.volume_element(q);
-              const auto    shape          = element.shape_at_point(q);
-              const Vector3 known          = exact(point);
-              const Block   known_gradient = gradient_of(exact, point, 1e-3 * element.diameter()) -
-                                           discrete.eigenstrain.value(shape);
+              const auto [weight, point] = element.volume_element(q);
+              const auto    shape        = element.shape_at_point(q);
+              const Vector3 known        = exact(point);
+              const Block   known_gradient =
+                  gradient_of(exact, point, 1e-3 * element.diameter()) - discrete.eigenstrain.value(shape);
               Vector3     error    = known;
               const Block gradient = known_gradient - discrete.elastic_gradient(element.reference_point(q));
               for (unsigned int v = 0; v < nodes.size(); ++v)

@@ -107,8 +107,7 @@ namespace Signorini
       }
     // The first is that of the body, whether its cells have it or not.
     const auto add = [&](const IsotropicMaterial &material, const std::size_t volume) {
-      materials.push_back(
-          {material, n_bodies() - 1, false, n_parts(), static_cast<unsigned int>(volume)});
+      materials.push_back({material, n_bodies() - 1, false, n_parts(), static_cast<unsigned int>(volume)});
     };
     add(definition.material, named.size());
     for (std::size_t v = 0; v < named.size(); ++v)

@@ -64,9 +64,9 @@ namespace Signorini
 
     void print_pretension(std::ostream &out, const PretensionResult &bolt)
     {
-      out << "pretension " << bolt.body << ": " << bolt.name << ": section force " << bolt.force << " (wanted "
-          << bolt.wanted << "), shortening " << bolt.shortening << " = strain " << bolt.strain << " times length "
-          << bolt.length << "; solved " << bolt.iterations.size() << " times, iterations";
+      out << "pretension " << bolt.body << ": " << bolt.name << ": section force " << bolt.force
+          << " (wanted " << bolt.wanted << "), shortening " << bolt.shortening << " = strain " << bolt.strain
+          << " times length " << bolt.length << "; solved " << bolt.iterations.size() << " times, iterations";
       for (std::size_t i = 0; i < bolt.iterations.size(); ++i)
         out << (i > 0 ? ", " : " ") << bolt.iterations[i];
       out << '\n';

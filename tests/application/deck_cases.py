@@ -7,7 +7,7 @@ import shutil
 import subprocess
 import tempfile
 
-from decks import EDGES, INTERACTION, LOAD, MATERIAL, SIDES, Block, nset, surface, two_blocks
+from decks import EDGES, HEX, INTERACTION, KINDS, LOAD, MATERIAL, PARTS, SIDES, Block, nset, surface, two_blocks
 from harness import certificate, check, constant_pressure, near
 
 
@@ -422,9 +422,8 @@ def deck_refused(d):
     refused('*STATIC\n', '*STATIC\n*BOUNDARY\n1, 11, 11, 20.\n', 'BOUNDARY', 'directions', ignorable=False)
     refused('*STATIC\n', '*FREQUENCY\n10\n', 'FREQUENCY', 'STATIC')
     hot = text.replace('1000., 0.3\n', '1000., 0.3\n*EXPANSION\n1e-5\n').replace('*STATIC\n', '*STATIC\n*TEMPERATURE\nTOP, 100.\n')
-    d.refuses(hot, 'EXPANSION', 'thermal')
     constant_pressure(d.solve(hot, '--ignore', 'EXPANSION')[0], 5., 1e-8)
-    check(constant_pressure(d.solve(hot.replace('TOP, 100.', 'TOP, 0.'))[0], 5., 1e-8) is None, '')
+    constant_pressure(d.solve(hot.replace('TOP, 100.', 'TOP, 0.'))[0], 5., 1e-8)
     # Mistakes.
     for where, what, words in [('*SOLID SECTION, ELSET=Upper, MATERIAL=steel\n', '', ['element 1 has no SOLID SECTION']),
                                ('MATERIAL=steel\n*SOLID', 'MATERIAL=gold\n*SOLID', ['no MATERIAL "gold"']),
@@ -587,3 +586,150 @@ def deck_calculix(d):
         ours = s['pairs'][0]['load']
         print(kind, 'ours', ours, 'CalculiX', theirs)
         check(abs(ours + theirs) <= .02 * ours, f'{kind}: force {ours}, CalculiX {theirs}')
+
+
+def heated(expansion='1e-5', n=(3, 3, 3), kind='C3D8'):
+    """A block on another one under a wall that its top cannot leave, with its own material; both expand."""
+    text, upper, lower = two_blocks(kind, n, (2, 2, 2), None)
+    text = text.replace('1000., 0.3\n', f'1000., 0.3\n*EXPANSION, ZERO=20.\n{expansion}\n')
+    text = text.replace('*STEP', nset('ALL', list(upper.nodes) + list(lower.nodes)) + nset('HOT', upper.nodes) + nset('COLD', lower.nodes) +
+                        '*BOUNDARY\nTOP, 3, 3\n*INITIAL CONDITIONS, TYPE=TEMPERATURE\nALL, 20.\n*STEP', 1)
+    return text, upper, lower
+
+
+@in_folder
+def deck_heat(d):
+    """Temperatures: stresses of a block between walls, of two with different temperatures, steps, fields that differ from node to node."""
+    text, upper, lower = heated()
+    for kind in ('C3D8', 'C3D20', 'C3D10', 'C3D6'):
+        s, (_, _, fields) = d.solve(heated(kind=kind)[0].replace('*STATIC\n', '*STATIC\n*TEMPERATURE\nALL, 120.\n'))
+        # E alpha dT = 1.
+        constant_pressure(s, 1., 1e-8)
+        certificate(s)
+        check(all(abs(v[2] + 1) < 1e-4 and abs(v[0]) < 1e-4 for v in fields['STRESS'].values()), f'{kind}: stresses')
+    # One of them alone makes half of it; an expansion that is passed over none.
+    one = text.replace('*STATIC\n', '*STATIC\n*TEMPERATURE\nHOT, 120.\n')
+    s, _ = d.solve(one)
+    constant_pressure(s, .5, 1e-8)
+    check(d.solve(one, '--ignore', 'EXPANSION')[0]['pairs'][0]['load'] == 0., 'without EXPANSION')
+    s, _ = d.solve(one.replace('*STATIC\n', '*STATIC\n*TEMPERATURE\nCOLD, 220.\n'))
+    constant_pressure(s, 1.5, 1e-8)
+    # What stays at its first temperature, and materials that do not expand.
+    check(d.solve(text.replace('*STATIC\n', '*STATIC\n*TEMPERATURE\nALL, 20.\n'))[0]['pairs'][0]['load'] == 0., 'the first temperature')
+    # Steps, with an amplitude that multiplies temperatures.
+    s, _ = d.solve(text.replace('*STEP', '*AMPLITUDE, NAME=half\n0., 0., 1., 0.5, 2., 0.5\n*STEP', 1).replace(
+        '*STATIC\n', '*STATIC\n*TEMPERATURE, AMPLITUDE=half\nALL, 140.\n*END STEP\n*STEP\n*STATIC\n*TEMPERATURE\nALL, 120.\n*END STEP\n*STEP\n*STATIC\n'
+                     '*TEMPERATURE\nHOT, 220.\n'))
+    with open(os.path.join(d.folder, f'out{d.n}', 'curve.csv')) as f:
+        for row, expected in zip(csv.DictReader(f), (.5, 1., 1.5)):
+            near(float(row['SU-SL: load']), expected, 1e-8, 'load of a step')
+    # A temperature that grows along z, on refined meshes too: the mean counts.
+    for kind, n in (('C3D8', (1, 1, 1)), ('C3D10', (1, 1, 1)), ('C3D20', (1, 1, 2))):
+        text, upper, lower = heated(kind=kind, n=n)
+        text = text.replace('1000., 0.3\n', '1000., 0.\n').replace('TOP, 3, 3\n', 'TOP, 3, 3\nALL, 1, 2\n')
+        linear = ''.join(f'{label}, {20 + 200 * x[2]:.12g}\n' for label, (x, _) in upper.nodes.items())
+        for levels in '01':
+            s, _ = d.solve(text.replace('*STATIC\n', f'*STATIC\n*TEMPERATURE\n{linear}'), '--set', f'Refinement/Initial global levels={levels}')
+            near(s['pairs'][0]['load'], .5, 1e-8, 'load of a mean temperature')
+            certificate(s)
+    # A table of expansions is noted; other kinds are refused.
+    text, upper, lower = heated('1e-5, 0.\n2e-5, 100.')
+    table = text.replace('*STATIC\n', '*STATIC\n*TEMPERATURE\nALL, 120.\n')
+    s, _ = d.solve(table)
+    constant_pressure(s, 1., 1e-8)
+    check(any('EXPANSION depends on temperature' in note for note in s['notes']), f'notes: {s["notes"]}')
+    d.refuses(table, 'EXPANSION', '--strict', arguments=['--strict'])
+    d.refuses(table.replace('ZERO=20.', 'TYPE=ORTHO'), 'EXPANSION', '.inp, line ', 'isotropic')
+    d.refuses(table.replace('TYPE=TEMPERATURE', 'TYPE=STRESS'), 'INITIAL CONDITIONS', '.inp, line ')
+    d.refuses(table.replace('*TEMPERATURE\nALL, 120.', '*TEMPERATURE, FILE=other'), 'TEMPERATURE', '.inp, line ')
+    d.refuses(table.replace('*TEMPERATURE\nALL, 120.', '*BOUNDARY\nALL, 11, 11, 120.'), 'BOUNDARY', '.inp, line ')
+
+
+class Bolt:
+    """A quarter of a bolt whose shank is held below and whose head presses a plate around it; section at z = 3."""
+
+    def __init__(self, kind='C3D8', n=1):
+        self.kind, self.n, self.nodes, self.elements = kind, n, {}, {'BOLT': {}, 'PLATE': {}}
+        shank = [(i, j, k) for i in range(n) for j in range(n) for k in range(6)]
+        ring = [(i, j) for i in range(3 * n) for j in range(3 * n) if i >= n or j >= n]
+        self.add('BOLT', shank + [(i, j, 6) for i in range(3 * n) for j in range(3 * n)])
+        self.add('PLATE', [(i, j, k) for i, j in ring for k in range(6)])
+
+    def add(self, body, cells):
+        first = 10000 * list(self.elements).index(body)
+        for cell in cells:
+            for part in PARTS[KINDS[self.kind][0]]:
+                corners = [tuple(c + x for c, x in zip(cell, HEX[v])) for v in part]
+                label = first + len(self.elements[body]) + 1
+                self.elements[body][label] = [self.nodes.setdefault((body, c), len(self.nodes) + 1) for c in corners]
+
+    def find(self, body, direction, place):
+        return [label for (b, c), label in self.nodes.items() if b == body and c[direction] == place]
+
+    def sides(self, body, z, upward):
+        """Sides of elements in a plane of the elements below it, or above it."""
+        place, result = {label: c for (_, c), label in self.nodes.items()}, []
+        for label, element in self.elements[body].items():
+            low = min(place[v][2] for v in element)
+            for s, side in enumerate(SIDES[KINDS[self.kind][0]]):
+                corners = [place[element[v]] for v in side]
+                if all(c[2] == z for c in corners) and (low < z) == upward:
+                    result.append((label, s + 1))
+        return result
+
+    def text(self, load='*CLOAD\n90000, 1, 3.\n', section='*PRE-TENSION SECTION, SURFACE=CUT, NODE=90000\n0., 0., 1.\n', step=''):
+        text = '*NODE\n' + ''.join(f'{label}, {.5 * c[0] / self.n:.12g}, {.5 * c[1] / self.n:.12g}, {c[2]}.\n' for (_, c), label in self.nodes.items())
+        text += '90000, 0., 0., 9.\n'
+        for body, elements in self.elements.items():
+            text += f'*ELEMENT, TYPE={self.kind}, ELSET={body}\n' + ''.join(', '.join(map(str, [label] + nodes)) + '\n' for label, nodes in elements.items())
+        for c, name in enumerate('XYZ'):
+            text += nset(name + '0', self.find('BOLT', c, 0) + self.find('PLATE', c, 0))
+        text += nset('HELD', self.find('BOLT', 2, 0))
+        n = self.n
+        head = [(e, s) for e, s in self.sides('BOLT', 6, False)]
+        shank = {e for e, s in head if all(v in {label for (b, c), label in self.nodes.items() if b == 'BOLT' and c[0] <= n and c[1] <= n}
+                                           for v in self.elements['BOLT'][e])}
+        text += surface('HEAD', [(e, s) for e, s in head if e not in shank])
+        text += surface('TOP', self.sides('PLATE', 6, True)) + surface('CUT', self.sides('BOLT', 3, True))
+        text += MATERIAL + '*SOLID SECTION, ELSET=BOLT, MATERIAL=steel\n*SOLID SECTION, ELSET=PLATE, MATERIAL=steel\n' + INTERACTION
+        text += '*CONTACT PAIR, INTERACTION=hard, TYPE=SURFACE TO SURFACE\nHEAD, TOP\n' + section
+        return text + '*BOUNDARY\nX0, 1, 1\nY0, 2, 2\nZ0, 3, 3\n*STEP\n*STATIC\n' + load + '*END STEP\n' + step
+
+
+@in_folder
+def deck_bolt(d):
+    """PRE-TENSION SECTION: the force of the section and of the joint is that of the node."""
+    def same(text, *arguments, force=3.):
+        s, frd = d.solve(text, *arguments)
+        near(s['pretension'][0]['force'], force, 1e-7, 'force of the section')
+        near(s['pairs'][0]['load'], force, 1e-6, 'force of the joint')
+        certificate(s)
+        return s, frd
+
+    for kind in ('C3D8', 'C3D6', 'C3D4'):
+        same(Bolt(kind).text())
+    bolt = Bolt()
+    text = bolt.text()
+    same(text, '--set', 'Refinement/Initial global levels=1')
+    # The direction is that of the surface where it is not given.
+    same(text.replace('0., 0., 1.\n*BOUNDARY', '*BOUNDARY'))
+    # Steps: tightened in two, then a load that the joint takes beside it.
+    same(bolt.text('*CLOAD\n90000, 1, 1.\n', step='*STEP\n*STATIC\n*CLOAD\n90000, 1, 2.5\n*END STEP\n'), force=2.5)
+    with open(os.path.join(d.folder, f'out{d.n}', 'curve.csv')) as f:
+        for row, expected in zip(csv.DictReader(f), (1., 2.5)):
+            near(float(row['HEAD-TOP: load']), expected, 1e-6, 'force of the joint in a step')
+    # What is refused.
+    held = '*BOUNDARY\n90000, 1, 1, 0.01\n'
+    section = '*PRE-TENSION SECTION, SURFACE=CUT, NODE=90000\n'
+    for where, what, words in (('*CLOAD\n90000, 1, 3.\n', held, ['BOUNDARY', 'cannot be given']), ('*CLOAD\n90000, 1, 3.\n', '', ['no section has a force']),
+                               ('90000, 1, 3.', '90000, 1, -3.', ['negative']), ('90000, 1, 3.', '90000, 3, 3.', ['direction 1']),
+                               ('SURFACE=CUT', 'SURFACE=TOP', ['inside of a bolt']), (section, section.replace('90000', '1'), ['belongs to no element']),
+                               (section, section.replace('SURFACE=CUT', 'ELEMENT=1'), ['between solid elements']),
+                               (section + '0., 0., 1.', section + '1., 0., 1.', ['layer between two planes'])):
+        check(where in text, f'{words}: nothing was changed')
+        d.refuses(text.replace(where, what), '.inp, line ', *words)
+    fine = Bolt(n=2)
+    cut = fine.text()
+    d.refuses(cut.replace(surface('CUT', fine.sides('BOLT', 3, True)), surface('CUT', fine.sides('BOLT', 3, True)[:1])),
+              '.inp, line ', 'layer between two planes')
+    same(cut)

@@ -140,6 +140,17 @@ namespace Signorini
     DeckPlace place;
   };
 
+  /// A section through a bolt whose force is that of a node.
+  struct DeckPretension
+  {
+    /// Sides of elements inside of the bolt.
+    const DeckSurface *surface = nullptr;
+    unsigned int       node    = Deck::none;
+    /// Zero for the normal of the surface.
+    Vector3   axis;
+    DeckPlace place;
+  };
+
   /// What a deck says beside its mesh, as plain data. What differs from the deck is in the remarks. Errors:
   /// InputError with file and line for keywords that would change the result and cannot be taken.
   class DeckModel
@@ -182,6 +193,12 @@ namespace Signorini
     const std::vector<DeckRigid> &rigid() const
     {
       return rigid_list;
+    }
+
+    /// PRE-TENSION SECTION.
+    const std::vector<DeckPretension> &pretensions() const
+    {
+      return pretension_list;
     }
 
     /// At the end of each step.
@@ -235,6 +252,7 @@ namespace Signorini
     std::vector<unsigned int>            element_material;
     std::vector<DeckPair>                pair_list;
     std::vector<DeckRigid>               rigid_list;
+    std::vector<DeckPretension>          pretension_list;
     std::vector<DeckState>               step_list;
     std::map<unsigned int, unsigned int> node_frame;
     std::vector<DeckFrame>               frame_list;

@@ -126,10 +126,10 @@ TEST(ProblemDefinition, FreeBodyWithoutContact)
   ProblemDefinition problem = patch_test();
   problem.bodies.resize(3);
   problem.bodies[2].body = block("third", Point<3>(3, 0, 0), Point<3>(4, 1, 1), 1);
-  Journal            journal;
-  ContactModel       model(MPI_COMM_WORLD, problem);
-  const auto         d = discretize(model, std::make_shared<const ConstrainedSpace>(model), {}, 0, journal);
-  CoarserSpaces      coarser;
+  Journal       journal;
+  ContactModel  model(MPI_COMM_WORLD, problem);
+  const auto    d = discretize(model, std::make_shared<const ConstrainedSpace>(model), {}, 0, journal);
+  CoarserSpaces coarser;
   EXPECT_THROW(solve_contact(model, *d, coarser, nullptr, {}, journal), InputError);
 }
 

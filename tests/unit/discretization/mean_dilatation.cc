@@ -75,7 +75,10 @@ namespace
 
   bool has_mean_dilatation(const BodyParameters &p)
   {
-    return Bodies(MPI_COMM_WORLD, define_bodies(MPI_COMM_WORLD, {p}, ".")).material(0).mean_dilatation;
+    const Bodies bodies(MPI_COMM_WORLD, define_bodies(MPI_COMM_WORLD, {p}, "."));
+    const auto   ids = bodies.material_ids(0);
+    return std::any_of(ids.begin(), ids.end(),
+                       [&](const auto id) { return bodies.material(id).mean_dilatation; });
   }
 } // namespace
 
