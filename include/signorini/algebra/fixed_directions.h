@@ -133,11 +133,13 @@ namespace Signorini
     /// lies in the other.
     FixedDirections common(const FixedDirections &other) const;
 
+    /// Whether the same is fixed, to the last bit.
     bool operator==(const FixedDirections &other) const
     {
       return mask == other.mask && n_oblique == other.n_oblique && axis == other.axis;
     }
 
+    /// Whether something else is fixed.
     bool operator!=(const FixedDirections &other) const
     {
       return !(*this == other);

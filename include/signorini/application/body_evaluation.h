@@ -14,6 +14,7 @@ namespace Signorini
   /// A force and its moment about the origin of the coordinates.
   struct Resultant
   {
+    /// Force; force times length.
     Vector3 force, moment;
   };
 
@@ -33,6 +34,7 @@ namespace Signorini
   /// multiples of the width of the faces there.
   struct Slip
   {
+    /// Along the surface; in multiples of the width of faces (1).
     double length = 0., in_faces = 0.;
   };
 

@@ -36,9 +36,12 @@ namespace Signorini
   /// where that is on the nonmortar side.
   struct SmallestGap
   {
-    double           value = std::numeric_limits<double>::max();
+    /// Along the normal (length).
+    double value = std::numeric_limits<double>::max();
+    /// On the nonmortar side (length).
     dealii::Point<3> place;
-    Vector3          normal;
+    /// Of the nonmortar side there (1).
+    Vector3 normal;
   };
 
   /// Collective. That of the true surfaces before anything moves, at the corners of the overlay (with an

@@ -30,8 +30,11 @@ namespace Signorini
   /// What MATERIAL and the keywords below it say.
   struct DeckMaterial
   {
-    std::string                      name;
-    DeckPlace                        place;
+    /// As it is written.
+    std::string name;
+    /// Where its keyword is.
+    DeckPlace place;
+    /// None where it has no ELASTIC.
     std::optional<IsotropicMaterial> elastic;
     /// Mass per volume; expansion per degree.
     std::optional<double> density, expansion;
@@ -40,6 +43,7 @@ namespace Signorini
   /// Axes of a TRANSFORM: those of a rotated frame, or those of a cylinder (radial, tangential, axial).
   struct DeckFrame
   {
+    /// Whether the axes are those of a cylinder.
     bool is_cylindrical = false;
     /// Rows: the axes. Without meaning for a cylinder.
     std::array<Vector3, 3> axes;
@@ -62,8 +66,10 @@ namespace Signorini
   /// A value that later steps may replace.
   struct DeckLoad
   {
-    double       value = 0.;
-    unsigned int step  = 0;
+    /// In the units of what is loaded.
+    double value = 0.;
+    /// The step that gave it.
+    unsigned int step = 0;
   };
 
   /// Loads on a surface or on elements.
@@ -80,6 +86,7 @@ namespace Signorini
   /// Acceleration or force per volume of some elements.
   struct DeckVolumeLoad
   {
+    /// Indices into Deck::elements().
     std::vector<unsigned int> elements;
     /// Whether to be multiplied by the density.
     bool         is_acceleration = true;
@@ -112,9 +119,12 @@ namespace Signorini
   /// Two surfaces that may touch, or are glued together.
   struct DeckPair
   {
-    std::string        name;
+    /// That of the interaction, or of the tie.
+    std::string name;
+    /// The two surfaces.
     const DeckSurface *slave = nullptr, *master = nullptr;
-    bool               is_tied = false;
+    /// Whether they are glued together.
+    bool is_tied = false;
     /// Nodes of the slave surface that are moved onto the other one at first: those with smaller gaps
     /// (length), or these.
     std::optional<double>     adjust;
@@ -125,6 +135,7 @@ namespace Signorini
   /// Nodes that move as a rigid body with a reference node.
   struct DeckRigid
   {
+    /// No reference node.
     static constexpr unsigned int none = Deck::none;
 
     /// The keyword that makes it.

@@ -20,6 +20,7 @@ namespace Signorini
   /// their instance, or by the smallest set that has all of their elements.
   struct DeckProblem
   {
+    /// Of vertices that are no node of the deck.
     static constexpr long no_label = -1;
 
     /// What results in the deck's own terms need of a body.
@@ -31,7 +32,9 @@ namespace Signorini
       std::vector<long> node_of_vertex;
     };
 
-    ProblemDefinition       problem;
+    /// The contact problem.
+    ProblemDefinition problem;
+    /// By body.
     std::vector<BodyLabels> labels;
     /// Of all nodes of the deck.
     long largest_node_label = 0;

@@ -85,7 +85,9 @@ namespace Signorini
   /// functions.
   struct CellEigenstrain
   {
+    /// Whether there is none.
     bool                                       is_zero = true;
+    /// Symmetric (1).
     std::array<Block, CellShape::max_vertices> at_vertices;
 
     /// Where the shape functions have these values.

@@ -23,8 +23,10 @@ namespace Signorini
   /// The displacement of a body.
   struct KnownDisplacement
   {
+    /// Index of the body.
     unsigned int body;
-    VectorField  displacement;
+    /// At points of the undeformed body (length).
+    VectorField displacement;
   };
 
   /// Collective. Integrates with the quadrature of the elements; gradients of the known displacement by

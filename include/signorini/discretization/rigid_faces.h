@@ -65,6 +65,7 @@ namespace Signorini
     /// The unknowns of a node of a face: u = sum over the two carriers of block * z.
     struct Dependence
     {
+      /// Index of the face.
       unsigned int face;
       /// Where it is (length).
       dealii::Point<3> position;
@@ -121,7 +122,8 @@ namespace Signorini
     FixedDirections fixed_of_carrier(const int number) const;
 
     /// Sets the unknowns of the carriers that this rank owns to a rigid motion of the body.
-    /// @param motion its translation at a point, and its rotation (1)
+    /// @param translation_at the translation of a point of the face
+    /// @param rotation of the face (1)
     template <typename Motion>
     void set_motion(Vector &v, const NodePartition &partition, const unsigned int face,
                     const Motion &translation_at, const Vector3 &rotation) const;

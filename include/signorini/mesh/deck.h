@@ -21,10 +21,14 @@ namespace Signorini
   /// An element: nodes are indices into Deck::positions(), in the order of the file.
   struct DeckElement
   {
-    long                      label;
-    const DeckElementType    *type;
+    /// The number in the file.
+    long label;
+    /// Its kind.
+    const DeckElementType *type;
+    /// Indices into Deck::positions(), in the order of the file.
     std::vector<unsigned int> nodes;
-    DeckPlace                 place;
+    /// Where it is written.
+    DeckPlace place;
   };
 
   /// A named set of nodes or elements, as ascending indices.
@@ -42,16 +46,24 @@ namespace Signorini
     /// other element; SPOS or SNEG for shells.
     struct Faces
     {
+      /// Indices into Deck::elements().
       std::vector<unsigned int> elements;
-      std::string               side;
-      DeckPlace                 place;
+      /// What of them, as it is written.
+      std::string side;
+      /// Where that is written.
+      DeckPlace place;
     };
 
-    std::string               name;
-    DeckPlace                 place;
-    std::vector<Faces>        faces;
+    /// As it is written.
+    std::string name;
+    /// Where its keyword is.
+    DeckPlace place;
+    /// Its faces, if it is made of faces.
+    std::vector<Faces> faces;
+    /// Its nodes, if it is made of nodes.
     std::vector<unsigned int> nodes;
-    bool                      is_of_nodes = false;
+    /// Whether it is made of nodes.
+    bool is_of_nodes = false;
   };
 
   /// The nodes, elements, sets and surfaces of an Abaqus or CalculiX input file as one flat model: parts are
@@ -62,13 +74,16 @@ namespace Signorini
   class Deck
   {
   public:
+    /// No instance, no part.
     static constexpr unsigned int none = static_cast<unsigned int>(-1);
 
     /// A keyword that does not make the mesh, and the instance that it belongs to, or none.
     struct Other
     {
+      /// The keyword.
       const DeckKeyword *keyword;
-      unsigned int       instance;
+      /// The instance, or none.
+      unsigned int instance;
     };
 
     /// Reads the file and those that it includes.

@@ -19,6 +19,7 @@ namespace Signorini
   /// A kind of elements, as far as the mesh is concerned.
   struct DeckElementType
   {
+    /// The shape of its corners.
     enum Shape
     {
       tetrahedron,
@@ -30,7 +31,9 @@ namespace Signorini
       line
     };
 
-    Shape        shape;
+    /// Its shape.
+    Shape shape;
+    /// The numbers of its nodes, and of those that are corners.
     unsigned int n_nodes, n_corners;
 
     /// Whether there are nodes in the middle of edges.
@@ -107,7 +110,7 @@ namespace Signorini
     std::vector<VolumeMesh::Face> side(const unsigned int element, const unsigned int side) const;
 
     /// The pieces of a face with such corners, where it is the face of an element; else empty.
-    /// @param nodes of a face element: corners, then mid nodes
+    /// @param element a face element: corners, then mid nodes
     std::vector<VolumeMesh::Face> face(const DeckElement &element) const;
 
   private:

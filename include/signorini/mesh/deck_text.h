@@ -20,8 +20,10 @@ namespace Signorini
   /// A line of data.
   struct DeckLine
   {
+    /// Without the end of the line.
     std::string text;
-    DeckPlace   place;
+    /// Where it is.
+    DeckPlace place;
   };
 
   /// A keyword with its options and the data lines below it.

@@ -22,6 +22,7 @@ namespace Signorini
   /// by. The same on all ranks.
   struct StartNodes
   {
+    /// No vertex.
     static constexpr unsigned int none = static_cast<unsigned int>(-1);
 
     /// The vertices of the coarse hexahedra by NodalSpace::Cell::coarse_cell (in deal.II's order), and of the

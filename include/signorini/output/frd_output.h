@@ -15,7 +15,9 @@ namespace Signorini
   /// An element as an input file of CalculiX has it: 4, 6, 8, 10, 15 or 20 nodes.
   struct FrdElement
   {
-    long              label;
+    /// Its number.
+    long label;
+    /// Numbers of its nodes, in the order of the input file.
     std::vector<long> nodes;
   };
 
