@@ -86,7 +86,7 @@ namespace Signorini
   struct CellEigenstrain
   {
     /// Whether there is none.
-    bool                                       is_zero = true;
+    bool is_zero = true;
     /// Symmetric (1).
     std::array<Block, CellShape::max_vertices> at_vertices;
 

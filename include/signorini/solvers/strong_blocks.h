@@ -60,6 +60,11 @@ namespace Signorini
 
     void find_stretched(std::vector<bool> &is_stretched, std::vector<double> &most_negative) const;
     void find_blocks();
+    /// A node and those that it is coupled to strongly, by way of others too; those that come first are
+    /// nearest. @param is_strong_to of a row and an entry of it
+    template <typename Strong>
+    std::vector<unsigned int> grow_block(const unsigned int start, const std::size_t largest,
+                                         const Strong &is_strong_to, const std::vector<bool> &excluded);
     /// Whether an entry of a row couples two nodes strongly.
     bool is_strong(const unsigned int row, const std::size_t entry,
                    const std::vector<double> &most_negative) const;
