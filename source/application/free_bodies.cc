@@ -18,7 +18,7 @@ namespace Signorini
     struct FreedomRule
     {
       /// The mean square of the normal parts of a motion at active nodes, relative to that of the motion that
-      /// is opposed most: zero to rounding; what facets of round surfaces give.
+      /// moves these most: zero to rounding; what facets of round surfaces give.
       double not_opposed = 1e-10, hardly_opposed = 1e-4;
     };
   } // namespace
@@ -123,17 +123,22 @@ namespace Signorini
   LooseMotions find_loose_motions(const std::vector<FreeMotion> &motions, const std::vector<Vector> &fields,
                                   const HalfSpaces &spaces, const std::vector<unsigned char> &active)
   {
-    const auto      n    = static_cast<Eigen::Index>(fields.size());
-    Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(n, n);
+    const auto n = static_cast<Eigen::Index>(fields.size());
+    // Normal parts of two motions; in the last column whole motions.
+    Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(n, n + 1);
     for (std::size_t p = 0; p < spaces.size(); ++p)
       if (active[p])
         for (Eigen::Index i = 0; i < n; ++i)
-          for (Eigen::Index j = 0; j < n; ++j)
-            sums(i, j) += spaces.normal_part(p, fields[i]) * spaces.normal_part(p, fields[j]);
-    for (Eigen::Index i = 0; i < n * n; ++i)
+          {
+            for (Eigen::Index j = 0; j < n; ++j)
+              sums(i, j) += spaces.normal_part(p, fields[i]) * spaces.normal_part(p, fields[j]);
+            for (unsigned int c = 0; c < dim; ++c)
+              sums(i, n) += Utilities::fixed_power<2>(fields[i].local_element(dim * spaces.nodes[p] + c));
+          }
+    for (Eigen::Index i = 0; i < sums.size(); ++i)
       sums.data()[i] = Utilities::MPI::sum(sums.data()[i], fields[0].get_mpi_communicator());
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(sums);
-    const double                                         scale = std::max(eigen.eigenvalues()[n - 1], 1e-300);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(sums.leftCols(n));
+    const double                                         scale = sums.col(n).maxCoeff();
     const FreedomRule                                    rule;
     LooseMotions                                         result;
     for (Eigen::Index k = 0; k < n; ++k)

@@ -111,6 +111,7 @@ namespace Signorini
     const unsigned int coarsest = choose_level(hierarchy, level);
     for (unsigned int l = level; l > coarsest; --l)
       add_space(hierarchy, l - 1);
+    fill_empty_directions();
     gather_matrix();
     partition.reinit(step);
     partition.reinit(product);
@@ -197,10 +198,16 @@ namespace Signorini
       if (own.owns(node))
         masks.push_back(finest.fixed[own.to_local(node)]);
     space.fixed = import_ghost_masks(space.matrix.partition(), masks);
-    std::vector<unsigned int> rows(space.matrix.n_rows());
-    std::iota(rows.begin(), rows.end(), 0u);
-    eliminate_fixed_components(space.matrix, space.fixed, rows, finest.scale);
+    eliminate_fixed_components(space.matrix, space.fixed, all_rows(space.matrix), finest.scale);
     spaces.push_back(std::move(space));
+  }
+
+
+
+  void ContactSubspace::fill_empty_directions()
+  {
+    NodeBlockMatrix &coarsest = spaces.back().matrix;
+    EmptyDirections().fill(coarsest, all_rows(coarsest), finest.scale);
   }
 
 

@@ -4,6 +4,7 @@ signorini_add_layer(solvers
   coarse_cholesky.cc
   contact_state.cc
   contact_subspace.cc
+  empty_directions.cc
   foreign_levels.cc
   free_motion_correction.cc
   gathered_blocks.cc

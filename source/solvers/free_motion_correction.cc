@@ -80,13 +80,14 @@ namespace Signorini
         for (Eigen::Index j = 0; j <= i; ++j)
           energies(i, j) = energies(j, i) = row[j];
       }
+    const double                                         opposed = largest_opposition(spaces);
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(energies);
     Eigen::MatrixXd inverse_energies = Eigen::MatrixXd::Zero(n, n), idle = inverse_energies;
     for (Eigen::Index k = 0; k < n; ++k)
       {
         const double          energy = eigen.eigenvalues()[k];
         const Eigen::MatrixXd part   = eigen.eigenvectors().col(k) * eigen.eigenvectors().col(k).transpose();
-        if (energy <= Rule().costs_nothing * eigen.eigenvalues()[n - 1])
+        if (energy <= Rule().costs_nothing * opposed)
           idle += part;
         else
           inverse_energies += part / energy;
@@ -98,6 +99,25 @@ namespace Signorini
       idle -= flight * flight.transpose() / flight.squaredNorm();
     inverse.assign(inverse_energies.data(), inverse_energies.data() + n * n);
     projector.assign(idle.data(), idle.data() + n * n);
+  }
+
+
+
+  double FreeMotionCorrection::largest_opposition(const HalfSpaces &spaces) const
+  {
+    std::vector<double> sums(motions.size(), 0.);
+    for (std::size_t p = 0; p < active->size(); ++p)
+      if ((*active)[p])
+        {
+          const unsigned int  row   = spaces.nodes[p];
+          const double *const block = matrix.block(matrix.diagonal(row));
+          for (std::size_t i = 0; i < motions.size(); ++i)
+            for (unsigned int c = 0; c < dim; ++c)
+              sums[i] += (block[0] + block[4] + block[8]) / dim *
+                         Utilities::fixed_power<2>(motions[i].local_element(dim * row + c));
+        }
+    Utilities::MPI::sum(sums, matrix.partition().communicator(), sums);
+    return *std::max_element(sums.begin(), sums.end());
   }
 
 

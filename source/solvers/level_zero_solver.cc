@@ -50,7 +50,7 @@ namespace Signorini
     n_steps = level_zero.method == LevelZeroMethod::algebraic_shortened ? level_zero.n_steps : 0;
     if (!level_zero.free_motions.empty())
       {
-        find_kernel(new_matrix, level_zero.free_motions);
+        find_kernel(new_matrix);
         make_definite(new_matrix);
         matrix = &definite;
       }
@@ -66,37 +66,49 @@ namespace Signorini
 
 
 
-  void LevelZeroSolver::find_kernel(const NodeBlockMatrix &singular, const std::vector<Vector> &free_motions)
+  void LevelZeroSolver::find_kernel(const NodeBlockMatrix &singular)
   {
-    const auto      n = static_cast<Eigen::Index>(free_motions.size());
-    Eigen::MatrixXd energies(n, n);
-    Vector          motion, product;
-    singular.partition().reinit(motion);
-    singular.partition().reinit(product);
+    const std::vector<Vector> &motions = level_zero.free_motions;
+    const auto                 n       = static_cast<Eigen::Index>(motions.size());
+    Eigen::MatrixXd            energies(n, n);
     for (Eigen::Index i = 0; i < n; ++i)
       {
-        motion.copy_locally_owned_data_from(free_motions[i]);
+        Vector motion, product;
+        singular.partition().reinit(motion);
+        singular.partition().reinit(product);
+        motion.copy_locally_owned_data_from(motions[i]);
         singular.vmult(product, motion);
         for (Eigen::Index j = 0; j < n; ++j)
-          {
-            motion.copy_locally_owned_data_from(free_motions[j]);
-            energies(i, j) = product * motion;
-          }
+          energies(i, j) = product * motions[j];
       }
     const double                                         scale = diagonal_scale(singular);
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(.5 * (energies + energies.transpose()));
-    kernel.clear();
-    for (Eigen::Index k = 0; k < n; ++k)
-      if (eigen.eigenvalues()[k] <= rule.costs_nothing * scale)
+    Eigen::Index                                         n_kernel = 0;
+    while (n_kernel < n && eigen.eigenvalues()[n_kernel] <= rule.costs_nothing * scale)
+      ++n_kernel;
+    const Eigen::MatrixXd basis = eigen.eigenvectors().leftCols(n_kernel);
+    const auto combine = [&](const std::vector<Vector> &vectors, const Eigen::MatrixXd &coefficients) {
+      std::vector<Vector> result(coefficients.cols());
+      for (Eigen::Index k = 0; k < coefficients.cols(); ++k)
         {
-          kernel.emplace_back();
-          singular.partition().reinit(kernel.back());
+          singular.partition().reinit(result[k]);
           for (Eigen::Index i = 0; i < n; ++i)
             {
-              motion.copy_locally_owned_data_from(free_motions[i]);
-              kernel.back().add(eigen.eigenvectors()(i, k), motion);
+              Vector vector;
+              vector.reinit(result[k]);
+              vector.copy_locally_owned_data_from(vectors[i]);
+              result[k].add(coefficients(i, k), vector);
             }
         }
+      return result;
+    };
+    Eigen::MatrixXd weights(n, n);
+    for (Eigen::Index i = 0; i < n; ++i)
+      for (Eigen::Index j = 0; j < n; ++j)
+        weights(i, j) = motions[i] * level_zero.motion_weights[j];
+    const Eigen::MatrixXd gram = basis.transpose() * weights * basis;
+    kernel                     = combine(motions, basis);
+    kernel_weights             = combine(level_zero.motion_weights, basis * gram.inverse());
   }
 
 
@@ -121,17 +133,17 @@ namespace Signorini
     largest_rhs                  = std::max(largest_rhs, rhs.l2_norm());
     Vector            consistent = rhs;
     std::vector<bool> is_loaded;
-    for (const Vector &motion : kernel)
+    for (std::size_t k = 0; k < kernel.size(); ++k)
       {
-        const double work = motion * rhs;
+        const double work = kernel[k] * rhs;
         is_loaded.push_back(std::abs(work) > rule.no_load * largest_rhs);
         if (!is_loaded.back())
-          consistent.add(-work, motion);
+          consistent.add(-work, kernel_weights[k]);
       }
     solve_definite(solution, consistent);
     for (std::size_t k = 0; k < kernel.size(); ++k)
       if (!is_loaded[k])
-        solution.add(-(kernel[k] * solution), kernel[k]);
+        solution.add(-(kernel_weights[k] * solution), kernel[k]);
   }
 
 

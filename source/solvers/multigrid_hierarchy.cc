@@ -5,7 +5,6 @@
 #include <signorini/solvers/multigrid_hierarchy.h>
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/base/symmetric_tensor.h>
 
 namespace Signorini
 {
@@ -13,44 +12,6 @@ namespace Signorini
 
   namespace
   {
-    /// When a direction of a diagonal block counts as one without stiffness.
-    struct EmptyDirectionRule
-    {
-      /// Of the stiffest direction of the block. Truncation at normals that are nearly the same leaves very
-      /// little to a coarse function along their mean, and sweeps in single precision (6e-8) then return
-      /// rounding, and more of it in each cycle. A lug that is pulled against its pin, 275,859 unknowns: 15
-      /// iterations from 1e-9 to 1e-3, 30 at 1e-11.
-      double of_block = 1e-6;
-      /// Of the largest entry of the level.
-      double of_level = 1e-14;
-      /// A block whose stiffest direction has less than this part of the largest entry of the level gets that
-      /// entry in its empty directions, others their own stiffest one.
-      double of_small_block = 1e-10;
-    };
-
-    /// Gives directions in which a diagonal block has no stiffness one.
-    void fill_empty_directions(double *const block, const double scale)
-    {
-      constexpr EmptyDirectionRule rule;
-      SymmetricTensor<2, dim>      s;
-      for (unsigned int c = 0; c < dim; ++c)
-        for (unsigned int d = c; d < dim; ++d)
-          s[c][d] = .5 * (block[dim * c + d] + block[dim * d + c]);
-      const double mean = trace(s) / dim;
-      // Well away from singular, the common case: the determinant is at most 3.4 times the smallest
-      // eigenvalue, if that is small, times the square of the mean.
-      if (mean > rule.of_small_block * scale && determinant(s) > 10. * rule.of_block * mean * mean * mean)
-        return;
-      const auto   pairs     = eigenvectors(s, SymmetricTensorEigenvectorMethod::jacobi);
-      const double reference = std::max(pairs[0].first, 0.);
-      const double filling   = reference > rule.of_small_block * scale ? reference : scale;
-      for (const auto &[value, direction] : pairs)
-        if (value <= std::max(rule.of_block * reference, rule.of_level * scale))
-          for (unsigned int c = 0; c < dim; ++c)
-            for (unsigned int d = 0; d < dim; ++d)
-              block[dim * c + d] += filling * direction[c] * direction[d];
-    }
-
     /// Rows and columns of prescribed components; the diagonal stays what it is.
     void eliminate_components(double *const b, const FixedMask of_row, const FixedMask of_column,
                               const bool is_diagonal, const double scale)
@@ -80,14 +41,16 @@ namespace Signorini
         }
       write_block(b, result);
     }
-
-    std::vector<unsigned int> all_rows(const NodeBlockMatrix &matrix)
-    {
-      std::vector<unsigned int> rows(matrix.n_rows());
-      std::iota(rows.begin(), rows.end(), 0u);
-      return rows;
-    }
   } // namespace
+
+
+
+  std::vector<unsigned int> all_rows(const NodeBlockMatrix &matrix)
+  {
+    std::vector<unsigned int> rows(matrix.n_rows());
+    std::iota(rows.begin(), rows.end(), 0u);
+    return rows;
+  }
 
 
 
@@ -105,22 +68,19 @@ namespace Signorini
                                   const std::vector<unsigned int> &rows, const double scale)
   {
     for (const unsigned int i : rows)
-      {
-        for (const BlockRange &range : matrix.ranges(i))
-          for (std::size_t k = range.begin; k < range.end; ++k)
-            {
-              const FixedDirections &of_row = fixed[i], &of_column = fixed[matrix.column(k)];
-              if (!of_row.any() && !of_column.any())
-                continue;
-              const bool is_diagonal = k == matrix.diagonal(i);
-              if (of_row.is_along_axes() && of_column.is_along_axes())
-                eliminate_components(matrix.block(k), of_row.components(), of_column.components(),
-                                     is_diagonal, scale);
-              else
-                eliminate_directions(matrix.block(k), of_row, of_column, is_diagonal, scale);
-            }
-        fill_empty_directions(matrix.block(matrix.diagonal(i)), scale);
-      }
+      for (const BlockRange &range : matrix.ranges(i))
+        for (std::size_t k = range.begin; k < range.end; ++k)
+          {
+            const FixedDirections &of_row = fixed[i], &of_column = fixed[matrix.column(k)];
+            if (!of_row.any() && !of_column.any())
+              continue;
+            const bool is_diagonal = k == matrix.diagonal(i);
+            if (of_row.is_along_axes() && of_column.is_along_axes())
+              eliminate_components(matrix.block(k), of_row.components(), of_column.components(), is_diagonal,
+                                   scale);
+            else
+              eliminate_directions(matrix.block(k), of_row, of_column, is_diagonal, scale);
+          }
   }
 
 
@@ -147,6 +107,8 @@ namespace Signorini
     LevelZero level_zero = parts.levels->level_zero(levels.back()->matrix.partition());
     if (levels.size() == 1)
       add_coarser(copy_of_finest(level_zero.contact), parts);
+    for (const Vector &motion : level_zero.free_motions)
+      level_zero.motion_weights.push_back(weights_of_motion(motion));
     if (!level_zero_solver)
       level_zero_solver = std::make_unique<LevelZeroSolver>(std::move(level_zero));
     level_zero_changed = true;
@@ -183,6 +145,7 @@ namespace Signorini
     level.fixed           = import_ghost_masks(level.matrix.partition(), parts.fixed);
     level.scale           = diagonal_scale(level.matrix);
     eliminate_fixed_components(level.matrix, level.fixed, all_rows(level.matrix), level.scale);
+    level.empty.fill(level.matrix, all_rows(level.matrix), level.scale);
     make_smoother(level, parts.interface, parts);
   }
 
@@ -190,7 +153,8 @@ namespace Signorini
 
   void MultigridHierarchy::add_coarser(CoarserLevel &&description, const HierarchyParts &parts)
   {
-    const NodeBlockMatrix &fine = levels.back()->matrix;
+    MultigridLevel        &finer = *levels.back();
+    const NodeBlockMatrix &fine  = finer.matrix;
     if (levels.size() == 1 && parts.start != nullptr)
       truncate_expected(parts, description.transfer);
     levels.push_back(std::make_unique<MultigridLevel>());
@@ -200,10 +164,13 @@ namespace Signorini
     level.contact         = std::move(description.contact);
     level.half_spaces     = std::move(description.half_spaces);
     reinit_galerkin(level.matrix, fine, level.to_finer, description.owned);
-    level.fixed = import_ghost_masks(level.matrix.partition(), description.fixed);
+    level.fixed                            = import_ghost_masks(level.matrix.partition(), description.fixed);
+    const std::vector<unsigned int> filled = finer.empty.restore(finer.matrix);
     compute_galerkin(level.matrix, fine, level.to_finer);
+    finer.empty.fill(finer.matrix, filled, finer.scale);
     level.scale = diagonal_scale(level.matrix);
     eliminate_fixed_components(level.matrix, level.fixed, all_rows(level.matrix), level.scale);
+    level.empty.fill(level.matrix, all_rows(level.matrix), level.scale);
     make_smoother(level, description.interface, parts);
   }
 
@@ -226,6 +193,30 @@ namespace Signorini
     copy.fixed.assign(finest.fixed.begin(), finest.fixed.begin() + partition.n_owned());
     copy.contact = contact;
     return copy;
+  }
+
+
+
+  Vector MultigridHierarchy::weights_of_motion(const Vector &motion) const
+  {
+    Vector values;
+    levels.back()->matrix.partition().reinit(values);
+    values.copy_locally_owned_data_from(motion);
+    for (std::size_t k = levels.size() - 1; k > 0; --k)
+      {
+        Vector finer;
+        levels[k - 1]->matrix.partition().reinit(finer);
+        levels[k]->to_finer.prolongate(finer, values);
+        values.swap(finer);
+      }
+    for (std::size_t k = 1; k < levels.size(); ++k)
+      {
+        Vector coarser;
+        levels[k]->matrix.partition().reinit(coarser);
+        restrict_defect(*levels[k], coarser, values);
+        values.swap(coarser);
+      }
+    return values;
   }
 
 
@@ -318,20 +309,28 @@ namespace Signorini
       return false;
     truncate_transfer(level(level_index - 1).to_finer, matrix.partition().n_local(), planes, changed);
 
-    std::vector<unsigned int> rows = matrix.rows_with_column(
+    // Of the levels up to this one: the rows that are new or were filled.
+    std::vector<std::vector<unsigned int>> rows(level_index + 1);
+    for (unsigned int l = 0; l <= level_index; ++l)
+      rows[l] = level(l).empty.restore(level(l).matrix);
+    std::vector<unsigned int> changed_rows = matrix.rows_with_column(
         [&](const unsigned int column) { return changed.local_element(dim * column) != 0.; });
     for (unsigned int l = level_index; l-- > 0;)
       {
         MultigridLevel &coarse = level(l);
-        const auto      marked = mark_coarse_nodes(coarse.to_finer, rows);
+        const auto      marked = mark_coarse_nodes(coarse.to_finer, changed_rows);
         compute_galerkin(coarse.matrix, level(l + 1).matrix, coarse.to_finer, marked);
-        rows.clear();
+        changed_rows.clear();
         for (unsigned int i = 0; i < coarse.matrix.n_rows(); ++i)
           if (marked[i])
-            rows.push_back(i);
-        eliminate_fixed_components(coarse.matrix, coarse.fixed, rows, coarse.scale);
-        coarse.smoother->update(rows);
+            changed_rows.push_back(i);
+        eliminate_fixed_components(coarse.matrix, coarse.fixed, changed_rows, coarse.scale);
+        rows[l].insert(rows[l].end(), changed_rows.begin(), changed_rows.end());
       }
+    for (unsigned int l = 0; l <= level_index; ++l)
+      level(l).empty.fill(level(l).matrix, rows[l], level(l).scale);
+    for (unsigned int l = 0; l < level_index; ++l)
+      level(l).smoother->update(rows[l]);
     level_zero_changed = true;
     return true;
   }

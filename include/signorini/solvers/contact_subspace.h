@@ -91,6 +91,7 @@ namespace Signorini
     void          add_space(const MultigridHierarchy &hierarchy, const unsigned int coarse_level);
     NodalTransfer make_transfer(const MultigridLevel &coarse, const NodePartition &level_above,
                                 const NodePartition &space_above, const Numbering &numbering) const;
+    void          fill_empty_directions();
     void          gather_matrix();
 
     /// rhs - A v at the owned nodes of the coarsest space, and what holds them.

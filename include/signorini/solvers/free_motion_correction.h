@@ -24,7 +24,7 @@ namespace Signorini
     /// When a motion is idle.
     struct Rule
     {
-      /// Its energy relative to that of the motion that is opposed most: rounding.
+      /// Its energy relative to what it would be if the active nodes opposed it in all directions: rounding.
       double costs_nothing = 1e-14;
       /// The work of the loads on it, relative to what it is made up of, and to the work on all motions.
       double rounding = 1e-10, no_work = 1e-7;
@@ -60,6 +60,8 @@ namespace Signorini
 
   private:
     void add(Vector &c, const std::vector<double> &coefficients) const;
+    /// Collective. The largest energy of a motion if the active nodes opposed it in all directions.
+    double largest_opposition(const HalfSpaces &spaces) const;
 
     const NodeBlockMatrix     &matrix;
     const std::vector<Vector> &motions;

@@ -38,6 +38,10 @@ namespace Signorini
     /// Orthonormal rigid motions of bodies that only contact holds: on those that no active node opposes the
     /// matrix is singular. Empty if all bodies are held.
     std::vector<Vector> free_motions;
+    /// Of each, made by the hierarchy: P^T P m, P all transfers together, whose product with a correction is
+    /// what this has of the motion m on the finest level. Functions of background levels that vanish at all
+    /// nodes of the mesh have nothing of it, whatever their product with m is.
+    std::vector<Vector> motion_weights;
 
     /// Whether a level of so many nodes is left to amg.
     bool uses_amg(const NodeIndex n_nodes) const;
@@ -75,8 +79,8 @@ namespace Signorini
     void solve(Vector &solution, const Vector &rhs) const override;
 
   private:
-    /// Of the rigid motions those that cost nothing, orthonormal.
-    void find_kernel(const NodeBlockMatrix &singular, const std::vector<Vector> &free_motions);
+    /// Of the free motions those that cost nothing, orthonormal.
+    void find_kernel(const NodeBlockMatrix &singular);
     void make_definite(const NodeBlockMatrix &singular);
     void solve_definite(Vector &solution, const Vector &rhs) const;
 
@@ -88,8 +92,9 @@ namespace Signorini
     std::unique_ptr<AlgebraicMultigrid> amg;
     const NodeBlockMatrix              *matrix = nullptr;
     NodeBlockMatrix                     definite;
-    /// Orthonormal motions that cost nothing; the largest right hand side so far.
-    std::vector<Vector> kernel;
+    /// Orthonormal motions that cost nothing, what measures them (biorthogonal), and the largest right hand
+    /// side so far.
+    std::vector<Vector> kernel, kernel_weights;
     mutable double      largest_rhs = 0.;
   };
 } // namespace Signorini

@@ -5,6 +5,7 @@
 #define signorini_solvers_multigrid_hierarchy_h
 
 #include <signorini/algebra/nodal_transfer.h>
+#include <signorini/solvers/empty_directions.h>
 #include <signorini/solvers/level_zero_solver.h>
 #include <signorini/solvers/staged_smoother.h>
 
@@ -33,7 +34,9 @@ namespace Signorini
     NodeBlockMatrix matrix;
     /// Fixed components of the local nodes.
     std::vector<FixedDirections> fixed;
-    std::unique_ptr<Smoother>    smoother;
+    /// What the matrix has that no energy gave it.
+    EmptyDirections           empty;
+    std::unique_ptr<Smoother> smoother;
     /// Contact nodes of both sides: global numbers, sorted, the same on all ranks.
     std::vector<NodeIndex> contact_nodes;
     /// Contact nodes of a coarse level with their normals, for coarse obstacles (no bounds); may be empty.
@@ -51,12 +54,14 @@ namespace Signorini
     std::vector<unsigned char> truncated;
   };
 
+  /// The owned rows of a matrix.
+  std::vector<unsigned int> all_rows(const NodeBlockMatrix &matrix);
+
   /// Collective. coarse_defect += P^T residual, zero in fixed components; level is the coarse one.
   void restrict_defect(const MultigridLevel &level, Vector &coarse_defect, const Vector &residual);
 
-  /// Zeroes rows and columns of fixed components (the diagonal entry stays, or becomes `scale` where it
-  /// is zero) and gives directions without any stiffness, which truncation can leave behind, a diagonal
-  /// entry, so that blocks can be inverted. `rows` are owned rows.
+  /// Zeroes rows and columns of fixed components; the diagonal entry stays, or becomes `scale` where it is
+  /// zero. `rows` are owned rows.
   void eliminate_fixed_components(NodeBlockMatrix &matrix, const std::vector<FixedDirections> &fixed,
                                   const std::vector<unsigned int> &rows, const double scale);
 
@@ -187,6 +192,8 @@ namespace Signorini
     void make_smoother(MultigridLevel &level, const LevelInterface &interface, const HierarchyParts &parts);
     /// An algebraic copy of the only level.
     CoarserLevel copy_of_finest(const HalfSpaces &contact) const;
+    /// LevelZero::motion_weights of a motion on level 0.
+    Vector weights_of_motion(const Vector &motion) const;
     /// Truncates the first prolongation at the active set that problem and start let expect.
     void truncate_expected(const HierarchyParts &parts, NodalTransfer &transfer);
 
