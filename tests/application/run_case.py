@@ -491,6 +491,32 @@ def held_by_contact(p):
                   f'notes: {s["notes"]}')
 
 
+def eye_on_pin(p):
+    """A finished mesh whose pulled boundary is held, may slide, moves as a rigid face: as many iterations; what is idle is said and stays small."""
+    eye = '../tests/application/eye.prm'
+    few = ['Body eye/Round divisions=4, 20, 5', 'Body pin/Round divisions=3, 18, 6'] if len(p.command) > 1 else []
+
+    def solve(setting):
+        s = p.solve(eye, f'Body eye/{setting}', *few, 'Solver/Maximal iterations=60')
+        n = s['cycles'][0]['nonlinear']['iterations']
+        print(f'{setting}: {n} iterations, largest displacement {s["bodies"][0]["largest_displacement"]}')
+        certificate(s)
+        return s, n, s['pairs'][0]['force'][1], s['bodies'][0]['largest_displacement']
+
+    held, usual, force, _ = solve('Dirichlet=symmetry y: (0, -0.1, 0)')
+    idle = 'nothing determines body eye'
+    check(not any(idle in note for note in held['notes']), f'held: {held["notes"]}')
+    for setting, same_as in [('Dirichlet=symmetry y: (0, -0.1, *)', 1e-2), ('Rigid=symmetry y: displacement (0, -0.1, *), rotation (0, 0, 0)', 1e-9),
+                             ('Rigid=symmetry y: displacement (0, -0.1, 0), rotation (0, 0, *)', 1e-9),
+                             (f'Rigid=symmetry y: force (0, {-force!r}, 0), along (0, 1, 0)', 1e-9),
+                             (f'Rigid=symmetry y: force (0, {-force!r}, 0)', 1e-9)]:
+        s, n, found, largest = solve(setting)
+        check(n <= usual + 3, f'{setting}: {n} iterations, held {usual}')
+        near(found, force, same_as, f'{setting}: force')
+        check(largest <= .11, f'{setting}: displacement {largest}')
+        check(any(idle in note for note in s['notes']) == ('along' not in setting), f'{setting}: {s["notes"]}')
+
+
 # doc/verification.md, H1: F/4, a, p0 of this geometry (M1, M2) and the bars at about 50,000 and 400,000 unknowns.
 H1 = {'M1': (('6.896e5', '0.45'), (20.820, 0.4031, 244.63)), 'M2': (('7e3', '0.3'), (10.638, 0.4047, 124.01))}
 COARSE_BARS, FINE_BARS = (1e-2, 2e-2, 3e-2), (3e-3, 7e-3, 1.5e-2)

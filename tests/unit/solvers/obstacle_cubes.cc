@@ -315,6 +315,73 @@ TEST(EmptyDirections, FillsThoseWithHardlyAnyStiffness)
 
 
 
+// Levels without contact, in which the function of a node in the middle of the second one has hardly any
+// values.
+class LevelsWithAnEmptyFunction : public LevelSource
+{
+public:
+  std::optional<CoarserLevel> next(const NodePartition &finer) override
+  {
+    if (n == 2)
+      return {};
+    const CubeProblem::Grid fine(n), coarse(n / 2);
+    NodeRows                rows = import_ghost_rows(finer, CubeProblem::interpolation(fine, coarse));
+    if (n == 8)
+      for (std::size_t k = 0; k < rows.columns.size(); ++k)
+        if (rows.columns[k] == coarse.node(1, 2, 2))
+          rows.weights[k] *= 1e-9;
+    CoarserLevel result;
+    result.transfer.reinit(rows, {}, finer.n_owned());
+    result.owned = coarse.owned;
+    result.fixed = coarse.fixed();
+    n /= 2;
+    return result;
+  }
+
+  LevelZero level_zero(const NodePartition &) override
+  {
+    return {};
+  }
+
+private:
+  unsigned int n = 8;
+};
+
+
+
+// The energy of a coarse function is that of what it is on the finest mesh.
+TEST(EmptyDirections, StayOutOfCoarserLevels)
+{
+  LevelsWithAnEmptyFunction levels;
+  HierarchyParts            parts = CubeProblem::finest_level(8);
+  parts.levels                    = &levels;
+  MultigridHierarchy hierarchy(std::move(parts));
+  const auto         n_filled =
+      static_cast<unsigned int>(hierarchy.level(1).empty.restore(hierarchy.level(1).matrix).size());
+  EXPECT_EQ(dealii::Utilities::MPI::sum(n_filled, MPI_COMM_WORLD), 1);
+  Vector x, product;
+  hierarchy.level(0).matrix.partition().reinit(x);
+  hierarchy.level(0).matrix.partition().reinit(product);
+  for (unsigned int i = 0; i < x.locally_owned_size(); ++i)
+    x.local_element(i) = std::sin(1. + static_cast<double>(x.get_partitioner()->local_to_global(i)));
+  for (unsigned int i = 0; i < hierarchy.level(0).matrix.n_rows(); ++i)
+    project_free(hierarchy.level(0).fixed[i], x, i);
+  hierarchy.level(0).matrix.vmult(product, x);
+  const double energy = x * product;
+  for (unsigned int l = 0; l + 1 < hierarchy.n_levels(); ++l)
+    {
+      Vector finer;
+      hierarchy.level(l + 1).matrix.partition().reinit(finer);
+      hierarchy.level(l).to_finer.prolongate(finer, x);
+      x.swap(finer);
+    }
+  hierarchy.finest().matrix.partition().reinit(product);
+  hierarchy.finest().matrix.vmult(product, x);
+  EXPECT_NEAR(energy / (x * product), 1., 1e-12);
+}
+
+
+
 // Built truncated or truncated afterwards: the same coarse matrices, and nothing left to do for the solver,
 // which has the solution as its start.
 TEST(MultigridHierarchy, IsBuiltTruncatedAtTheExpectedActiveSet)
