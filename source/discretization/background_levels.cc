@@ -199,27 +199,60 @@ namespace Signorini
 
 
 
-    void BackgroundBuilder::descend(const BackgroundLevel                  &level,
-                                    std::vector<BackgroundOctree::Vertex> &&new_vertices)
+    /// Whether two rows have a column in common.
+    bool have_common_column(const NodeRows &rows, const unsigned int i, const unsigned int j)
     {
-      std::vector<unsigned int> trees_of_level(level.positions.size());
-      cells = NodeGroups();
+      const auto begin = rows.columns.begin();
+      for (std::size_t k = rows.start[i]; k < rows.start[i + 1]; ++k)
+        if (std::find(begin + rows.start[j], begin + rows.start[j + 1], rows.columns[k]) !=
+            begin + rows.start[j + 1])
+          return true;
+      return false;
+    }
+
+
+
+    /// What holds a level together: nodes that a finer one depends on, and, where finer nodes of a cell
+    /// depend on different ones (a cell that spans a leaf without nodes of its own), one of each.
+    NodeGroups connect_level(const NodeRows &rows, const NodeGroups &finer_cells)
+    {
+      NodeGroups cells;
+      const auto finish = [&] { cells.start.push_back(cells.nodes.size()); };
       // Nodes that depend on the same ones say the same; neighbours in the numbering often do.
       std::vector<NodeIndex> group, last;
-      for (std::size_t i = 0; i < level.rows.n_rows(); ++i)
+      for (std::size_t i = 0; i < rows.n_rows(); ++i)
         {
-          group.assign(level.rows.columns.begin() + level.rows.start[i],
-                       level.rows.columns.begin() + level.rows.start[i + 1]);
-          for (const NodeIndex node : group)
-            trees_of_level[node] = tree_of_node[i];
+          group.assign(rows.columns.begin() + rows.start[i], rows.columns.begin() + rows.start[i + 1]);
           std::sort(group.begin(), group.end());
           if (group == last)
             continue;
           for (const NodeIndex node : group)
             cells.nodes.push_back(static_cast<unsigned int>(node));
-          cells.start.push_back(cells.nodes.size());
+          finish();
           last = group;
         }
+      for (std::size_t c = 0; c + 1 < finer_cells.start.size(); ++c)
+        for (std::size_t k = finer_cells.start[c] + 1; k < finer_cells.start[c + 1]; ++k)
+          if (const unsigned int i = finer_cells.nodes[k - 1], j = finer_cells.nodes[k];
+              !have_common_column(rows, i, j))
+            {
+              for (const unsigned int node : {i, j})
+                cells.nodes.push_back(static_cast<unsigned int>(rows.columns[rows.start[node]]));
+              finish();
+            }
+      return cells;
+    }
+
+
+
+    void BackgroundBuilder::descend(const BackgroundLevel                  &level,
+                                    std::vector<BackgroundOctree::Vertex> &&new_vertices)
+    {
+      std::vector<unsigned int> trees_of_level(level.positions.size());
+      for (std::size_t i = 0; i < level.rows.n_rows(); ++i)
+        for (std::size_t k = level.rows.start[i]; k < level.rows.start[i + 1]; ++k)
+          trees_of_level[level.rows.columns[k]] = tree_of_node[i];
+      cells        = connect_level(level.rows, cells);
       tree_of_node = std::move(trees_of_level);
       part_of_node = level.parts;
       vertices     = std::move(new_vertices);

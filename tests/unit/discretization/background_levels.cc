@@ -148,6 +148,28 @@ TEST(BackgroundLevels, AreSplitAtSlots)
     }
 }
 
+// Blocks of small cells with one long cell from each to the next, as adaptive meshes of bisected tetrahedra
+// have them: no function of a level with small cells is in both, but they are one body.
+TEST(BackgroundLevels, KeepWhatLongCellsConnectTogether)
+{
+  std::vector<double> x;
+  for (const double start : {0., 40., 80., 120.})
+    for (const double d : even(6, 1.))
+      x.push_back(start + d);
+  ConnectedNodes mesh = grid({{x, even(6, 1.), even(6, 1.)}});
+  std::fill(mesh.sizes.begin(), mesh.sizes.end(), 1.);
+  BackgroundRule rule;
+  rule.smallest_level                 = 20;
+  const auto                   levels = make_background_levels(mesh, rule);
+  const std::vector<Point<3>> *finer  = &mesh.positions;
+  for (const BackgroundLevel &level : levels)
+    {
+      check_rows(level, *finer, 130.);
+      finer = &level.positions;
+    }
+  EXPECT_LE(finer->size(), rule.smallest_level);
+}
+
 TEST(BackgroundLevels, KeepPartsApart)
 {
   ConnectedNodes       mesh  = grid({{even(12, 1.), even(12, 1.), even(12, 1.)}});
