@@ -3,6 +3,7 @@
 
 #include <signorini/application/body_evaluation.h>
 #include <signorini/application/contact_evaluation.h>
+#include <signorini/application/nodal_sums.h>
 #include <signorini/discretization/elasticity.h>
 #include <signorini/discretization/element.h>
 #include <signorini/mesh/surface_extraction.h>
@@ -14,20 +15,6 @@ namespace Signorini
 
   namespace
   {
-    Vector3 sum(const Vector3 &v, const MPI_Comm comm)
-    {
-      Vector3 result;
-      for (unsigned int c = 0; c < dim; ++c)
-        result[c] = Utilities::MPI::sum(v[c], comm);
-      return result;
-    }
-
-    Vector3 nodal(const Vector &field, const unsigned int i)
-    {
-      return Vector3(
-          {field.local_element(dim * i), field.local_element(dim * i + 1), field.local_element(dim * i + 2)});
-    }
-
     /// The largest of a positive quantity, and where.
     struct Largest
     {
@@ -59,15 +46,20 @@ namespace Signorini
         *this = all;
       }
     };
+  } // namespace
 
-    std::vector<unsigned int> bodies_of_nodes(const Discretization &d, const Bodies &bodies)
+
+
+  namespace
+  {
+    /// The rigid faces that a list of loads has.
+    std::vector<const RigidFace *> loaded_faces(const Discretization &d, const Loads &loads)
     {
-      std::vector<unsigned int> body(d.partition().n_owned(), numbers::invalid_unsigned_int);
-      for (const NodalSpace::Cell &cell : d.nodal().cells())
-        for (const NodeIndex node : d.nodal().nodes(cell))
-          if (d.partition().owns(node))
-            body[d.partition().to_local(node)] = bodies.body_of_material(cell.material);
-      return body;
+      std::vector<const RigidFace *> result;
+      if (d.dirichlet().rigid != nullptr && !loads.rigid_faces.empty())
+        for (const RigidFace &face : d.dirichlet().rigid->faces())
+          result.push_back(&face);
+      return result;
     }
   } // namespace
 
@@ -93,12 +85,17 @@ namespace Signorini
         const NodeIndex node = d.partition().to_global(i);
         if (body[i] == numbers::invalid_unsigned_int || d.nodal().hanging_nodes().is_constrained(node))
           continue;
-        const Vector3 force = -nodal(forces, i);
+        const Vector3 force = -nodal_value(forces, i);
         result[body[i]].force += force;
         result[body[i]].moment += cross_product_3d(Vector3(d.nodal().position(node)), force);
       }
     for (Resultant &r : result)
       r = {sum(r.force, comm), sum(r.moment, comm)};
+    for (const RigidFace *const face : loaded_faces(d, loads))
+      {
+        result[face->body].force += face->force;
+        result[face->body].moment += face->moment + cross_product_3d(Vector3(face->centre), face->force);
+      }
     return result;
   }
 
@@ -133,7 +130,7 @@ namespace Signorini
           {
             std::array<Vector3, CellShape::max_vertices> u;
             for (unsigned int v = 0; v < cell.n_vertices; ++v)
-              u[v] = nodal(displacement, d.partition().to_local(d.nodal().nodes(cell)[v]));
+              u[v] = nodal_value(displacement, d.partition().to_local(d.nodal().nodes(cell)[v]));
             const Element  element(d.nodal(), cell);
             const Point<3> middle =
                 cell.n_vertices == CellShape::hexahedron ? Point<3>(.5, .5, .5) : Point<3>(.25, .25, .25);
@@ -158,6 +155,9 @@ namespace Signorini
             if (boundary.body == bodies[b].name)
               bodies[b].reaction += boundary.reaction;
         }
+      // What a rigid face does to its body is its load, and what its conditions add.
+      for (const RigidFace *const face : loaded_faces(d, model.loads()))
+        bodies[face->body].reaction -= face->force;
       for (unsigned int p = 0; p < d.pairs.size() && p < results.pairs.size(); ++p)
         {
           bodies[d.pairs[p].nonmortar.body].contact += results.pairs[p].force;
@@ -181,7 +181,7 @@ namespace Signorini
         for (const NodeIndex node : d.nodal().nodes(cell))
           {
             const unsigned int b = bodies.body_of_material(cell.material);
-            movement[b].add(nodal(displacement, d.partition().to_local(node)).norm(),
+            movement[b].add(nodal_value(displacement, d.partition().to_local(node)).norm(),
                             d.nodal().position(node));
             von_mises[b].add(stress[d.nodal().relevant().index_within_set(node)], d.nodal().position(node));
           }

@@ -4,6 +4,7 @@
 #include <signorini/algebra/input_error.h>
 #include <signorini/algebra/replicated_data.h>
 #include <signorini/application/contact_evaluation.h>
+#include <signorini/application/nodal_sums.h>
 #include <signorini/discretization/elasticity.h>
 #include <signorini/discretization/element.h>
 #include <signorini/mesh/surface_extraction.h>
@@ -19,20 +20,6 @@ namespace Signorini
 
   namespace
   {
-    Vector3 sum(const Vector3 &v, const MPI_Comm comm)
-    {
-      Vector3 result;
-      for (unsigned int c = 0; c < dim; ++c)
-        result[c] = Utilities::MPI::sum(v[c], comm);
-      return result;
-    }
-
-    Vector3 nodal(const Vector &field, const unsigned int i)
-    {
-      return Vector3(
-          {field.local_element(dim * i), field.local_element(dim * i + 1), field.local_element(dim * i + 2)});
-    }
-
     /// What is left of the forces on one body, and of their moments about its centre of nodes.
     class BodyBalance
     {
@@ -83,16 +70,6 @@ namespace Signorini
       Vector3 force, moment, centre;
       double  scale = 0., n_nodes = 0., square = 0.;
     };
-
-    std::vector<unsigned int> bodies_of_nodes(const Discretization &d, const Bodies &bodies)
-    {
-      std::vector<unsigned int> body(d.partition().n_owned(), numbers::invalid_unsigned_int);
-      for (const NodalSpace::Cell &cell : d.nodal().cells())
-        for (const NodeIndex node : d.nodal().nodes(cell))
-          if (d.partition().owns(node))
-            body[d.partition().to_local(node)] = bodies.body_of_material(cell.material);
-      return body;
-    }
 
     GeometricPenetration penetration_of(const Discretization &d, const ContactPair &pair,
                                         const Vector &displacement)
@@ -284,7 +261,7 @@ namespace Signorini
             const RigidFace  &face = rigid.faces()[f];
             const RigidMotion work{sum.force, sum.moment / face.length};
             for (std::size_t j = 0; j < face.free.size(); ++j)
-              rigid_square += Utilities::fixed_power<2>(face.free[j] * work - face.forces[j]);
+              rigid_square += Utilities::fixed_power<2>(face.free[j] * work - face.load_on(face.free[j]));
           }
       }
 
@@ -346,9 +323,9 @@ namespace Signorini
     for (unsigned int i = 0; i < d.partition().n_owned(); ++i)
       if (body_of_node[i] != numbers::invalid_unsigned_int)
         {
-          Vector3 force = nodal(residual, i);
-          if (model.loads().has_eigenstrains() && nodal(initial, i).norm() > force.norm())
-            force = nodal(initial, i);
+          Vector3 force = nodal_value(residual, i);
+          if (model.loads().has_eigenstrains() && nodal_value(initial, i).norm() > force.norm())
+            force = nodal_value(initial, i);
           balance[body_of_node[i]].add_scale(position(i), force);
         }
     subtract_contact_forces(residual, d, solution.stress);
@@ -429,7 +406,7 @@ namespace Signorini
             const auto values = element.shape_values(reference);
             for (unsigned int v = 0; v < cell.n_vertices; ++v)
               best.displacement +=
-                  values[v] * nodal(displacement, d.partition().to_local(d.nodal().nodes(cell)[v]));
+                  values[v] * nodal_value(displacement, d.partition().to_local(d.nodal().nodes(cell)[v]));
           }
       return best;
     }

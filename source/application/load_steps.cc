@@ -70,7 +70,7 @@ namespace Signorini
       line << "step t = " << step.time << ": " << step.report.iterations << " iterations, "
            << step.active_nodes << " contact nodes active";
       for (const PairResult &pair : step.pairs)
-        line << ", " << pair.name << " " << pair.load;
+        line << ", force of " << pair.name << " " << pair.force.norm();
       return line.str();
     }
 

@@ -111,6 +111,11 @@ namespace Signorini
             describe_load(out, model, d, one, "body " + bodies.body_name(b) + ", volume");
             one.volume_forces[b] = {};
           }
+      if (d.dirichlet().rigid != nullptr)
+        for (const RigidFace &face : d.dirichlet().rigid->faces())
+          out << "load on " << model.loads().rigid_faces[face.index].boundary << ", a rigid face: force "
+              << text(face.force) << ", moment about (" << face.centre << ") " << text(face.moment)
+              << std::endl;
       for (const Pretension &bolt : model.loads().pretensions)
         out << "pretension of body " << bodies.body_name(bolt.body) << ", " << bolt.name << ": section force "
             << bolt.force(Point<3>(), model.loads().time) << " along " << text(bolt.axis) << std::endl;
@@ -173,6 +178,11 @@ namespace Signorini
             out << ' ' << m << " directions of nodes";
           out << std::endl;
         }
+      if (d.dirichlet().rigid != nullptr)
+        for (const RigidFace &face : d.dirichlet().rigid->faces())
+          out << "constraint on body " << model.bodies().body_name(face.body) << ", boundary "
+              << model.loads().rigid_faces[face.index].boundary << ": moves as a rigid body, with "
+              << face.free.size() << " motion(s) free" << std::endl;
     }
 
     void describe_free_motions(std::ostream &out, const ContactModel &model, const Discretization &d)

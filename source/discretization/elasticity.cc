@@ -395,7 +395,13 @@ namespace Signorini
   {
     if (dirichlet.rigid != nullptr)
       for (unsigned int f = 0; f < dirichlet.rigid->faces().size(); ++f)
-        dirichlet.rigid->add(rhs, partition, f, dirichlet.rigid->faces()[f].forces);
+        {
+          const RigidFace    &face = dirichlet.rigid->faces()[f];
+          std::vector<double> loads;
+          for (const RigidMotion &motion : face.free)
+            loads.push_back(face.load_on(motion));
+          dirichlet.rigid->add(rhs, partition, f, loads);
+        }
   }
 
 

@@ -155,7 +155,7 @@ namespace Signorini
       {
         const RigidFaceCondition &condition = loads.rigid_faces[f];
         const auto                nodes     = nodes_of_face(space, condition.ids);
-        RigidFace                 face{f, condition.body, Point<3>(), 0., {}, {}, {}};
+        RigidFace                 face{f, condition.body, Point<3>(), 0., {}, {}, {}, {}};
         Point<3>                  low = nodes.begin()->second, high = low;
         for (const auto &[node, x] : nodes)
           for (unsigned int c = 0; c < dim; ++c)
@@ -204,10 +204,10 @@ namespace Signorini
             }
         solve(face, conditions, condition.where);
 
-        const Vector3 force  = condition.force ? condition.force(face.centre, loads.time) : Vector3();
-        const Vector3 moment = condition.moment ? condition.moment(face.centre, loads.time) : Vector3();
-        for (const RigidMotion &motion : face.free)
-          face.forces.push_back(motion.translation * force + motion.rotation * moment / face.length);
+        if (condition.force)
+          face.force = condition.force(face.centre, loads.time);
+        if (condition.moment)
+          face.moment = condition.moment(face.centre, loads.time);
         result.push_back(std::move(face));
       }
     return result;

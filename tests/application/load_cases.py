@@ -124,6 +124,10 @@ def rigid_faces(p):
             reaction = next(b['reaction'] for b in s['boundaries'] if b['name'] == 'top')
             for a, b in zip(reaction, top):
                 check(abs(a - b) <= 1e-10 * abs(top[2]), f'{more}: force {a}, expected {b}')
+            body = next(b for b in s['bodies'] if b['name'] == 'upper')
+            for load, reaction, force, expected in zip(body['load'], body['reaction'], body['contact_force'], top if s is by_force else (0, 0, 0)):
+                check(abs(load - expected) <= 1e-10 * abs(top[2]), f'{more}: load {body["load"]}, expected {expected}')
+                check(abs(load + reaction + force) <= 1e-9 * abs(top[2]), f'{more}: {body} is not in balance')
             for a, b in zip(s['cycles'], prescribed['cycles']):
                 check(a['nonlinear']['iterations'] <= b['nonlinear']['iterations'] + 3,
                       f'{more}: {a["nonlinear"]["iterations"]} iterations, by displacement {b["nonlinear"]["iterations"]}')
@@ -137,6 +141,9 @@ def rigid_faces(p):
         certificate(s)
         near(s['pairs'][0]['max_pressure'], prescribed['pairs'][0]['max_pressure'], 1e-9, 'largest pressure of the ball')
         near(-s['pairs'][0]['load'], force[2], 2e-2, 'load')
+    run = p.call(os.path.join(TOP, 'prm', PATCH_TEST), '--check', '--set', 'Body upper/Dirichlet=', '--set', 'Body upper/Rigid=top: force (1, 0, -3), along (0, 0, 1)')
+    for words in ('load on top, a rigid face: force (1, 0, -3)', 'boundary top: moves as a rigid body, with 1 motion(s) free'):
+        check(words in run.stdout, f'{words}: not in {run.stdout}')
     for setting, words in [('top: push (0, 0, -1)', 'should begin with force'), ('top: along (0, 0, 0)', 'must not be zero'),
                            ('top: force (0, 0, -1), force (0, 0, -2)', 'there twice')]:
         refused(p, f'Body upper/Rigid={setting}', words)

@@ -46,8 +46,14 @@ namespace Signorini
     /// Orthonormal; six at most. What the conditions of the face prescribe is in the lift.
     std::vector<RigidMotion> free;
     RigidMotion              lift;
-    /// Of the force and the moment on each free motion (force).
-    std::vector<double> forces;
+    /// What acts on it; the moment about the centre (force, force times length).
+    Vector3 force, moment;
+
+    /// Their work on a motion, over the size of the motion (force).
+    double load_on(const RigidMotion &motion) const
+    {
+      return motion.translation * force + motion.rotation * moment / length;
+    }
 
     /// The displacement of a motion at a point.
     Vector3 displacement(const RigidMotion &motion, const dealii::Point<3> &x) const
