@@ -52,13 +52,16 @@ namespace Signorini
 
   namespace
   {
-    /// The rigid faces that a list of loads has.
-    std::vector<const RigidFace *> loaded_faces(const Discretization &d, const Loads &loads)
+    /// Those of rigid faces, by body.
+    std::vector<Resultant> loads_of_rigid_faces(const Discretization &d, const unsigned int n_bodies)
     {
-      std::vector<const RigidFace *> result;
-      if (d.dirichlet().rigid != nullptr && !loads.rigid_faces.empty())
+      std::vector<Resultant> result(n_bodies);
+      if (d.dirichlet().rigid != nullptr)
         for (const RigidFace &face : d.dirichlet().rigid->faces())
-          result.push_back(&face);
+          {
+            result[face.body].force += face.force;
+            result[face.body].moment += face.moment + cross_product_3d(Vector3(face.centre), face.force);
+          }
       return result;
     }
   } // namespace
@@ -91,10 +94,19 @@ namespace Signorini
       }
     for (Resultant &r : result)
       r = {sum(r.force, comm), sum(r.moment, comm)};
-    for (const RigidFace *const face : loaded_faces(d, loads))
+    return result;
+  }
+
+
+
+  std::vector<Resultant> all_loads(const ContactModel &model, const Discretization &d)
+  {
+    std::vector<Resultant> result = load_resultants(model, d, model.loads());
+    const auto             rigid  = loads_of_rigid_faces(d, model.bodies().n_bodies());
+    for (unsigned int b = 0; b < result.size(); ++b)
       {
-        result[face->body].force += face->force;
-        result[face->body].moment += face->moment + cross_product_3d(Vector3(face->centre), face->force);
+        result[b].force += rigid[b].force;
+        result[b].moment += rigid[b].moment;
       }
     return result;
   }
@@ -146,18 +158,18 @@ namespace Signorini
     void add_forces(std::vector<BodyResult> &bodies, const ContactModel &model, const Discretization &d,
                     const Results &results)
     {
-      const auto loads = load_resultants(model, d, model.loads());
+      const auto loads = all_loads(model, d);
+      // What a rigid face does to its body is its load, and what its conditions add.
+      const auto rigid = loads_of_rigid_faces(d, model.bodies().n_bodies());
       for (unsigned int b = 0; b < bodies.size(); ++b)
         {
           bodies[b].load        = loads[b].force;
           bodies[b].load_moment = loads[b].moment;
+          bodies[b].reaction    = -rigid[b].force;
           for (const BoundaryResult &boundary : results.boundaries)
             if (boundary.body == bodies[b].name)
               bodies[b].reaction += boundary.reaction;
         }
-      // What a rigid face does to its body is its load, and what its conditions add.
-      for (const RigidFace *const face : loaded_faces(d, model.loads()))
-        bodies[face->body].reaction -= face->force;
       for (unsigned int p = 0; p < d.pairs.size() && p < results.pairs.size(); ++p)
         {
           bodies[d.pairs[p].nonmortar.body].contact += results.pairs[p].force;

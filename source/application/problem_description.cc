@@ -91,6 +91,15 @@ namespace Signorini
               << text(r.moment) << std::endl;
     }
 
+    void describe_loads_of_rigid_faces(std::ostream &out, const ContactModel &model, const Discretization &d)
+    {
+      if (d.dirichlet().rigid != nullptr)
+        for (const RigidFace &face : d.dirichlet().rigid->faces())
+          out << "load on " << model.loads().rigid_faces[face.index].boundary << ", a rigid face: force "
+              << text(face.force) << ", moment about (" << face.centre << ") " << text(face.moment)
+              << std::endl;
+    }
+
     /// Collective.
     void describe_loads(std::ostream &out, const ContactModel &model, const Discretization &d)
     {
@@ -111,17 +120,13 @@ namespace Signorini
             describe_load(out, model, d, one, "body " + bodies.body_name(b) + ", volume");
             one.volume_forces[b] = {};
           }
-      if (d.dirichlet().rigid != nullptr)
-        for (const RigidFace &face : d.dirichlet().rigid->faces())
-          out << "load on " << model.loads().rigid_faces[face.index].boundary << ", a rigid face: force "
-              << text(face.force) << ", moment about (" << face.centre << ") " << text(face.moment)
-              << std::endl;
+      describe_loads_of_rigid_faces(out, model, d);
       for (const Pretension &bolt : model.loads().pretensions)
         out << "pretension of body " << bodies.body_name(bolt.body) << ", " << bolt.name << ": section force "
             << bolt.force(Point<3>(), model.loads().time) << " along " << text(bolt.axis) << std::endl;
       if (!model.loads().eigenstrains.empty())
         out << "temperatures or initial strains, which have no resultant" << std::endl;
-      const auto all = load_resultants(model, d, model.loads());
+      const auto all = all_loads(model, d);
       for (unsigned int b = 0; b < bodies.n_bodies(); ++b)
         out << "all loads on body " << bodies.body_name(b) << ": force " << text(all[b].force)
             << ", moment about the origin " << text(all[b].moment) << std::endl;
@@ -134,10 +139,9 @@ namespace Signorini
       std::array<double, 3> low = {{1e300, 1e300, 1e300}}, high = {{-1e300, -1e300, -1e300}};
     };
 
-    /// Collective.
-    void describe_constraints(std::ostream &out, const ContactModel &model, const Discretization &d)
+    /// By condition.
+    std::vector<Prescribed> find_prescribed(const ContactModel &model, const Discretization &d)
     {
-      const MPI_Comm          comm = model.communicator();
       std::vector<Prescribed> conditions(model.loads().dirichlet.size());
       for (unsigned int i = 0; i < d.partition().n_owned(); ++i)
         {
@@ -153,6 +157,14 @@ namespace Signorini
             for (const HeldNode::Hold &hold : node->second.holds)
               conditions[hold.condition].n_directions += 1.;
         }
+      return conditions;
+    }
+
+    /// Collective.
+    void describe_constraints(std::ostream &out, const ContactModel &model, const Discretization &d)
+    {
+      const MPI_Comm                comm       = model.communicator();
+      const std::vector<Prescribed> conditions = find_prescribed(model, d);
       for (std::size_t k = 0; k < conditions.size(); ++k)
         {
           const DirichletCondition &condition = model.loads().dirichlet[k];
@@ -178,6 +190,10 @@ namespace Signorini
             out << ' ' << m << " directions of nodes";
           out << std::endl;
         }
+    }
+
+    void describe_rigid_faces(std::ostream &out, const ContactModel &model, const Discretization &d)
+    {
       if (d.dirichlet().rigid != nullptr)
         for (const RigidFace &face : d.dirichlet().rigid->faces())
           out << "constraint on body " << model.bodies().body_name(face.body) << ", boundary "
@@ -226,6 +242,7 @@ namespace Signorini
       describe_pair(out, d.pairs[p], d.couplings[p], comm);
     describe_loads(out, model, d);
     describe_constraints(out, model, d);
+    describe_rigid_faces(out, model, d);
     describe_free_motions(out, model, d);
   }
 } // namespace Signorini

@@ -5,6 +5,7 @@ signorini_add_layer(discretization
   condition_frame.cc
   elasticity.cc
   elasticity_pattern.cc
+  distributed_background_levels.cc
   eigenstrain.cc
   element.cc
   error_indicator.cc

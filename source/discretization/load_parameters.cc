@@ -2,7 +2,7 @@
 // Copyright (C) 2026 by the Signorini authors
 
 #include <signorini/algebra/input_error.h>
-#include <signorini/discretization/boundary_conditions.h>
+#include <signorini/discretization/load_definition.h>
 #include <signorini/mesh/expression.h>
 
 #include <deal.II/base/utilities.h>

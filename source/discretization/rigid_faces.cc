@@ -143,6 +143,69 @@ namespace Signorini
           free -= v * (v.transpose() * free).eval();
         }
     }
+
+    /// A face with its centre, its size and what acts on it.
+    RigidFace make_face(const unsigned int index, const RigidFaceCondition &condition,
+                        const std::map<NodeIndex, Point<3>> &nodes, const double time)
+    {
+      RigidFace face{index, condition.body, Point<3>(), 0., {}, {}, {}, {}};
+      Point<3>  low = nodes.begin()->second, high = low;
+      for (const auto &[node, x] : nodes)
+        for (unsigned int c = 0; c < dim; ++c)
+          {
+            low[c]  = std::min(low[c], x[c]);
+            high[c] = std::max(high[c], x[c]);
+          }
+      face.length = .5 * low.distance(high);
+      face.centre = condition.about ? *condition.about : Point<3>(.5 * (Vector3(low) + Vector3(high)));
+      if (condition.force)
+        face.force = condition.force(face.centre, time);
+      if (condition.moment)
+        face.moment = condition.moment(face.centre, time);
+      return face;
+    }
+
+    /// Collective. What is prescribed at the nodes of a face.
+    Conditions conditions_of_nodes(const RigidFace &face, const std::map<NodeIndex, Point<3>> &nodes,
+                                   const NodalSpace &space, const DirichletData &data)
+    {
+      Conditions conditions;
+      for (const auto &[node, x] : nodes)
+        if (space.owned().is_element(node))
+          {
+            const std::size_t i = space.relevant().index_within_set(node);
+            for (const Vector3 &direction : data.fixed[i].basis())
+              conditions.add(
+                  to_numbers({direction, cross_product_3d(x - face.centre, direction) / face.length}),
+                  data.value[i] * direction);
+          }
+      conditions.sum(space.communicator());
+      return conditions;
+    }
+
+    /// What is prescribed to a face as a whole weighs as much as all of its nodes.
+    void add_conditions_of_face(Conditions &conditions, const RigidFace &face,
+                                const RigidFaceCondition &condition, const double weight, const double time)
+    {
+      const bool is_guided = condition.direction.norm_square() > 0.;
+      for (unsigned int c = 0; c < dim; ++c)
+        {
+          Vector6 translation = Vector6::Zero(), rotation = Vector6::Zero();
+          translation[c]    = weight;
+          rotation[dim + c] = weight;
+          if (condition.displacement[c])
+            conditions.add(translation, weight * condition.displacement[c](face.centre, time));
+          if (condition.rotation[c])
+            conditions.add(rotation, weight * face.length * condition.rotation[c](face.centre, time));
+          if (!is_guided)
+            continue;
+          Vector3 across;
+          across[c] = 1.;
+          across -= (across * condition.direction) * condition.direction / condition.direction.norm_square();
+          conditions.add(weight * to_numbers({across, Vector3()}), 0.);
+          conditions.add(rotation, 0.);
+        }
+    }
   } // namespace
 
 
@@ -153,61 +216,12 @@ namespace Signorini
     std::vector<RigidFace> result;
     for (unsigned int f = 0; f < loads.rigid_faces.size(); ++f)
       {
-        const RigidFaceCondition &condition = loads.rigid_faces[f];
-        const auto                nodes     = nodes_of_face(space, condition.ids);
-        RigidFace                 face{f, condition.body, Point<3>(), 0., {}, {}, {}, {}};
-        Point<3>                  low = nodes.begin()->second, high = low;
-        for (const auto &[node, x] : nodes)
-          for (unsigned int c = 0; c < dim; ++c)
-            {
-              low[c]  = std::min(low[c], x[c]);
-              high[c] = std::max(high[c], x[c]);
-            }
-        face.length = .5 * low.distance(high);
-        face.centre = condition.about ? *condition.about : Point<3>(.5 * (Vector3(low) + Vector3(high)));
-
-        Conditions conditions;
-        const auto held = [&](const Vector3 &direction, const Vector3 &arm, const double value) {
-          conditions.add(to_numbers({direction, cross_product_3d(arm, direction) / face.length}), value);
-        };
-        for (const auto &[node, x] : nodes)
-          if (space.owned().is_element(node))
-            {
-              const std::size_t i = space.relevant().index_within_set(node);
-              for (const Vector3 &direction : data.fixed[i].basis())
-                held(direction, x - face.centre, data.value[i] * direction);
-            }
-        conditions.sum(space.communicator());
-        const double weight = static_cast<double>(nodes.size());
-        for (unsigned int c = 0; c < dim; ++c)
-          {
-            Vector6 row = Vector6::Zero();
-            row[c]      = weight;
-            if (condition.displacement[c])
-              conditions.add(row, weight * condition.displacement[c](face.centre, loads.time));
-            row.setZero();
-            row[dim + c] = weight;
-            if (condition.rotation[c])
-              conditions.add(row, weight * face.length * condition.rotation[c](face.centre, loads.time));
-          }
-        if (condition.direction.norm_square() > 0.)
-          for (unsigned int c = 0; c < dim; ++c)
-            {
-              Vector3 across;
-              across[c] = 1.;
-              across -=
-                  (across * condition.direction) * condition.direction / condition.direction.norm_square();
-              conditions.add(weight * to_numbers({across, Vector3()}), 0.);
-              Vector6 row  = Vector6::Zero();
-              row[dim + c] = weight;
-              conditions.add(row, 0.);
-            }
+        const RigidFaceCondition &condition  = loads.rigid_faces[f];
+        const auto                nodes      = nodes_of_face(space, condition.ids);
+        RigidFace                 face       = make_face(f, condition, nodes, loads.time);
+        Conditions                conditions = conditions_of_nodes(face, nodes, space, data);
+        add_conditions_of_face(conditions, face, condition, static_cast<double>(nodes.size()), loads.time);
         solve(face, conditions, condition.where);
-
-        if (condition.force)
-          face.force = condition.force(face.centre, loads.time);
-        if (condition.moment)
-          face.moment = condition.moment(face.centre, loads.time);
         result.push_back(std::move(face));
       }
     return result;

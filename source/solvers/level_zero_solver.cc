@@ -66,49 +66,65 @@ namespace Signorini
 
 
 
-  void LevelZeroSolver::find_kernel(const NodeBlockMatrix &singular)
+  namespace
   {
-    const std::vector<Vector> &motions = level_zero.free_motions;
-    const auto                 n       = static_cast<Eigen::Index>(motions.size());
-    Eigen::MatrixXd            energies(n, n);
-    for (Eigen::Index i = 0; i < n; ++i)
-      {
-        Vector motion, product;
-        singular.partition().reinit(motion);
-        singular.partition().reinit(product);
-        motion.copy_locally_owned_data_from(motions[i]);
-        singular.vmult(product, motion);
-        for (Eigen::Index j = 0; j < n; ++j)
-          energies(i, j) = product * motions[j];
-      }
-    const double                                         scale = diagonal_scale(singular);
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(.5 * (energies + energies.transpose()));
-    Eigen::Index                                         n_kernel = 0;
-    while (n_kernel < n && eigen.eigenvalues()[n_kernel] <= rule.costs_nothing * scale)
-      ++n_kernel;
-    const Eigen::MatrixXd basis = eigen.eigenvectors().leftCols(n_kernel);
-    const auto combine = [&](const std::vector<Vector> &vectors, const Eigen::MatrixXd &coefficients) {
+    /// The products of some vectors with a matrix and with each other.
+    Eigen::MatrixXd energies_of(const std::vector<Vector> &vectors, const NodeBlockMatrix &matrix)
+    {
+      const auto      n = static_cast<Eigen::Index>(vectors.size());
+      Eigen::MatrixXd energies(n, n);
+      Vector          vector, product;
+      matrix.partition().reinit(vector);
+      matrix.partition().reinit(product);
+      for (Eigen::Index i = 0; i < n; ++i)
+        {
+          vector.copy_locally_owned_data_from(vectors[i]);
+          matrix.vmult(product, vector);
+          for (Eigen::Index j = 0; j < n; ++j)
+            energies(i, j) = product * vectors[j];
+        }
+      return .5 * (energies + energies.transpose());
+    }
+
+    /// One combination for each column of coefficients.
+    std::vector<Vector> combine(const std::vector<Vector> &vectors, const Eigen::MatrixXd &coefficients,
+                                const NodePartition &partition)
+    {
       std::vector<Vector> result(coefficients.cols());
+      Vector              vector;
+      partition.reinit(vector);
       for (Eigen::Index k = 0; k < coefficients.cols(); ++k)
         {
-          singular.partition().reinit(result[k]);
-          for (Eigen::Index i = 0; i < n; ++i)
+          partition.reinit(result[k]);
+          for (Eigen::Index i = 0; i < coefficients.rows(); ++i)
             {
-              Vector vector;
-              vector.reinit(result[k]);
               vector.copy_locally_owned_data_from(vectors[i]);
               result[k].add(coefficients(i, k), vector);
             }
         }
       return result;
-    };
-    Eigen::MatrixXd weights(n, n);
+    }
+  } // namespace
+
+
+
+  void LevelZeroSolver::find_kernel(const NodeBlockMatrix &singular)
+  {
+    const std::vector<Vector>                           &motions = level_zero.free_motions;
+    const auto                                           n       = static_cast<Eigen::Index>(motions.size());
+    const double                                         scale   = diagonal_scale(singular);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(energies_of(motions, singular));
+    Eigen::Index                                         n_kernel = 0;
+    while (n_kernel < n && eigen.eigenvalues()[n_kernel] <= rule.costs_nothing * scale)
+      ++n_kernel;
+    const Eigen::MatrixXd basis = eigen.eigenvectors().leftCols(n_kernel);
+    Eigen::MatrixXd       weights(n, n);
     for (Eigen::Index i = 0; i < n; ++i)
       for (Eigen::Index j = 0; j < n; ++j)
         weights(i, j) = motions[i] * level_zero.motion_weights[j];
     const Eigen::MatrixXd gram = basis.transpose() * weights * basis;
-    kernel                     = combine(motions, basis);
-    kernel_weights             = combine(level_zero.motion_weights, basis * gram.inverse());
+    kernel                     = combine(motions, basis, singular.partition());
+    kernel_weights = combine(level_zero.motion_weights, basis * gram.inverse(), singular.partition());
   }
 
 

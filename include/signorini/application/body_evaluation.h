@@ -18,10 +18,13 @@ namespace Signorini
     Vector3 force, moment;
   };
 
-  /// Collective. What loads (not prescribed displacements) do to each body, from the nodal forces that the
-  /// solver sees.
+  /// Collective. What loads on volumes, boundaries and nodes (not prescribed displacements, not rigid faces)
+  /// do to each body, from the nodal forces that the solver sees.
   std::vector<Resultant> load_resultants(const ContactModel &model, const Discretization &discretization,
                                          const Loads &loads);
+
+  /// Collective. Those of the model, with those of its rigid faces.
+  std::vector<Resultant> all_loads(const ContactModel &model, const Discretization &discretization);
 
   /// Collective. Extrema of displacement, stress, strain and rotation of each body, and what acts on it.
   /// @param stress von Mises stress at the relevant nodes, as nodal_stress() gives it
