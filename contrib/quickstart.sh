@@ -51,7 +51,7 @@ case "${1:-}" in
   test)
     install_missing "${packages[@]}" libgtest-dev libpsurface-dev doxygen universal-ctags
     build -DSIGNORINI_TESTS=ON
-    ctest --test-dir "$build" --output-on-failure
+    ctest --test-dir "$build" --output-on-failure --parallel "$(nproc)"
     ;;
   *) usage ;;
 esac

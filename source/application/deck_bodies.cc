@@ -6,6 +6,7 @@
 #include <signorini/algebra/input_error.h>
 
 #include <algorithm>
+#include <set>
 
 namespace Signorini
 {
@@ -24,14 +25,27 @@ namespace Signorini
 
   namespace
   {
-    /// The name of the smallest set that contains all elements, if it has no others; else that of the
-    /// smallest one that contains them; else empty.
-    std::string smallest_set(const Deck &deck, const std::vector<unsigned int> &elements)
+    /// The sets that SOLID SECTIONs name, in capitals.
+    std::set<std::string> names_of_sections(const Deck &deck)
+    {
+      std::set<std::string> names;
+      for (const Deck::Other &other : deck.others())
+        if (other.keyword->name == "SOLID SECTION")
+          names.insert(deck_upper(other.keyword->get("ELSET")));
+      return names;
+    }
+
+    /// The name of the smallest set that contains all elements, of several with the same elements that of a
+    /// section, else of the first (mesh generators number theirs); empty if there is none.
+    std::string smallest_set(const Deck &deck, const std::vector<unsigned int> &elements,
+                             const std::set<std::string> &sections)
     {
       const DeckSet *best = nullptr;
+      const auto     rank = [&](const DeckSet &set) {
+        return std::make_pair(set.members.size(), sections.count(deck_upper(set.name)) == 0);
+      };
       for (const DeckSet &set : deck.element_sets())
-        if (set.members.size() >= elements.size() &&
-            (best == nullptr || set.members.size() < best->members.size()) &&
+        if (set.members.size() >= elements.size() && (best == nullptr || rank(set) < rank(*best)) &&
             std::includes(set.members.begin(), set.members.end(), elements.begin(), elements.end()))
           best = &set;
       return best == nullptr ? "" : best->name;
@@ -39,6 +53,7 @@ namespace Signorini
 
     void name_bodies(std::vector<DeckBody> &bodies, const Deck &deck)
     {
+      const std::set<std::string>         sections = names_of_sections(deck);
       std::map<std::string, unsigned int> n_of_instance, n_of_name;
       for (const DeckBody &body : bodies)
         ++n_of_instance[deck.instance_of_element(body.elements[0])];
@@ -47,7 +62,7 @@ namespace Signorini
           const std::string &instance = deck.instance_of_element(body.elements[0]);
           std::string        name     = instance;
           if (instance.empty() || n_of_instance[instance] > 1)
-            name = smallest_set(deck, body.elements);
+            name = smallest_set(deck, body.elements, sections);
           name = plain_name(name);
           // Several parts of one set are numbered.
           const unsigned int n = ++n_of_name[deck_upper(name)];

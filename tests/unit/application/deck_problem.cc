@@ -85,6 +85,19 @@ TEST(DeckProblem, HasBodiesPairsAndLoads)
 
 
 
+// As gmsh writes it: ELEMENT has a set of its own, the group that the section names has the same elements.
+TEST(DeckProblem, BodiesHaveTheNamesOfTheirSections)
+{
+  std::string       text    = cubes(contact + "*ELSET, ELSET=Block\n1\n", "");
+  const std::string section = "*SOLID SECTION, ELSET=low", named = "*SOLID SECTION, ELSET=BLOCK";
+  text.replace(text.find(section), section.size(), named);
+  const DeckProblem deck = problem_of(text);
+  EXPECT_EQ(deck.problem.bodies[0].body.name, "Block");
+  EXPECT_EQ(deck.problem.bodies[1].body.name, "high");
+}
+
+
+
 TEST(DeckProblem, GravityNeedsDensity)
 {
   EXPECT_THROW(problem_of(cubes("", "*DLOAD\nlow, GRAV, 10., 0., 0., -1.\n")), InputError);
