@@ -7,6 +7,7 @@
 #include <signorini/application/journal.h>
 #include <signorini/application/ties.h>
 #include <signorini/mesh/surface_extraction.h>
+#include <signorini/mortar/face_shares.h>
 #include <signorini/surface/mapping_quality.h>
 
 #include <deal.II/base/utilities.h>
@@ -166,7 +167,7 @@ namespace Signorini
         PhaseTimes::Scope time = journal.measure(Phase::mapping);
         pair.mapping           = std::make_unique<const ContactMapping>(
             nonmortar.mesh, pair.mortar.surface.mesh,
-            [&](const unsigned int t) { return nonmortar.faces[nonmortar.triangle_face[t]].owner == rank; },
+            [&](const unsigned int t) { return nonmortar.faces[nonmortar.triangle_face[t]].worker == rank; },
             comm);
         if (Utilities::MPI::sum(pair.mapping->report().n_cells, comm) == 0)
           throw InputError("Pair " + pair.name + ": the surfaces \"" + pair.nonmortar.name + "\" and \"" +
@@ -230,6 +231,8 @@ namespace Signorini
             pair.mortar.name = pair.obstacle->description();
           else
             pair.mortar = std::move(sides[1 - non]);
+          share_faces(pair.nonmortar.surface, pair.mortar.surface,
+                      Utilities::MPI::n_mpi_processes(model.communicator()));
         }
         if (pair.obstacle)
           meet_obstacle(pair, model.communicator(), journal);

@@ -50,6 +50,23 @@ namespace Signorini
       return stress;
     }
 
+    /// Collective. Values of faces, from the ranks that worked on them to those that own the cells.
+    std::vector<double> send_to_owners(const ContactSurface &surface, const std::vector<double> &of_faces,
+                                       const MPI_Comm communicator)
+    {
+      using FaceValues        = std::vector<std::pair<unsigned int, double>>;
+      const unsigned int rank = Utilities::MPI::this_mpi_process(communicator);
+      std::map<unsigned int, FaceValues> parcels;
+      for (unsigned int f = 0; f < of_faces.size(); ++f)
+        if (surface.faces[f].worker == rank)
+          parcels[surface.faces[f].owner].emplace_back(f, of_faces[f]);
+      std::vector<double> result(of_faces.size(), 0.);
+      for (const auto &[sender, values] : Utilities::MPI::some_to_some(communicator, parcels))
+        for (const auto &[face, value] : values)
+          result[face] = value;
+      return result;
+    }
+
     /// How far a pair is from its conditions, face by face of the nonmortar surface.
     std::vector<double> violation_of(const Discretization &d, const ContactPair &pair,
                                      const std::vector<Vector3> &stress, const Vector &displacement)
@@ -89,7 +106,9 @@ namespace Signorini
           add(ContactFaces(d.nodal(), pair.mortar.surface, pair.mortar.ids),
               mortar_tractions(pair.nonmortar.surface, pair.mortar.surface, pair.mapping->overlay(), stress,
                                model.communicator()));
-        const auto violation = violation_of(d, pair, stress, solution.displacement);
+        const auto violation =
+            send_to_owners(pair.nonmortar.surface, violation_of(d, pair, stress, solution.displacement),
+                           model.communicator());
         for (unsigned int f = 0; f < violation.size(); ++f)
           if (const int cell = non.cell(f); cell >= 0)
             violations.emplace_back(cell, violation[f]);

@@ -341,7 +341,7 @@ namespace Signorini
                                          [&](const std::size_t t) { return nonmortar.triangle_face[t]; });
       std::vector<FaceMoments> mine;
       for (unsigned int f = 0; f < nonmortar.faces.size(); ++f)
-        if (nonmortar.faces[f].owner == rank)
+        if (nonmortar.faces[f].worker == rank)
           {
             FaceIntegrator integrator(nonmortar, mortar, prescribed_gap, f);
             for (std::size_t i = triangles.start[f]; i < triangles.start[f + 1]; ++i)

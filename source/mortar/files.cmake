@@ -4,6 +4,7 @@ signorini_add_layer(mortar
   dual_basis.cc
   face_map.cc
   face_moments.cc
+  face_shares.cc
   geometric_penetration.cc
   pair_conflicts.cc
   pair_coupling.cc
