@@ -26,17 +26,26 @@ namespace Signorini
       return box;
     }
 
-    /// Along each axis from as far as the nearest end of another box.
-    bool is_beside(const BoxTree::Box &box, const BoxTree::Box &other, const Point<3> &x)
+    /// Whether a point lies beside a box, as seen from another one: at most as far off along each axis as
+    /// the boxes are apart. Moves it to the border of the box then.
+    bool move_beside(Point<3> &x, const BoxTree::Box &box, const BoxTree::Box &other)
     {
       bool result = true;
       for (unsigned int c = 0; c < 3; ++c)
         {
-          const double gap = std::max({0., other.low[c] - box.high[c], box.low[c] - other.high[c]});
-          result           = result && x[c] >= box.low[c] - gap && x[c] <= box.high[c] + gap;
+          const double gap = std::max({0., other.low[c] - box.high[c], box.low[c] - other.high[c]}) +
+                             1e-6 * (box.high[c] - box.low[c]);
+          result = result && x[c] >= box.low[c] - gap && x[c] <= box.high[c] + gap;
+          x[c]   = std::min(std::max(x[c], box.low[c]), box.high[c]);
         }
       return result;
     }
+
+    struct WorkRule
+    {
+      /// Of a triangle that has no partner, to that of one that is mapped and integrated over.
+      double alone = .1;
+    };
 
     std::vector<double> triangles_of_faces(const ContactSurface &surface)
     {
@@ -57,7 +66,6 @@ namespace Signorini
           face.worker = 0;
         return;
       }
-    // Of the mortar side what lies beside the nonmortar one.
     std::vector<double>       weights = triangles_of_faces(nonmortar);
     const std::vector<double> other   = triangles_of_faces(mortar);
     std::vector<Point<3>>     centres;
@@ -67,8 +75,11 @@ namespace Signorini
       {
         const BoxTree::Box box      = box_around(nonmortar.mesh.vertices),
                            opposite = box_around(mortar.mesh.vertices);
+        for (std::size_t f = 0; f < nonmortar.faces.size(); ++f)
+          if (Point<3> centre = centres[f]; !move_beside(centre, opposite, box))
+            weights[f] *= WorkRule().alone;
         for (std::size_t f = 0; f < mortar.faces.size(); ++f)
-          if (const Point<3> centre = centre_of(mortar, mortar.faces[f]); is_beside(box, opposite, centre))
+          if (Point<3> centre = centre_of(mortar, mortar.faces[f]); move_beside(centre, box, opposite))
             {
               centres.push_back(centre);
               weights.push_back(other[f]);
@@ -79,8 +90,8 @@ namespace Signorini
     for (const unsigned int i : spatial_order(centres))
       {
         if (i < nonmortar.faces.size())
-          nonmortar.faces[i].worker = std::min(
-              n_ranks - 1, static_cast<unsigned int>((place + .5 * weights[i]) / total * n_ranks));
+          nonmortar.faces[i].worker =
+              std::min(n_ranks - 1, static_cast<unsigned int>((place + .5 * weights[i]) / total * n_ranks));
         place += weights[i];
       }
   }

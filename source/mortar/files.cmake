@@ -9,5 +9,6 @@ signorini_add_layer(mortar
   pair_conflicts.cc
   pair_coupling.cc
   rigid_obstacle.cc
+  surface_halo.cc
   surface_values.cc
 )
