@@ -6,6 +6,7 @@ signorini_add_layer(mortar
   face_moments.cc
   face_shares.cc
   geometric_penetration.cc
+  multiplier_nodes.cc
   pair_conflicts.cc
   pair_coupling.cc
   rigid_obstacle.cc
