@@ -83,8 +83,9 @@ namespace
           throw InputError("more than one parameter file given.\n" + std::string(usage));
       }
     if (line.resume && (line.check || line.mesh_only || line.print))
-      throw InputError("--resume goes on with a computation; with --check, --mesh-only and --print-parameters "
-                       "there is none.");
+      throw InputError(
+          "--resume goes on with a computation; with --check, --mesh-only and --print-parameters "
+          "there is none.");
     return line;
   }
 
@@ -156,7 +157,7 @@ namespace
       checkpoints->resume();
     else if (checkpoints && !checkpoints->hint().empty())
       journal.print(checkpoints->hint());
-    ContactModel           model = make_model(file, comm, journal);
+    ContactModel model = make_model(file, comm, journal);
     if (line.check)
       {
         const auto   space = std::make_shared<const ConstrainedSpace>(model);
@@ -167,10 +168,9 @@ namespace
     const std::vector<double> times  = file.load_steps();
     const OutputParameters    output = file.output();
     NestedSolution            nested =
-        line.mesh_only
-                       ? build_meshes(model, parameters, journal)
-                       : run_load_steps(model, parameters, times, StepWriter(model, output, *folder, times), journal,
-                                        &*checkpoints);
+        line.mesh_only ? build_meshes(model, parameters, journal)
+                                  : run_load_steps(model, parameters, times, StepWriter(model, output, *folder, times),
+                                                   journal, &*checkpoints);
     if (file.deck() != nullptr && !line.mesh_only)
       judge_linear_kinematics(*file.deck(), model, nested, journal);
     nested.results.notes = journal.notes();

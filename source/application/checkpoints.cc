@@ -28,8 +28,8 @@ namespace Signorini
     const std::vector<std::string> parts   = Utilities::split_string_list(text, ':');
     for (const std::string &part : parts)
       {
-        if (parts.size() > 3 || part.empty() || part.find_first_not_of("0123456789") != std::string::npos ||
-            part.size() > 8)
+        if (parts.size() > 3 || part.empty() || part.find_first_not_of("0123456789.") != std::string::npos ||
+            part[0] == '.' || std::count(part.begin(), part.end(), '.') > 1 || part.size() > 8)
           throw InputError(where + ": \"" + text +
                            "\" should be seconds, minutes:seconds or hours:minutes:seconds.");
         seconds = 60. * seconds + std::stod(part);
@@ -152,8 +152,10 @@ namespace Signorini
       if (results.empty())
         throw InputError("--resume: there is no checkpoint \"" + state_file +
                          "\". Without --resume the run begins at its beginning.");
-      throw InputError("--resume: there is no checkpoint \"" + state_file + "\", and the last run with this "
-                       "output folder has ended; its results are " + results + ".");
+      throw InputError("--resume: there is no checkpoint \"" + state_file +
+                       "\", and the last run with this "
+                       "output folder has ended; its results are " +
+                       results + ".");
     });
     try
       {
@@ -209,10 +211,11 @@ namespace Signorini
         last_cost = rule.first_seconds + Utilities::MPI::sum(bytes, comm) / rule.first_speed;
       }
     // Clocks differ from rank to rank.
-    const double now    = Utilities::MPI::broadcast(comm, clock.wall_time(), 0);
-    const double next   = growth * (now - last_stage);
-    const bool   is_end = parameters.wall_time_limit > 0. && growth > 0. &&
-                        now + next + last_cost > parameters.wall_time_limit;
+    const double now   = Utilities::MPI::broadcast(comm, clock.wall_time(), 0);
+    const double times = growth == 0. && steps_follow && !the_state.series ? 1. : growth;
+    const double next  = times * (now - last_stage);
+    const bool   is_end =
+        parameters.wall_time_limit > 0. && times > 0. && now + next + last_cost > parameters.wall_time_limit;
     last_stage = now;
     if (!is_end && !is_time(now))
       return;

@@ -158,7 +158,7 @@ namespace Signorini
         checkpoints.state().nested.earlier = {};
         std::ostringstream stage;
         stage << "step t = " << time_previous;
-        checkpoints.end_of_stage(stage.str(), converged ? 1. : 0., journal);
+        checkpoints.end_of_stage(stage.str(), converged && steps.size() + 1 < times.size() ? 1. : 0., journal);
       }
 
       void restore(const SeriesState &state)
@@ -239,6 +239,8 @@ namespace Signorini
   {
     if (!times.empty())
       model.set_time(times.back());
+    if (checkpoints != nullptr)
+      checkpoints->announce_steps(times.size() > 1);
     NestedSolution last = run_nested_iteration(model, parameters, journal, checkpoints);
     if (times.empty() || !last.results.converged)
       return last;

@@ -64,7 +64,8 @@ namespace Signorini
   template <typename Archive>
   void transfer(Archive &a, CycleResult &r)
   {
-    a(r.cycle, r.cells, r.dofs, r.contact_nodes, r.active_nodes, r.levels, r.nonlinear, r.linear, r.linear_cg);
+    a(r.cycle, r.cells, r.dofs, r.contact_nodes, r.active_nodes, r.levels, r.nonlinear, r.linear,
+      r.linear_cg);
     a(r.has_linear, r.difference, r.movement, r.indicator, r.error_to_last, r.potential_energy, r.sweeps);
     a(r.exact_errors, r.times);
   }
@@ -114,7 +115,7 @@ namespace Signorini
     template <typename Archive>
     void transfer_common(Archive &a, NestedState &s)
     {
-      auto n_marked = static_cast<std::uint64_t>(s.marked.size());
+      auto n_marked  = static_cast<std::uint64_t>(s.marked.size());
       auto n_earlier = static_cast<std::uint64_t>(s.earlier.size());
       a(s.cycle, n_marked, s.trace, s.turned, s.bolts, s.cycles, s.converged, n_earlier, s.has_indicator);
       a(s.solution.report, s.solution.pretensions, s.solution.n_active, s.solution.n_levels);
@@ -268,8 +269,7 @@ namespace Signorini
     for (unsigned int kind = 0; kind < CurveOrder::n_kinds; ++kind)
       for (std::size_t i = 0; i < order.nodes(kind).size(); ++i)
         for (unsigned int c = 0; c < dim; ++c)
-          field.local_element(dim * partition.to_local(order.nodes(kind)[i]) + c) =
-              values[kind][dim * i + c];
+          field.local_element(dim * partition.to_local(order.nodes(kind)[i]) + c) = values[kind][dim * i + c];
     field.update_ghost_values();
   }
 

@@ -291,9 +291,10 @@ namespace Signorini
   {
     OutputParameters fields = output;
     fields.mapping          = false;
-    const auto suffix = [this](const std::size_t k) {
-      return "-step-" + Utilities::int_to_string(static_cast<unsigned int>(k) + 1,
-                                                 static_cast<unsigned int>(std::to_string(times.size()).size()));
+    const auto suffix       = [this](const std::size_t k) {
+      return "-step-" +
+             Utilities::int_to_string(static_cast<unsigned int>(k) + 1,
+                                            static_cast<unsigned int>(std::to_string(times.size()).size()));
     };
     write_fields(model, d, solution, fields, folder, suffix(step));
 

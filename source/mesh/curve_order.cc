@@ -63,9 +63,9 @@ namespace Signorini
                 is_listed[space.owned().index_within_set(node)] = true;
                 node_lists[kind].push_back(node);
               }
-        const auto counts = Utilities::MPI::all_gather(
-            space.communicator(), static_cast<std::uint64_t>(node_lists[kind].size()));
-        first[kind] = 0;
+        const auto counts = Utilities::MPI::all_gather(space.communicator(),
+                                                       static_cast<std::uint64_t>(node_lists[kind].size()));
+        first[kind]       = 0;
         for (unsigned int r = 0; r < Utilities::MPI::this_mpi_process(space.communicator()); ++r)
           first[kind] += counts[r];
       }

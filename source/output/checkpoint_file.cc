@@ -42,8 +42,8 @@ namespace Signorini
       return h ^ h >> 31;
     }
 
-    /// A sum over the words (of eight bytes; or the bytes, where items are such) of hashes of value and place:
-    /// the sums of pieces add up, and no single change goes unnoticed.
+    /// A sum over the words (of eight bytes; or the bytes, where items are such) of hashes of value and
+    /// place: the sums of pieces add up, and no single change goes unnoticed.
     /// @param first number of the first item in its section
     std::uint64_t checksum(const char *const bytes, const std::size_t n, const std::size_t item,
                            const std::uint64_t first)
@@ -90,7 +90,8 @@ namespace Signorini
   void CheckpointWriter::add(const std::string &name, const std::string &bytes)
   {
     const bool is_root = Utilities::MPI::this_mpi_process(comm) == 0;
-    pieces.push_back({name, 1, is_root ? std::vector<char>(bytes.begin(), bytes.end()) : std::vector<char>()});
+    pieces.push_back(
+        {name, 1, is_root ? std::vector<char>(bytes.begin(), bytes.end()) : std::vector<char>()});
   }
 
 
@@ -101,7 +102,10 @@ namespace Signorini
     {
       ByteWriter writer;
       writer(header);
-      Start start{{}, CheckpointHeader::present_format, byte_order, writer.bytes().size(),
+      Start start{{},
+                  CheckpointHeader::present_format,
+                  byte_order,
+                  writer.bytes().size(),
                   checksum(writer.bytes().data(), writer.bytes().size(), 1, 0)};
       std::copy(std::begin(magic), std::end(magic), start.magic);
       return std::string(reinterpret_cast<const char *>(&start), sizeof(Start)) + writer.bytes();
@@ -153,8 +157,8 @@ namespace Signorini
     {
     public:
       SharedFile(const std::string &name, const MPI_Comm comm)
-        : is_open(MPI_File_open(comm, name.c_str(), MPI_MODE_CREATE | MPI_MODE_WRONLY, MPI_INFO_NULL, &file) ==
-                  MPI_SUCCESS)
+        : is_open(MPI_File_open(comm, name.c_str(), MPI_MODE_CREATE | MPI_MODE_WRONLY, MPI_INFO_NULL,
+                                &file) == MPI_SUCCESS)
         , good(is_open)
       {
       }
@@ -217,8 +221,8 @@ namespace Signorini
 
   std::uint64_t CheckpointWriter::write(const std::string &file) const
   {
-    const bool                 is_root = Utilities::MPI::this_mpi_process(comm) == 0;
-    const std::string          part =
+    const bool        is_root = Utilities::MPI::this_mpi_process(comm) == 0;
+    const std::string part =
         file + ".part-" + std::to_string(Utilities::MPI::broadcast(comm, static_cast<long>(getpid()), 0));
     std::vector<std::uint64_t> places;
     const CheckpointHeader     header = make_header(places);

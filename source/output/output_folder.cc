@@ -194,7 +194,7 @@ namespace Signorini
   {
     return Utilities::MPI::this_mpi_process(comm) > 0 ? ""
            : found.empty()                            ? "no results were written."
-                                                      : "the earlier results in " + target + " are unchanged.";
+                           : "the earlier results in " + target + " are unchanged.";
   }
 
 

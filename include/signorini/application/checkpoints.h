@@ -59,8 +59,8 @@ namespace Signorini
   /// "3600", "90:00" (minutes) or "1:30:00" (hours) in seconds; 0 for an empty text. Errors: InputError.
   double parse_duration(const std::string &text, const std::string &where);
 
-  /// Saves the state of a run beside its output folder, and has that of an earlier one. The last checkpoint is
-  /// valid until the next one is complete; it goes when the results are there.
+  /// Saves the state of a run beside its output folder, and has that of an earlier one. The last checkpoint
+  /// is valid until the next one is complete; it goes when the results are there.
   class Checkpoints
   {
   public:
@@ -108,10 +108,16 @@ namespace Signorini
       return earlier_seconds;
     }
 
+    /// Says whether load steps come after the cycles.
+    void announce_steps(const bool follow)
+    {
+      steps_follow = follow;
+    }
+
     /// Collective. Saves the state if it is time to. Errors: RunStopped if the next stage would take longer
     /// than there is time.
     /// @param stage that has just ended, in words
-    /// @param growth how many times as long the next one will take
+    /// @param growth how many times as long the next one will take; 0 if it was the last of its kind
     void end_of_stage(const std::string &stage, const double growth, Journal &journal);
 
     /// Collective. Removes what was saved.
@@ -138,7 +144,7 @@ namespace Signorini
     RunState                                the_state;
     std::unique_ptr<const CheckpointReader> open_file;
     double earlier_seconds = 0., last_stage = 0., last_saved = 0., last_cost = 0.;
-    bool   has_saved = false, found_earlier = false, has_resumed = false;
+    bool   has_saved = false, found_earlier = false, has_resumed = false, steps_follow = false;
   };
 } // namespace Signorini
 

@@ -122,8 +122,8 @@ namespace Signorini
                                         const CurveOrder &order);
 
   /// Collective. The other way round.
-  ContactStress restore_stress(const CurvePieces<SavedContact> &contact,
-                               const Discretization &discretization, const CurveOrder &order);
+  ContactStress restore_stress(const CurvePieces<SavedContact> &contact, const Discretization &discretization,
+                               const CurveOrder &order);
 
   /// What is known of the bolts of a model.
   std::vector<SavedBolt> save_bolts(const std::vector<Pretension> &bolts);

@@ -37,8 +37,8 @@ namespace Signorini
 
 
 
-  /// Collects the sections of a checkpoint and writes them: first to another name, which takes the place of an
-  /// earlier checkpoint at once when all is on the disk. All ranks write their pieces; none has more.
+  /// Collects the sections of a checkpoint and writes them: first to another name, which takes the place of
+  /// an earlier checkpoint at once when all is on the disk. All ranks write their pieces; none has more.
   class CheckpointWriter
   {
   public:

@@ -33,8 +33,8 @@ namespace
   protected:
     Checkpoint()
       : base((fs::temp_directory_path() /
-              ("signorini-test-" + std::to_string(Utilities::MPI::broadcast(
-                                       MPI_COMM_WORLD, static_cast<long>(getpid()), 0))))
+              ("signorini-test-" +
+               std::to_string(Utilities::MPI::broadcast(MPI_COMM_WORLD, static_cast<long>(getpid()), 0))))
                  .string())
       , file(base + "/state")
     {
