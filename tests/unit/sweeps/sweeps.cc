@@ -272,20 +272,21 @@ INSTANTIATE_TEST_SUITE_P(Shapes, Sweeps,
 
 
 
-// Three messages a sweep to each neighbour at most, whatever the number of ranks, and nobody waits for all.
-TEST(SweepSchedule, SendsThreeMessagesToEachNeighbour)
+// A message a phase to each neighbour at most, whatever the number of ranks, and nobody waits for all.
+TEST(SweepSchedule, SendsAMessageAPhaseToEachNeighbour)
 {
   Cube                       cube(8);
   const ProjectedGaussSeidel sweeps(cube.matrix);
   ContactState               free(cube.matrix);
   const std::size_t          n_neighbours = cube.matrix.partition().viewers().size();
-  EXPECT_EQ(sweeps.schedule().phases().size(), is_alone() ? 1u : 3u);
+  const std::size_t          n_phases     = sweeps.schedule().phases().size();
+  EXPECT_LE(n_phases, is_alone() ? 1u : 6u);
   for (const Direction direction : {Direction::forward, Direction::backward})
     {
       n_sends = n_collectives = 0;
       sweeps.sweep(cube.v, cube.rhs, free, direction);
       EXPECT_EQ(n_sends, sweeps.schedule().n_messages());
-      EXPECT_LE(n_sends, 3 * n_neighbours);
+      EXPECT_LE(n_sends, n_phases * n_neighbours);
       EXPECT_EQ(n_collectives, 0u);
     }
 }
@@ -311,7 +312,7 @@ TEST(SweepSchedule, CyclesSendAFixedNumberOfMessages)
   n_sends = n_collectives = 0;
   cycle.apply(correction, defect);
   const unsigned int n_sweeps = smoothing.n_pre + smoothing.n_post + 2 * smoothing.n_interface_sweeps;
-  EXPECT_LE(n_sends, (3 * n_sweeps + 6) * n_neighbours);
+  EXPECT_LE(n_sends, (6 * n_sweeps + 6) * n_neighbours);
   EXPECT_LE(n_collectives, 2u);
 }
 
