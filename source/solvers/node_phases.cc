@@ -111,7 +111,7 @@ namespace Signorini
   void NodePhases::fill_up(const NodeBlockMatrix &matrix)
   {
     Work   longest(n_phases, 0.);
-    double total   = 0.;
+    double total = 0.;
     for (unsigned int row = 0; row < matrix.n_rows(); ++row)
       {
         const double length = static_cast<double>(matrix.row_length(row));
