@@ -14,7 +14,11 @@ signorini_add_layer(mesh
   deck_sets.cc
   deck_text.cc
   expression.cc
+  distributed_forest.cc
   extruded_mesh.cc
+  forest_closure.cc
+  forest_ghosts.cc
+  forest_pieces.cc
   generated_mesh.cc
   gmsh_file.cc
   material.cc
@@ -29,7 +33,9 @@ signorini_add_layer(mesh
   surface_normals.cc
   symmetry_planes.cc
   tetrahedral_forest.cc
+  tetrahedron_bisection.cc
   triangulated_shape.cc
   true_shape.cc
+  vertex_history.cc
   volume_mesh.cc
 )

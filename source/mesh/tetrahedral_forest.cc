@@ -40,19 +40,6 @@ namespace Signorini
 
 
 
-  double tetrahedron_quality(const std::array<Point<3>, 4> &x)
-  {
-    const double volume  = cross_product_3d(x[1] - x[0], x[2] - x[0]) * (x[3] - x[0]) / 6.;
-    double       squares = 0.;
-    for (unsigned int i = 0; i < 4; ++i)
-      for (unsigned int j = 0; j < i; ++j)
-        squares += (x[i] - x[j]).norm_square();
-    return squares > 0. ? 12. * std::copysign(std::pow(3. * std::abs(volume), 2. / 3.), volume) / squares
-                        : 0.;
-  }
-
-
-
   TetrahedralForest::TetrahedralForest(const std::vector<Point<3>> &vertices, const std::vector<Cell> &cells)
     : points(vertices)
     , vertex_parents(vertices.size())

@@ -4,6 +4,8 @@
 #ifndef signorini_mesh_tetrahedral_forest_h
 #define signorini_mesh_tetrahedral_forest_h
 
+#include <signorini/mesh/tetrahedron_bisection.h>
+
 #include <deal.II/base/point.h>
 #include <deal.II/base/types.h>
 
@@ -138,10 +140,6 @@ namespace Signorini
     std::vector<bool>                               at_split_edge;
     BoundaryVertices                                new_on_boundary;
   };
-
-  /// The mean ratio 12 (3 volume)^(2/3) / (sum of the squared edges) (Liu, Joe 1994): 1 for a regular
-  /// tetrahedron, not positive for an inverted one.
-  double tetrahedron_quality(const std::array<dealii::Point<3>, 4> &corners);
 } // namespace Signorini
 
 #endif

@@ -4,6 +4,8 @@ signorini_add_unit_tests(mesh RANKS "1;2;4"
   expression.cc
   generated_mesh.cc
   mesh_input.cc
+  distributed_forest.cc
+  serial_forest.cc
   surface_extraction.cc
   tetrahedral_forest.cc
   surface_file.cc
