@@ -3,6 +3,7 @@ signorini_add_layer(mesh
   bodies.cc
   body_definition.cc
   body_elements.cc
+  body_movement.cc
   body_parameters.cc
   body_parts.cc
   body_shapes.cc
@@ -14,13 +15,14 @@ signorini_add_layer(mesh
   deck_sets.cc
   deck_text.cc
   expression.cc
-  distributed_forest.cc
   extruded_mesh.cc
   forest_closure.cc
   forest_ghosts.cc
   forest_pieces.cc
+  forest_vertices.cc
   generated_mesh.cc
   gmsh_file.cc
+  late_vertices.cc
   material.cc
   mesh_input.cc
   nodal_space.cc

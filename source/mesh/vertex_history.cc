@@ -174,32 +174,32 @@ namespace Signorini
 
 
 
-  std::vector<VertexHistory::Row> VertexHistory::rows(const std::vector<Name> &vertices,
-                                                      const unsigned int       coarse) const
+  VertexHistory::Rows VertexHistory::rows(const std::vector<Name> &vertices, const unsigned int coarse) const
   {
     const Name                           n_coarse = n_vertices(coarse);
     const auto                           fetched  = fetch_ancestors(vertices, n_coarse);
-    std::vector<Row>                     result(vertices.size());
+    Rows                                 result;
     std::vector<std::pair<Name, double>> open;
-    for (std::size_t i = 0; i < vertices.size(); ++i)
+    for (const Name vertex : vertices)
       {
-        Row &row = result[i];
-        open     = {{vertices[i], 1.}};
+        open = {{vertex, 1.}};
         while (!open.empty())
           {
             const auto [v, weight] = open.back();
             open.pop_back();
+            const auto begin = result.names.begin() + result.start.back();
             if (v >= n_coarse)
               for (const Name parent : home(v) == rank ? parent_names[slot(v)] : fetched.at(v))
                 open.emplace_back(parent, .5 * weight);
-            else if (const auto it = std::find_if(row.begin(), row.end(),
-                                                  [name = v](const auto &e) { return e.first == name; });
-                     it != row.end())
-              it->second += weight;
+            else if (const auto it = std::find(begin, result.names.end(), v); it != result.names.end())
+              result.weights[it - result.names.begin()] += weight;
             else
-              row.emplace_back(v, weight);
+              {
+                result.names.push_back(v);
+                result.weights.push_back(weight);
+              }
           }
-        std::sort(row.begin(), row.end());
+        result.start.push_back(result.names.size());
       }
     return result;
   }

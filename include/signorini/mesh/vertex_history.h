@@ -44,11 +44,17 @@ namespace Signorini
     std::vector<NodeIndex> look_up(const std::vector<Name> &names, const std::vector<NodeIndex> &values,
                                    const std::vector<Name> &wanted) const;
 
-    /// The vertices of a coarser mesh whose weighted mean a vertex is at first, ascending.
-    using Row = std::vector<std::pair<Name, double>>;
+    /// Vertices of a coarser mesh whose weighted means others are at first: row i has the entries start[i]
+    /// ... start[i + 1] - 1.
+    struct Rows
+    {
+      std::vector<std::size_t> start = {0};
+      std::vector<Name>        names;
+      std::vector<double>      weights;
+    };
 
     /// Collective. The rows of vertices of any mesh.
-    std::vector<Row> rows(const std::vector<Name> &vertices, const unsigned int coarse) const;
+    Rows rows(const std::vector<Name> &vertices, const unsigned int coarse) const;
 
     /// Bytes of all lists.
     std::size_t memory_consumption() const;

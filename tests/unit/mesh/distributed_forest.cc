@@ -3,7 +3,7 @@
 
 // The distributed forest against the serial one, on communicators of all sizes that there are ranks for.
 
-#include <signorini/mesh/distributed_forest.h>
+#include <signorini/mesh/tetrahedral_forest.h>
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ using dealii::Point;
 
 namespace
 {
-  using Forest   = DistributedForest;
+  using Forest   = TetrahedralForest;
   using Position = std::array<double, 3>;
 
   /// Calls test(communicator) on the first 1, 2, ... ranks, powers of two beyond four.
@@ -165,8 +165,8 @@ namespace
         for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
           {
             std::map<unsigned int, double> row;
-            for (const auto &[name, weight] : rows[v])
-              row[vertex.at(name)] = weight;
+            for (std::size_t k = rows.start[v]; k < rows.start[v + 1]; ++k)
+              row[vertex.at(rows.names[k])] = rows.weights[k];
             n_wrong += row != serial_row(serial, vertex.at(mesh.vertices[v]), coarse);
             if (coarse > 0)
               continue;

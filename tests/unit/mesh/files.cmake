@@ -2,6 +2,7 @@ signorini_add_unit_tests(mesh RANKS "1;2;4"
   boundary_shape.cc
   deck.cc
   expression.cc
+  forest_vertices.cc
   generated_mesh.cc
   mesh_input.cc
   distributed_forest.cc
