@@ -69,9 +69,13 @@ namespace Signorini
           box[3 + d] = std::min(box[3 + d], -c[d]);
         }
     Utilities::MPI::min(box, communicator, box);
-    // The curve runs through the box of the points that are given.
+    // The curve runs through the box of the points that are given. It is made a cube: in a long body pieces
+    // of a curve that is stretched with it would be long, too, with many ghosts.
+    const double width = -std::min({box[0] + box[3], box[1] + box[4], box[2] + box[5]});
     centres.emplace_back(box[0], box[1], box[2]);
-    centres.emplace_back(-box[3], -box[4], -box[5]);
+    // Not less than the largest coordinate by rounding: all ranks need the same box.
+    centres.emplace_back(std::max(box[0] + width, -box[3]), std::max(box[1] + width, -box[4]),
+                         std::max(box[2] + width, -box[5]));
     const auto keys = Utilities::inverse_Hilbert_space_filling_curve(centres, bits_per_direction);
     for (std::size_t c = 0; c < piece.cells.size(); ++c)
       piece.cells[c].place = Utilities::pack_integers<3>(keys[c], bits_per_direction);

@@ -11,6 +11,17 @@ namespace Signorini
 {
   using namespace dealii;
 
+  namespace
+  {
+    /// Short cuts: there every vertex is at home, in the place that its name says.
+    bool is_on_one_rank(const std::vector<std::vector<ForestMesh::Name>> &first_names)
+    {
+      return first_names[0].size() == 2;
+    }
+  } // namespace
+
+
+
   VertexHistory::VertexHistory(const Name n_vertices, const MPI_Comm communicator)
     : comm(communicator)
     , rank(Utilities::MPI::this_mpi_process(communicator))
@@ -39,6 +50,8 @@ namespace Signorini
 
   unsigned int VertexHistory::home(const Name vertex) const
   {
+    if (is_on_one_rank(first_names))
+      return 0;
     const auto &first = first_names[level_of(vertex)];
     return static_cast<unsigned int>(std::upper_bound(first.begin(), first.end(), vertex) - first.begin() -
                                      1);
@@ -48,6 +61,8 @@ namespace Signorini
 
   std::size_t VertexHistory::slot(const Name vertex) const
   {
+    if (is_on_one_rank(first_names))
+      return vertex;
     const unsigned int level = level_of(vertex);
     return first_slot[level] + (vertex - first_names[level][rank]);
   }

@@ -3,6 +3,7 @@
 
 // The distributed forest against the serial one, on communicators of all sizes that there are ranks for.
 
+#include <signorini/mesh/nodal_space.h>
 #include <signorini/mesh/tetrahedral_forest.h>
 
 #include <gtest/gtest.h>
@@ -183,6 +184,20 @@ namespace
       }
   }
 
+  /// All lists of a space.
+  std::size_t bytes_of(const NodalSpace &space)
+  {
+    const auto  bytes = [](const auto &list) { return list.capacity() * sizeof(list[0]); };
+    std::size_t nodes = 0;
+    for (const auto &cell : space.cells())
+      nodes += space.nodes(cell).size();
+    return bytes(space.cells()) + nodes * sizeof(NodeIndex) + bytes(space.boundary_faces()) +
+           bytes(space.inner_faces()) + bytes(space.start_vertices()) + bytes(space.node_sets()) +
+           bytes(space.owned_forest_vertices()) + space.relevant().n_elements() * sizeof(Point<3>) +
+           space.owned().memory_consumption() + space.relevant().memory_consumption() +
+           space.hanging_nodes().memory_consumption();
+  }
+
   void compare(const VolumeMesh &start, const unsigned int n_refinements, const unsigned int one_of)
   {
     for_all_sizes([&](const MPI_Comm communicator) {
@@ -335,11 +350,14 @@ TEST(DistributedForest, MemoryOfARankDoesNotGrowWithTheirNumber)
       n_ghosts += forest.mesh(level).cells.size() - forest.mesh(level).n_owned;
     n_ghosts = dealii::Utilities::MPI::max(n_ghosts, communicator);
 
-    std::size_t bytes = dealii::Utilities::MPI::max(forest.memory_consumption(), communicator);
+    std::size_t bytes = forest.memory_consumption();
+    for (unsigned int level = 0; level < 4; ++level)
+      bytes += bytes_of(NodalSpace(communicator, {nullptr, &forest, level, nullptr}, true));
+    bytes = dealii::Utilities::MPI::max(bytes, communicator);
     if (n_ranks == 1)
       on_one_rank = bytes;
     on_one_rank = dealii::Utilities::MPI::max(on_one_rank, communicator);
-    EXPECT_LE(bytes, 1.05 * on_one_rank + 100. * n_ghosts + 1000. * n_ranks);
+    EXPECT_LE(bytes, 1.05 * on_one_rank + 250. * n_ghosts + 1000. * n_ranks);
     EXPECT_LE(n_ghosts, 20000u);
     if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
       RecordProperty("bytes_on_" + std::to_string(n_ranks) + "_ranks", std::to_string(bytes));

@@ -90,6 +90,17 @@ namespace Signorini
       centres.push_back(
           Point<3>(.25 * (points[cell.vertices[0]] + Tensor<1, 3>(points[cell.vertices[1]]) +
                           Tensor<1, 3>(points[cell.vertices[2]]) + Tensor<1, 3>(points[cell.vertices[3]]))));
+    // A cube around them.
+    Point<3> low = centres[0], high = centres[0];
+    for (const Point<3> &c : centres)
+      for (unsigned int d = 0; d < 3; ++d)
+        {
+          low[d]  = std::min(low[d], c[d]);
+          high[d] = std::max(high[d], c[d]);
+        }
+    const double width = std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
+    centres.push_back(low);
+    centres.push_back(low + Tensor<1, 3>({width, width, width}));
     const auto                key = Utilities::inverse_Hilbert_space_filling_curve(centres, 20);
     std::vector<unsigned int> order(cells.size());
     std::iota(order.begin(), order.end(), 0u);
