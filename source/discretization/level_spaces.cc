@@ -56,32 +56,30 @@ namespace Signorini
 
 
 
-    /// The row of a vertex of a forest: itself in the coarse mesh, or the mean of the rows of the ends of the
-    /// edge it was made on.
-    void forest_row(std::vector<std::pair<NodeIndex, double>> &row, const TetrahedralForest *const forest,
-                    const unsigned int vertex, const std::vector<NodeIndex> &coarse_nodes)
+    /// The rows of the owned nodes of tetrahedra: themselves in the coarse mesh, or means of the rows of the
+    /// ends of the edges that they were made on.
+    void add_forest_rows(NodeRows &result, const NodalSpace &fine, const NodalSpace &coarse,
+                         const TetrahedralForest &forest)
     {
-      row.clear();
-      std::vector<std::pair<unsigned int, double>> open = {{vertex, 1.}};
-      while (!open.empty())
+      const VertexHistory   &history = forest.history();
+      const auto             rows    = history.rows(fine.owned_forest_vertices(), coarse.tetrahedral_level());
+      std::vector<NodeIndex> nodes;
+      const NodeIndex        n_coarse = coarse.n_owned_forest_nodes();
+      const NodeIndex        n_before = coarse.owned().n_elements() - n_coarse;
+      for (NodeIndex i = 0; i < n_coarse; ++i)
+        nodes.push_back(coarse.owned().nth_index_in_set(n_before + i));
+      const auto columns = history.look_up(coarse.owned_forest_vertices(), nodes, rows.names);
+      std::vector<std::pair<NodeIndex, double>> row;
+      for (std::size_t i = 0; i + 1 < rows.start.size(); ++i)
         {
-          const auto [v, weight] = open.back();
-          open.pop_back();
-          if (v < coarse_nodes.size())
-            {
-              const NodeIndex node = coarse_nodes[v];
-              const auto      it =
-                  std::find_if(row.begin(), row.end(), [&](const auto &e) { return e.first == node; });
-              if (it == row.end())
-                row.emplace_back(node, weight);
-              else
-                it->second += weight;
-            }
-          else
-            for (const unsigned int parent : forest->parents(v))
-              open.emplace_back(parent, .5 * weight);
+          row.clear();
+          for (std::size_t k = rows.start[i]; k < rows.start[i + 1]; ++k)
+            row.emplace_back(columns[k], rows.weights[k]);
+          std::sort(row.begin(), row.end());
+          for (const auto &[column, weight] : row)
+            result.add(column, weight);
+          result.finish_row();
         }
-      std::sort(row.begin(), row.end());
     }
   } // namespace
 
@@ -126,23 +124,17 @@ namespace Signorini
               last[i] = entries.size();
             }
         }
-    const NodeIndex n_before = n_owned - fine.n_owned_forest_nodes();
-    for (NodeIndex i = n_before; i < n_owned; ++i)
-      {
-        forest_row(row, forest, fine.owned_forest_vertices()[i - n_before], coarse.forest_nodes());
-        first[i] = entries.size();
-        entries.insert(entries.end(), row.begin(), row.end());
-        last[i] = entries.size();
-      }
     NodeRows result;
     result.columns.reserve(entries.size());
     result.weights.reserve(entries.size());
-    for (NodeIndex i = 0; i < n_owned; ++i)
+    for (NodeIndex i = 0; i < n_owned - fine.n_owned_forest_nodes(); ++i)
       {
         for (std::size_t k = first[i]; k < last[i]; ++k)
           result.add(entries[k].first, entries[k].second);
         result.finish_row();
       }
+    if (forest != nullptr)
+      add_forest_rows(result, fine, coarse, *forest);
     return result;
   }
 

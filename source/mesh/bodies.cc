@@ -231,8 +231,9 @@ namespace Signorini
 
   void Bodies::create_tetrahedra(const std::vector<Placed> &placed)
   {
-    std::vector<Point<3>>                vertices;
-    std::vector<TetrahedralForest::Cell> cells;
+    std::vector<Point<3>>    vertices;
+    std::vector<Tetrahedron> cells;
+    std::set<unsigned int>   late;
     for (unsigned int b = 0; b < placed.size(); ++b)
       {
         const VolumeMesh &mesh = placed[b].mesh;
@@ -246,9 +247,7 @@ namespace Signorini
         for (unsigned int v = 0; v < mesh.vertices.size(); ++v)
           start->forest.push_back(first_vertex[b] + v);
         for (const unsigned int v : placed[b].late)
-          for (const auto &face : mesh.faces)
-            if (std::find(face.vertices.begin(), face.vertices.end(), v) != face.vertices.end())
-              late_vertices[v + shift].insert(first_boundary[b] + face.name);
+          late.insert(v + shift);
         for (std::size_t c = 0; c < mesh.cells.size(); ++c)
           {
             const VolumeMesh::Cell &cell = mesh.cells[c];
@@ -263,12 +262,17 @@ namespace Signorini
                 const auto it            = name_of.find(face_key(face));
                 cells.back().vertices[f] = cell.vertices[f] + shift;
                 cells.back().boundary[f] =
-                    it == name_of.end() ? TetrahedralForest::inner : first_boundary[b] + it->second;
+                    it == name_of.end() ? Tetrahedron::inner : first_boundary[b] + it->second;
               }
           }
       }
-    if (!cells.empty())
-      forest = std::make_unique<TetrahedralForest>(vertices, cells);
+    if (cells.empty())
+      return;
+    forest = std::make_unique<TetrahedralForest>(vertices, cells, comm);
+    // Vertices that are not yet where their shapes want them are marked; the start mesh names them by number.
+    const auto &names_of_vertices = forest->mesh(0).vertices;
+    for (unsigned int v = 0; v < names_of_vertices.size(); ++v)
+      forest->vertex_marks()[v] = late.count(static_cast<unsigned int>(names_of_vertices[v])) > 0;
   }
 
 
@@ -316,14 +320,11 @@ namespace Signorini
       }
     if (forest)
       {
-        std::vector<char> mine;
+        std::vector<bool> mine;
         for (; c < marked.size(); ++c)
           if (space.cells()[c].is_owned)
             mine.push_back(marked[c]);
-        std::vector<bool> all;
-        for (const auto &part : Utilities::MPI::all_gather(comm, mine))
-          all.insert(all.end(), part.begin(), part.end());
-        if (forest->refine(all))
+        if (forest->refine(mine))
           follow_shapes();
       }
     return true;

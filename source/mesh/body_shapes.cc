@@ -242,39 +242,6 @@ namespace Signorini
 
   namespace
   {
-    unsigned int number_of_vertices(const VolumeMesh::Cell &cell)
-    {
-      return cell.n_vertices;
-    }
-
-    unsigned int number_of_vertices(const TetrahedralForest::Cell &)
-    {
-      return 4;
-    }
-
-    /// Which vertices belong to cells of different materials.
-    template <typename Cell, typename Material>
-    std::vector<bool> between_materials(const std::size_t n_vertices, const std::vector<Cell> &cells,
-                                        const Material &material)
-    {
-      std::vector<unsigned int> first(n_vertices, numbers::invalid_unsigned_int);
-      std::vector<bool>         result(n_vertices, false);
-      for (const Cell &cell : cells)
-        for (unsigned int v = 0; v < number_of_vertices(cell); ++v)
-          {
-            unsigned int &m = first[cell.vertices[v]];
-            if (m == numbers::invalid_unsigned_int)
-              m = material(cell);
-            result[cell.vertices[v]] = result[cell.vertices[v]] || m != material(cell);
-          }
-      return result;
-    }
-  } // namespace
-
-
-
-  namespace
-  {
     /// When a shape is taken for one that belongs to another boundary: shares of the longest edge of the
     /// faces at a vertex. Pure numbers.
     struct ShapePlaceRule
@@ -338,77 +305,6 @@ namespace Signorini
       remarks.push_back(text.str() +
                         "; the vertices of the start mesh stay where they are unless \"Snap boundary "
                         "vertices\" is set.");
-  }
-
-
-
-  std::vector<unsigned int> Bodies::move_to_shapes(
-      std::vector<Point<3>> &positions, const std::map<unsigned int, std::set<types::boundary_id>> &ids,
-      const std::vector<ArrayView<const unsigned int>> &cells, const std::vector<bool> &is_fixed)
-  {
-    std::vector<std::pair<unsigned int, Point<3>>> targets;
-    for (const auto &[v, on] : ids)
-      if (const auto list = shapes_of(on); !list.empty())
-        targets.emplace_back(v, project_onto(list, positions[v]));
-    std::vector<unsigned int> late;
-    MovementReport            report = move_nodes(positions, targets, cells, is_fixed, late);
-    for (const unsigned int v : late)
-      {
-        const auto target = std::lower_bound(targets.begin(), targets.end(), v,
-                                             [](const auto &t, const unsigned int w) { return t.first < w; });
-        for (const types::boundary_id id : ids.at(v))
-          if (shapes[id])
-            {
-              auto &[number, distance] = report.late[id];
-              ++number;
-              distance = std::max(distance, positions[v].distance(target->second));
-            }
-      }
-    last_movement.add(report);
-    return late;
-  }
-
-
-
-  void Bodies::snap_vertices(Placed &body)
-  {
-    VolumeMesh                                          &mesh = body.mesh;
-    std::map<unsigned int, std::set<types::boundary_id>> ids;
-    for (const auto &face : mesh.faces)
-      for (const unsigned int v : face.vertices)
-        if (v != VolumeMesh::no_vertex)
-          ids[v].insert(body.first_boundary + face.name);
-    std::vector<ArrayView<const unsigned int>> cells;
-    for (const VolumeMesh::Cell &cell : mesh.cells)
-      cells.emplace_back(cell.vertices.data(), cell.n_vertices);
-    std::vector<bool> is_fixed =
-        between_materials(mesh.vertices.size(), mesh.cells, [](const auto &cell) { return cell.volume; });
-    for (const auto &entry : ids)
-      is_fixed[entry.first] = true;
-    body.late = move_to_shapes(mesh.vertices, ids, cells, is_fixed);
-  }
-
-
-
-  void Bodies::follow_shapes()
-  {
-    for (const auto &[v, id] : forest->new_boundary_vertices())
-      late_vertices[v].insert(id);
-    std::vector<ArrayView<const unsigned int>> cells;
-    for (const auto &cell : forest->cells(forest->n_levels() - 1))
-      cells.emplace_back(cell.vertices.data(), 4);
-    const auto       &last = forest->cells(forest->n_levels() - 1);
-    std::vector<bool> is_fixed =
-        between_materials(forest->vertices().size(), last, [](const auto &cell) { return cell.material; });
-    for (const auto &cell : last)
-      for (unsigned int f = 0; f < 4; ++f)
-        if (cell.boundary[f] != TetrahedralForest::inner)
-          for (const unsigned int v : CellShape::face(4, f))
-            is_fixed[cell.vertices[v]] = true;
-    std::map<unsigned int, std::set<types::boundary_id>> still;
-    for (const unsigned int v : move_to_shapes(forest->vertices(), late_vertices, cells, is_fixed))
-      still[v] = late_vertices[v];
-    late_vertices = std::move(still);
   }
 
 

@@ -26,23 +26,6 @@ namespace Signorini
     {
       return 1;
     }
-    /// How often edges of mesh `coarse` of a forest were halved, one after the other, up to mesh `fine`.
-    unsigned int depth(const TetrahedralForest &forest, const unsigned int coarse, const unsigned int fine)
-    {
-      const unsigned int         first = forest.n_vertices(coarse);
-      std::vector<unsigned char> depths(forest.n_vertices(fine) - first);
-      unsigned int               largest = 0;
-      for (unsigned int v = first; v < forest.n_vertices(fine); ++v)
-        {
-          unsigned char d = 0;
-          for (const unsigned int parent : forest.parents(v))
-            if (parent >= first)
-              d = std::max(d, depths[parent - first]);
-          depths[v - first] = d + 1;
-          largest           = std::max<unsigned int>(largest, d + 1);
-        }
-      return largest;
-    }
 
     /// The meshes below the finest that become levels, finest first: a mesh is left out where the next finer
     /// level halves no edge more than once without it.
@@ -50,7 +33,7 @@ namespace Signorini
     {
       std::vector<unsigned int> levels;
       for (unsigned int l = forest.n_levels() - 1, last = l; l-- > 0;)
-        if (l == 0 || depth(forest, l - 1, last) > 1)
+        if (l == 0 || forest.history().halves_twice(l - 1, last))
           levels.push_back(last = l);
       return levels;
     }

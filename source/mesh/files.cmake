@@ -3,6 +3,7 @@ signorini_add_layer(mesh
   bodies.cc
   body_definition.cc
   body_elements.cc
+  body_movement.cc
   body_parameters.cc
   body_parts.cc
   body_shapes.cc
@@ -16,8 +17,13 @@ signorini_add_layer(mesh
   deck_text.cc
   expression.cc
   extruded_mesh.cc
+  forest_closure.cc
+  forest_ghosts.cc
+  forest_pieces.cc
+  forest_vertices.cc
   generated_mesh.cc
   gmsh_file.cc
+  late_vertices.cc
   material.cc
   mesh_input.cc
   nodal_space.cc
@@ -30,7 +36,9 @@ signorini_add_layer(mesh
   surface_normals.cc
   symmetry_planes.cc
   tetrahedral_forest.cc
+  tetrahedron_bisection.cc
   triangulated_shape.cc
   true_shape.cc
+  vertex_history.cc
   volume_mesh.cc
 )

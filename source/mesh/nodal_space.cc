@@ -72,50 +72,6 @@ namespace Signorini
 
 
 
-  /// Which cells of the forest this rank sees, and who owns the vertices.
-  struct NodalSpace::Tetrahedra
-  {
-    Tetrahedra(const TetrahedralForest &forest, const unsigned int level, const unsigned int rank,
-               const unsigned int n_ranks)
-      : first_on_rank(n_ranks + 1, 0)
-      , number(forest.n_vertices(level), numbers::invalid_unsigned_int)
-    {
-      // Vertices are numbered in the order of the cells, and belong to the first rank that has one of their
-      // cells: numbers of a rank are contiguous.
-      unsigned int n = 0;
-      for (unsigned int r = 0; r < n_ranks; ++r)
-        {
-          first_on_rank[r]         = n;
-          const auto [first, last] = forest.owned_cells(level, r, n_ranks);
-          for (std::size_t c = first; c < last; ++c)
-            for (const unsigned int v : forest.cells(level)[c].vertices)
-              if (number[v] == numbers::invalid_unsigned_int)
-                number[v] = n++;
-        }
-      first_on_rank[n_ranks] = n;
-
-      const auto [first, last] = forest.owned_cells(level, rank, n_ranks);
-      std::vector<bool> near(number.size(), false);
-      for (std::size_t c = first; c < last; ++c)
-        for (const unsigned int v : forest.cells(level)[c].vertices)
-          near[v] = true;
-      for (unsigned int c = 0; c < forest.cells(level).size(); ++c)
-        {
-          const auto &v = forest.cells(level)[c].vertices;
-          if (near[v[0]] || near[v[1]] || near[v[2]] || near[v[3]])
-            cells.push_back(c);
-        }
-    }
-
-    std::vector<unsigned int> first_on_rank;
-    /// Of each vertex.
-    std::vector<unsigned int> number;
-    /// Owned and ghost cells.
-    std::vector<unsigned int> cells;
-  };
-
-
-
   /// From the numbers of each kind to those of both: on every rank the nodes of hexahedra come first.
   struct NodalSpace::Numbering
   {
@@ -171,14 +127,11 @@ namespace Signorini
     : comm(communicator)
     , with_inner_faces(with_inner_faces)
   {
-    const unsigned int                rank    = Utilities::MPI::this_mpi_process(comm);
-    const unsigned int                n_ranks = Utilities::MPI::n_mpi_processes(comm);
-    std::unique_ptr<const Hexahedra>  hexahedra;
-    std::unique_ptr<const Tetrahedra> tetrahedra;
+    const unsigned int               rank    = Utilities::MPI::this_mpi_process(comm);
+    const unsigned int               n_ranks = Utilities::MPI::n_mpi_processes(comm);
+    std::unique_ptr<const Hexahedra> hexahedra;
     if (mesh.hexahedra != nullptr)
       hexahedra = std::make_unique<Hexahedra>(*mesh.hexahedra);
-    if (mesh.tetrahedra != nullptr)
-      tetrahedra = std::make_unique<Tetrahedra>(*mesh.tetrahedra, mesh.tetrahedral_level, rank, n_ranks);
 
     Numbering numbering(n_ranks);
     if (hexahedra)
@@ -187,11 +140,12 @@ namespace Signorini
         std::partial_sum(counts.begin(), counts.end(), numbering.hexahedral_begin.begin() + 1);
         n_cells_of_all += mesh.hexahedra->n_global_active_cells();
       }
-    if (tetrahedra)
+    if (mesh.tetrahedra != nullptr)
       {
-        std::copy(tetrahedra->first_on_rank.begin(), tetrahedra->first_on_rank.end(),
-                  numbering.tetrahedral_begin.begin());
-        n_cells_of_all += mesh.tetrahedra->cells(mesh.tetrahedral_level).size();
+        const ForestMesh &part = mesh.tetrahedra->mesh(mesh.tetrahedral_level);
+        std::copy(part.first_vertex.begin(), part.first_vertex.end(), numbering.tetrahedral_begin.begin());
+        n_cells_of_all += part.n_global_cells();
+        forest_level = mesh.tetrahedral_level;
       }
     const NodeIndex begin = numbering.hexahedral_begin[rank] + numbering.tetrahedral_begin[rank];
     const NodeIndex end   = numbering.hexahedral_begin[rank + 1] + numbering.tetrahedral_begin[rank + 1];
@@ -201,8 +155,8 @@ namespace Signorini
     std::vector<Point<3>> corner_points;
     if (hexahedra)
       add_hexahedra(corner_points, mesh, *hexahedra, numbering);
-    if (tetrahedra)
-      add_tetrahedra(corner_points, mesh, *tetrahedra, numbering);
+    if (mesh.tetrahedra != nullptr)
+      add_tetrahedra(corner_points, mesh, numbering);
     std::vector<NodeIndex> relevant;
     for (const NodeIndex node : cell_nodes)
       if (node < begin || node >= end)
@@ -220,6 +174,7 @@ namespace Signorini
     set_positions(corner_points);
     if (mesh.start != nullptr)
       find_start_nodes(mesh);
+    node_of_vertex = {};
 
     NodeIndex hanging = 0;
     for (const auto &line : constraints.get_lines())
@@ -284,49 +239,58 @@ namespace Signorini
 
 
   void NodalSpace::add_tetrahedra(std::vector<Point<3>> &corner_points, const MeshView &mesh,
-                                  const Tetrahedra &part, const Numbering &numbering)
+                                  const Numbering &numbering)
   {
-    const unsigned int rank   = Utilities::MPI::this_mpi_process(comm);
-    const auto        &forest = *mesh.tetrahedra;
-    const auto        &cells  = forest.cells(mesh.tetrahedral_level);
-    const auto         owned =
-        forest.owned_cells(mesh.tetrahedral_level, rank, Utilities::MPI::n_mpi_processes(comm));
+    const unsigned int  rank       = Utilities::MPI::this_mpi_process(comm);
+    const unsigned int  first_cell = static_cast<unsigned int>(cell_list.size());
+    const ForestMesh   &part       = mesh.tetrahedra->mesh(mesh.tetrahedral_level);
     const std::uint64_t first_name = mesh.hexahedra != nullptr ? mesh.hexahedra->n_global_coarse_cells() : 0;
-    node_of_vertex.reserve(part.number.size());
-    for (const unsigned int n : part.number)
-      node_of_vertex.push_back(numbering.of_tetrahedra(n));
-    owned_vertices.resize(part.first_on_rank[rank + 1] - part.first_on_rank[rank]);
-    for (unsigned int v = 0; v < part.number.size(); ++v)
-      if (part.number[v] >= part.first_on_rank[rank] && part.number[v] < part.first_on_rank[rank + 1])
-        owned_vertices[part.number[v] - part.first_on_rank[rank]] = v;
-
-    std::vector<std::pair<std::array<unsigned int, 3>, std::pair<unsigned int, unsigned char>>> faces;
-    for (const unsigned int c : part.cells)
+    node_of_vertex.reserve(part.vertices.size());
+    owned_vertices.resize(part.first_vertex[rank + 1] - part.first_vertex[rank]);
+    for (unsigned int v = 0; v < part.vertices.size(); ++v)
       {
-        const unsigned int local = static_cast<unsigned int>(cell_list.size());
-        cell_list.push_back({first_name + c, 1, static_cast<unsigned int>(cell_nodes.size()), 4,
-                             c >= owned.first && c < owned.second,
-                             static_cast<unsigned char>(cells[c].generation / 3), cells[c].material});
-        for (const unsigned int v : cells[c].vertices)
+        node_of_vertex.push_back(numbering.of_tetrahedra(static_cast<NodeIndex>(part.vertex_numbers[v])));
+        if (part.owns_vertex(rank, v))
+          owned_vertices[part.vertex_numbers[v] - part.first_vertex[rank]] = part.vertices[v];
+      }
+    for (std::size_t c = 0; c < part.cells.size(); ++c)
+      {
+        const Tetrahedron &cell = part.cells[c];
+        cell_list.push_back({first_name + part.cell_numbers[c], 1,
+                             static_cast<unsigned int>(cell_nodes.size()), 4, part.is_owned(c),
+                             static_cast<unsigned char>(cell.generation / 3), cell.material});
+        for (const unsigned int v : cell.vertices)
           {
             cell_nodes.push_back(node_of_vertex[v]);
-            corner_points.push_back(forest.vertices()[v]);
+            corner_points.push_back(part.points[v]);
           }
         for (unsigned char f = 0; f < 4; ++f)
-          if (cells[c].boundary[f] != TetrahedralForest::inner)
+          if (cell.boundary[f] != Tetrahedron::inner)
             {
-              boundary.push_back({local, f, cells[c].boundary[f], {}});
+              boundary.push_back({static_cast<unsigned int>(first_cell + c), f, cell.boundary[f], {}});
               boundary.back().hanging.fill(invalid_node);
             }
-          else if (with_inner_faces)
-            {
-              std::array<unsigned int, 3> key;
-              for (unsigned int i = 0; i < 3; ++i)
-                key[i] = cells[c].vertices[CellShape::face(4, f)[i]];
-              std::sort(key.begin(), key.end());
-              faces.push_back({key, {local, f}});
-            }
       }
+    if (with_inner_faces)
+      add_inner_faces(part, first_cell);
+  }
+
+
+
+  void NodalSpace::add_inner_faces(const ForestMesh &mesh, const unsigned int first_cell)
+  {
+    // By nodes: their order does not depend on the number of ranks.
+    std::vector<std::pair<std::array<NodeIndex, 3>, std::pair<unsigned int, unsigned char>>> faces;
+    for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+      for (unsigned char f = 0; f < 4; ++f)
+        if (mesh.cells[c].boundary[f] == Tetrahedron::inner)
+          {
+            std::array<NodeIndex, 3> key;
+            for (unsigned int i = 0; i < 3; ++i)
+              key[i] = node_of_vertex[mesh.cells[c].vertices[CellShape::face(4, f)[i]]];
+            std::sort(key.begin(), key.end());
+            faces.push_back({key, {first_cell + c, f}});
+          }
     std::sort(faces.begin(), faces.end());
     for (std::size_t i = 0; i + 1 < faces.size(); ++i)
       if (faces[i].first == faces[i + 1].first)

@@ -126,20 +126,19 @@ namespace Signorini
 
   void NodalSpace::add_start_nodes_of_tetrahedra(const StartNodes &start, const MeshView &mesh)
   {
-    // Parents come before their children.
-    std::vector<Sets> sets_of(start.n_sets > 0 ? node_of_vertex.size() : 0);
-    for (unsigned int v = 0; v < node_of_vertex.size(); ++v)
+    const ForestMesh &part = mesh.tetrahedra->mesh(mesh.tetrahedral_level);
+    for (unsigned int v = 0; v < part.vertices.size(); ++v)
       {
-        const bool      is_start = v < start.forest.size();
-        const NodeIndex node     = node_of_vertex[v];
-        if (is_start && relevant_nodes.is_element(node))
-          start_vertex[relevant_nodes.index_within_set(node)] = start.forest[v];
+        const ForestMesh::Carrier &carrier = part.carriers[v];
+        const NodeIndex            node    = node_of_vertex[v];
+        if (carrier[1] == ForestMesh::none && relevant_nodes.is_element(node))
+          start_vertex[relevant_nodes.index_within_set(node)] = start.forest[carrier[0]];
         if (start.n_sets == 0)
           continue;
-        const auto &parents = mesh.tetrahedra->parents(v);
-        sets_of[v] =
-            is_start ? start.sets_of[start.forest[v]] : common(sets_of[parents[0]], sets_of[parents[1]]);
-        add_to_sets(node, sets_of[v]);
+        Sets sets = start.sets_of[start.forest[carrier[0]]];
+        for (unsigned int i = 1; i < carrier.size() && carrier[i] != ForestMesh::none; ++i)
+          sets = common(sets, start.sets_of[start.forest[carrier[i]]]);
+        add_to_sets(node, sets);
       }
   }
 } // namespace Signorini

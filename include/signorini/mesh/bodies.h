@@ -232,10 +232,14 @@ namespace Signorini
     void snap_vertices(Placed &placed);
     /// Moves vertices on the given boundaries to their shapes; returns those that are not there yet.
     std::vector<unsigned int>
-         move_to_shapes(std::vector<dealii::Point<3>>                                      &positions,
-                        const std::map<unsigned int, std::set<dealii::types::boundary_id>> &ids,
-                        const std::vector<dealii::ArrayView<const unsigned int>>           &cells,
-                        const std::vector<bool>                                            &is_fixed);
+    move_to_shapes(std::vector<dealii::Point<3>>                                      &positions,
+                   const std::map<unsigned int, std::set<dealii::types::boundary_id>> &ids,
+                   const std::vector<dealii::ArrayView<const unsigned int>>           &cells,
+                   const std::vector<bool> &is_fixed, const SharedVertices &shared = SharedVertices());
+    /// The distances of late vertices of a movement from their shapes.
+    void report_late(MovementReport &report, const std::map<dealii::types::boundary_id, double> &distances,
+                     const std::map<dealii::types::boundary_id, double> &numbers,
+                     const SharedVertices                               &shared) const;
     void follow_shapes();
     void assess_hexahedra();
     void set_manifolds();
@@ -285,11 +289,9 @@ namespace Signorini
     std::set<dealii::types::boundary_id> has_manifold;
     /// Pairs of boundary ids whose common edges stay as they are, the smaller id first.
     std::set<std::pair<dealii::types::boundary_id, dealii::types::boundary_id>> sharp;
-    /// Vertices of the forest that are not yet where their shapes want them.
-    std::map<unsigned int, std::set<dealii::types::boundary_id>> late_vertices;
-    MovementReport                                               last_movement;
-    dealii::types::manifold_id                                   next_manifold = 1;
-    double                                                       stiffest      = 0.;
+    MovementReport                                                              last_movement;
+    dealii::types::manifold_id                                                  next_manifold = 1;
+    double                                                                      stiffest      = 0.;
   };
 } // namespace Signorini
 

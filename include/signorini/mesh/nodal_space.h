@@ -180,10 +180,10 @@ namespace Signorini
       return nodes_of_set;
     }
 
-    /// Nodes of the vertices of the mesh of the forest (on all ranks); empty without tetrahedra.
-    const std::vector<NodeIndex> &forest_nodes() const
+    /// Which mesh of the forest its tetrahedra are.
+    unsigned int tetrahedral_level() const
     {
-      return node_of_vertex;
+      return forest_level;
     }
 
     /// Number of the owned nodes of tetrahedra; they come after those of hexahedra.
@@ -192,38 +192,40 @@ namespace Signorini
       return owned_vertices.size();
     }
 
-    /// Vertices of the owned nodes of tetrahedra, in their order.
-    const std::vector<unsigned int> &owned_forest_vertices() const
+    /// Names of the vertices of the owned nodes of tetrahedra, in their order.
+    const std::vector<ForestMesh::Name> &owned_forest_vertices() const
     {
       return owned_vertices;
     }
 
   private:
     struct Hexahedra;
-    struct Tetrahedra;
     struct Numbering;
 
     void add_hexahedra(std::vector<dealii::Point<3>> &corner_points, const MeshView &mesh,
                        const Hexahedra &part, const Numbering &numbering);
     void add_tetrahedra(std::vector<dealii::Point<3>> &corner_points, const MeshView &mesh,
-                        const Tetrahedra &part, const Numbering &numbering);
+                        const Numbering &numbering);
+    void add_inner_faces(const ForestMesh &mesh, const unsigned int first_cell);
     void set_positions(const std::vector<dealii::Point<3>> &corner_points);
     void find_start_nodes(const MeshView &mesh);
     void add_start_nodes_of_hexahedra(const StartNodes &start, std::vector<bool> &is_done);
     void add_start_nodes_of_tetrahedra(const StartNodes &start, const MeshView &mesh);
     void add_to_sets(const NodeIndex node, const std::vector<unsigned int> &sets);
 
-    const MPI_Comm                      comm;
-    const bool                          with_inner_faces;
-    std::vector<Cell>                   cell_list;
-    std::vector<NodeIndex>              cell_nodes;
-    std::vector<BoundaryFace>           boundary;
-    std::vector<InnerFace>              inner;
-    dealii::IndexSet                    owned_nodes, relevant_nodes;
-    dealii::AffineConstraints<double>   constraints;
-    std::vector<dealii::Point<3>>       positions;
+    const MPI_Comm                    comm;
+    const bool                        with_inner_faces;
+    std::vector<Cell>                 cell_list;
+    std::vector<NodeIndex>            cell_nodes;
+    std::vector<BoundaryFace>         boundary;
+    std::vector<InnerFace>            inner;
+    dealii::IndexSet                  owned_nodes, relevant_nodes;
+    dealii::AffineConstraints<double> constraints;
+    std::vector<dealii::Point<3>>     positions;
+    /// By vertex of the mesh of the forest; only while the space is built.
     std::vector<NodeIndex>              node_of_vertex;
-    std::vector<unsigned int>           owned_vertices;
+    std::vector<ForestMesh::Name>       owned_vertices;
+    unsigned int                        forest_level = 0;
     std::vector<unsigned int>           start_vertex;
     std::vector<std::vector<NodeIndex>> nodes_of_set;
     NodeIndex                           n_conforming   = 0;

@@ -30,18 +30,62 @@ namespace Signorini
     void add(const MovementReport &other);
   };
 
+  /// What ranks that share a mesh tell each other while vertices move. This class: the mesh is whole on every
+  /// rank, and all of them do the same.
+  class SharedVertices
+  {
+  public:
+    virtual ~SharedVertices() = default;
+
+    /// Whether this rank decides what happens to a vertex. It must have all cells around it.
+    virtual bool owns(const unsigned int) const
+    {
+      return true;
+    }
+
+    /// Collective. Values of vertices (equally many of each) that others own become those of their owners.
+    virtual void update(std::vector<double> &) const
+    {
+    }
+
+    /// Collective. Of all ranks.
+    virtual double minimum(const double value) const
+    {
+      return value;
+    }
+
+    /// Collective. Of all ranks.
+    virtual double sum(const double value) const
+    {
+      return value;
+    }
+
+    /// Collective. Tries again to move single vertices.
+    /// @param late vertices that this rank owns, those that are not there in the end
+    /// @param targets where they should be
+    /// @param is_free vertices that may give way
+    /// @param reference quality of each cell that counts as whole, zero where it is that of now
+    virtual void try_again(std::vector<unsigned int> &late, const std::vector<dealii::Point<3>> &targets,
+                           std::vector<dealii::Point<3>>                            &positions,
+                           const std::vector<dealii::ArrayView<const unsigned int>> &cells,
+                           const std::vector<bool> &is_free, std::vector<double> &reference) const;
+  };
+
   /// Moves vertices to their targets, and free ones around them along (their displacements are means of
   /// their neighbours'), as far as no cell becomes bad: not worse than a third of what it was (nor inverted).
   /// Where one would, the vertices of the cell that move go back half of the way, up to ten times, then all
   /// of it. Then those vertices are tried again one by one, the free ones around moving to where the worst of
-  /// their cells is best (MovementRule). Vertices that did not reach their target are returned in `late`. Not
-  /// collective.
+  /// their cells is best (MovementRule). Vertices that did not reach their target are returned in `late`. The
+  /// result does not depend on the number of ranks. Collective where the vertices are shared.
+  /// @param targets of vertices that this rank owns, ascending
   /// @param cells each with the 4 or 8 vertices of a cell
   /// @param is_fixed vertices that may not follow: on boundaries and between materials
+  /// @param late ascending, of the vertices that this rank owns
   MovementReport move_nodes(std::vector<dealii::Point<3>>                                &positions,
                             const std::vector<std::pair<unsigned int, dealii::Point<3>>> &targets,
                             const std::vector<dealii::ArrayView<const unsigned int>>     &cells,
-                            const std::vector<bool> &is_fixed, std::vector<unsigned int> &late);
+                            const std::vector<bool> &is_fixed, std::vector<unsigned int> &late,
+                            const SharedVertices &shared = SharedVertices());
 } // namespace Signorini
 
 #endif

@@ -4,12 +4,10 @@
 #ifndef signorini_mesh_tetrahedral_forest_h
 #define signorini_mesh_tetrahedral_forest_h
 
-#include <deal.II/base/point.h>
-#include <deal.II/base/types.h>
+#include <signorini/mesh/forest_mesh.h>
+#include <signorini/mesh/vertex_history.h>
 
-#include <array>
-#include <functional>
-#include <unordered_map>
+#include <memory>
 #include <vector>
 
 namespace Signorini
@@ -18,130 +16,78 @@ namespace Signorini
   /// Pouly: Locally adapted tetrahedral meshes using bisection, SIAM J. Sci. Comput. 22 (2000)). It takes any
   /// conforming start mesh, and the descendants of a tetrahedron have finitely many shapes.
   ///
-  /// The topology is the same on all ranks: about 50 bytes per cell of every mesh, on every rank. Cells are
-  /// ordered along a space-filling curve, of which the ranks own equal pieces. Not collective.
+  /// Distributed: of every mesh a rank holds its own cells and a layer of ghosts (ForestMesh), each mesh
+  /// partitioned on its own. Cells, their order and the names of the vertices do not depend on the number of
+  /// ranks. Only what the constructor is given is the same on all ranks.
   class TetrahedralForest
   {
   public:
-    /// The id of a face between two cells.
-    static constexpr dealii::types::boundary_id inner = dealii::numbers::internal_face_boundary_id;
-
     /// A tetrahedron of one of the meshes.
-    struct Cell
-    {
-      /// Positive orientation. Face f is opposite to vertex f.
-      std::array<unsigned int, 4>               vertices;
-      std::array<dealii::types::boundary_id, 4> boundary;
-      unsigned int                              material;
-      /// Number of bisections since the start mesh.
-      unsigned int generation = 0;
-    };
+    using Cell = Tetrahedron;
+    /// A name of a vertex.
+    using Name = ForestMesh::Name;
 
-    /// A new vertex and a boundary its edge lies on.
-    using BoundaryVertices = std::vector<std::pair<unsigned int, dealii::types::boundary_id>>;
-
-    /// Cells of positive orientation, conforming (every face belongs to two cells or carries a boundary id).
-    TetrahedralForest(const std::vector<dealii::Point<3>> &vertices, const std::vector<Cell> &cells);
+    /// Collective. Cells of positive orientation, conforming (every face belongs to two cells or carries a
+    /// boundary id).
+    TetrahedralForest(const std::vector<dealii::Point<3>> &vertices, const std::vector<Cell> &cells,
+                      const MPI_Comm communicator);
 
     /// Number of meshes.
     unsigned int n_levels() const
     {
-      return static_cast<unsigned int>(levels.size());
+      return static_cast<unsigned int>(meshes.size());
     }
 
-    /// The cells of a mesh; level 0 is the start mesh.
-    const std::vector<Cell> &cells(const unsigned int level) const
+    /// What this rank sees of a mesh; level 0 is the start mesh.
+    const ForestMesh &mesh(const unsigned int level) const
     {
-      return levels[level].cells;
+      return *meshes[level];
     }
 
-    /// The vertices of a mesh are the first n_vertices of all.
-    unsigned int n_vertices(const unsigned int level) const
+    /// Which edges the vertices halve.
+    const VertexHistory &history() const
     {
-      return levels[level].n_vertices;
+      return vertex_history;
     }
 
-    /// Positions (length) of the vertices of all meshes.
-    const std::vector<dealii::Point<3>> &vertices() const
+    /// Collective. Makes a new mesh: marked cells of the last one are bisected three times (each edge once),
+    /// others as often as needed to have no hanging nodes. Then the cells are distributed anew. False if
+    /// nothing is marked on any rank.
+    /// @param marked the own cells, in their order
+    /// @param weight of the new cells, one if empty
+    bool refine(const std::vector<bool> &marked, const CellWeight &weight = {});
+
+    /// Positions of the vertices of the last mesh, which may be moved, those of ghosts like their owners'.
+    std::vector<dealii::Point<3>> &points()
     {
-      return points;
+      return meshes.back()->points;
     }
 
-    /// The edge whose midpoint a vertex was at first; twice the vertex itself for those of the start mesh.
-    const std::array<unsigned int, 2> &parents(const unsigned int vertex) const
+    /// Marks of the vertices of the last mesh, which may be set: they stay with vertices through refinements.
+    std::vector<bool> &vertex_marks()
     {
-      return vertex_parents[vertex];
+      return meshes.back()->is_marked;
     }
 
-    /// Makes a new mesh: marked cells of the last one are bisected three times (each edge once), others as
-    /// often as needed to have no hanging nodes. False if nothing is marked.
-    bool refine(const std::vector<bool> &marked);
-
-    /// Boundaries of the vertices that the last refinement made, sorted.
-    const BoundaryVertices &new_boundary_vertices() const
+    /// The ranks that share the meshes.
+    MPI_Comm communicator() const
     {
-      return new_on_boundary;
+      return comm;
     }
 
-    /// Vertices may be moved.
-    std::vector<dealii::Point<3>> &vertices()
-    {
-      return points;
-    }
-
-    /// The part of the cells of a mesh that a rank owns: from first to second.
-    std::pair<std::size_t, std::size_t> owned_cells(const unsigned int level, const unsigned int rank,
-                                                    const unsigned int n_ranks) const
-    {
-      const std::size_t n = levels[level].cells.size();
-      return {n * rank / n_ranks, n * (rank + 1) / n_ranks};
-    }
+    /// Bytes of all lists of this rank.
+    std::size_t memory_consumption() const;
 
   private:
-    /// An edge of a cell as two of its vertices' positions 0-3.
-    using Edge = std::array<unsigned char, 2>;
+    void add_mesh(struct ForestPiece &&piece, const CellWeight &weight);
 
-    /// What bisection has to know about a cell.
-    struct Marking
-    {
-      /// The marked edge of each face; the refinement edge is that of two faces.
-      std::array<Edge, 4> face_edge;
-      Edge                refinement_edge;
-      bool                flag;
-    };
-
-    struct Level
-    {
-      std::vector<Cell> cells;
-      unsigned int      n_vertices;
-    };
-
-    struct WorkItem
-    {
-      Cell         cell;
-      Marking      marking;
-      unsigned int bisections;
-    };
-
-    unsigned int middle_of(const unsigned int a, const unsigned int b);
-    bool         has_split_edge(const Cell &cell) const;
-    void         bisect(const WorkItem &parent, WorkItem (&children)[2]);
-    void         order_cells(std::vector<Cell> &cells, std::vector<Marking> &markings) const;
-
-    std::vector<dealii::Point<3>>            points;
-    std::vector<std::array<unsigned int, 2>> vertex_parents;
-    std::vector<Level>                       levels;
-    /// Of the last mesh.
-    std::vector<Marking> markings;
-    /// While refining: midpoints of split edges, and which vertices belong to one.
-    std::unordered_map<std::uint64_t, unsigned int> middles;
-    std::vector<bool>                               at_split_edge;
-    BoundaryVertices                                new_on_boundary;
+    const MPI_Comm comm;
+    VertexHistory  vertex_history;
+    /// Their addresses stay.
+    std::vector<std::unique_ptr<ForestMesh>> meshes;
+    /// Of the own cells of the last mesh.
+    std::vector<BisectionMarking> markings;
   };
-
-  /// The mean ratio 12 (3 volume)^(2/3) / (sum of the squared edges) (Liu, Joe 1994): 1 for a regular
-  /// tetrahedron, not positive for an inverted one.
-  double tetrahedron_quality(const std::array<dealii::Point<3>, 4> &corners);
 } // namespace Signorini
 
 #endif

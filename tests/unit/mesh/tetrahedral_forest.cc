@@ -1,109 +1,89 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
-#include <signorini/mesh/cell_shape.h>
-#include <signorini/mesh/mesh_input.h>
 #include <signorini/mesh/tetrahedral_forest.h>
-#include <signorini/mesh/volume_mesh.h>
 
 #include <gtest/gtest.h>
 
 #include <map>
 #include <random>
 
+#include "start_meshes.h"
+
 using namespace Signorini;
 using dealii::Point;
+namespace Parallel = dealii::Utilities::MPI;
 
 namespace
 {
-  std::array<Point<3>, 4> corners(const TetrahedralForest &forest, const TetrahedralForest::Cell &cell)
+  const ForestMesh &last(const TetrahedralForest &forest)
   {
-    const auto &x = forest.vertices();
-    return {{x[cell.vertices[0]], x[cell.vertices[1]], x[cell.vertices[2]], x[cell.vertices[3]]}};
-  }
-
-  double worst_quality(const TetrahedralForest &forest, const unsigned int level)
-  {
-    double worst = 1.;
-    for (const auto &cell : forest.cells(level))
-      worst = std::min(worst, tetrahedron_quality(corners(forest, cell)));
-    return worst;
-  }
-
-  double volume(const TetrahedralForest &forest, const unsigned int level)
-  {
-    double sum = 0.;
-    for (const auto &cell : forest.cells(level))
-      {
-        const auto x = corners(forest, cell);
-        sum += cross_product_3d(x[1] - x[0], x[2] - x[0]) * (x[3] - x[0]) / 6.;
-      }
-    return sum;
-  }
-
-  /// Every face belongs to two cells or has a boundary id, and areas of the boundaries stay.
-  std::map<dealii::types::boundary_id, double> check_conformity(const TetrahedralForest &forest)
-  {
-    std::map<std::array<unsigned int, 3>, unsigned int> n_inner;
-    std::map<dealii::types::boundary_id, double>        areas;
-    for (const auto &cell : forest.cells(forest.n_levels() - 1))
-      for (unsigned int f = 0; f < 4; ++f)
-        {
-          std::array<unsigned int, 3> key;
-          for (unsigned int i = 0; i < 3; ++i)
-            key[i] = cell.vertices[CellShape::face(4, f)[i]];
-          const auto &x = forest.vertices();
-          if (cell.boundary[f] != TetrahedralForest::inner)
-            areas[cell.boundary[f]] +=
-                .5 * cross_product_3d(x[key[1]] - x[key[0]], x[key[2]] - x[key[0]]).norm();
-          else
-            {
-              std::sort(key.begin(), key.end());
-              ++n_inner[key];
-            }
-        }
-    for (const auto &entry : n_inner)
-      EXPECT_EQ(entry.second, 2u);
-    return areas;
+    return forest.mesh(forest.n_levels() - 1);
   }
 
   TetrahedralForest forest_of(const VolumeMesh &mesh)
   {
-    std::map<VolumeMesh::Face, unsigned int> names;
-    for (const auto &face : find_boundary_faces(mesh))
-      names[face_key(face.first)] = 7;
-    std::vector<TetrahedralForest::Cell> cells;
-    for (const auto &cell : mesh.cells)
+    return TetrahedralForest(mesh.vertices, tetrahedra_of(mesh), MPI_COMM_WORLD);
+  }
+
+  std::array<Point<3>, 4> corners(const ForestMesh &mesh, const std::size_t c)
+  {
+    const auto &v = mesh.cells[c].vertices;
+    return {{mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]], mesh.points[v[3]]}};
+  }
+
+  double worst_quality(const ForestMesh &mesh)
+  {
+    double worst = 1.;
+    for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+      worst = std::min(worst, tetrahedron_quality(corners(mesh, c)));
+    return Parallel::min(worst, MPI_COMM_WORLD);
+  }
+
+  double volume(const ForestMesh &mesh)
+  {
+    double sum = 0.;
+    for (std::size_t c = mesh.first_owned; c < mesh.first_owned + mesh.n_owned; ++c)
       {
-        cells.emplace_back();
-        cells.back().material = 0;
-        for (unsigned int f = 0; f < 4; ++f)
-          {
-            VolumeMesh::Face face;
-            face.fill(VolumeMesh::no_vertex);
-            for (unsigned int i = 0; i < 3; ++i)
-              face[i] = cell.vertices[CellShape::face(4, f)[i]];
-            cells.back().vertices[f] = cell.vertices[f];
-            cells.back().boundary[f] =
-                names.count(face_key(face)) > 0 ? names[face_key(face)] : TetrahedralForest::inner;
-          }
+        const auto x = corners(mesh, c);
+        sum += cross_product_3d(x[1] - x[0], x[2] - x[0]) * (x[3] - x[0]) / 6.;
       }
-    return TetrahedralForest(mesh.vertices, cells);
+    return Parallel::sum(sum, MPI_COMM_WORLD);
   }
 
-  TetrahedralForest regular_tetrahedron()
+  /// Every face of an own cell belongs to two cells that are seen or is on the boundary, whose area is
+  /// returned.
+  double check_conformity(const ForestMesh &mesh)
   {
-    VolumeMesh mesh;
-    mesh.vertices     = {Point<3>(1, 1, 1), Point<3>(1, -1, -1), Point<3>(-1, 1, -1), Point<3>(-1, -1, 1)};
-    mesh.cells        = {{{{0, 1, 2, 3, 0, 0, 0, 0}}, 4, 0}};
-    mesh.volume_names = {"all"};
-    mend_orientation(mesh, "test");
-    return forest_of(mesh);
+    std::map<std::array<unsigned int, 3>, unsigned int> n_cells;
+    const auto face = [&](const std::size_t c, const unsigned int f) {
+      std::array<unsigned int, 3> key;
+      for (unsigned int i = 0; i < 3; ++i)
+        key[i] = mesh.cells[c].vertices[CellShape::face(4, f)[i]];
+      std::sort(key.begin(), key.end());
+      return key;
+    };
+    for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+      for (unsigned int f = 0; f < 4; ++f)
+        ++n_cells[face(c, f)];
+    double area = 0.;
+    for (std::size_t c = mesh.first_owned; c < mesh.first_owned + mesh.n_owned; ++c)
+      for (unsigned int f = 0; f < 4; ++f)
+        {
+          const auto key      = face(c, f);
+          const bool is_inner = mesh.cells[c].boundary[f] == Tetrahedron::inner;
+          EXPECT_EQ(n_cells[key], is_inner ? 2u : 1u);
+          if (!is_inner)
+            area += .5 * cross_product_3d(mesh.points[key[1]] - mesh.points[key[0]],
+                                          mesh.points[key[2]] - mesh.points[key[0]])
+                             .norm();
+        }
+    return Parallel::sum(area, MPI_COMM_WORLD);
   }
 
-  VolumeMesh unstructured()
+  void refine_all(TetrahedralForest &forest)
   {
-    return read_volume_mesh(SIGNORINI_SOURCE_DIR "/prm/hertz/half_sphere_on_cube.msh", MPI_COMM_WORLD);
+    ASSERT_TRUE(forest.refine(std::vector<bool>(last(forest).n_owned, true)));
   }
 } // namespace
 
@@ -111,8 +91,8 @@ namespace
 
 TEST(TetrahedronQuality, KnownValues)
 {
-  const auto forest = regular_tetrahedron();
-  EXPECT_NEAR(worst_quality(forest, 0), 1., 1e-14);
+  const auto forest = forest_of(regular_tetrahedron());
+  EXPECT_NEAR(worst_quality(forest.mesh(0)), 1., 1e-14);
   const std::array<Point<3>, 4> corner = {
       {Point<3>(0, 0, 0), Point<3>(1, 0, 0), Point<3>(0, 1, 0), Point<3>(0, 0, 1)}};
   // Volume 1/6, squared edges 3 * 1 + 3 * 2.
@@ -125,72 +105,56 @@ TEST(TetrahedronQuality, KnownValues)
 // deal.II 9.4.1 goes through 0.86, 0.67, 0.46, 0.29, 0.17.
 TEST(TetrahedralForest, UniformRefinementKeepsQuality)
 {
-  auto forest = regular_tetrahedron();
+  auto forest = forest_of(regular_tetrahedron());
   for (unsigned int level = 1; level <= 5; ++level)
     {
-      ASSERT_TRUE(forest.refine(std::vector<bool>(forest.cells(level - 1).size(), true)));
-      EXPECT_EQ(forest.cells(level).size(), std::size_t(1) << (3 * level));
-      EXPECT_GT(worst_quality(forest, level), .46) << "level " << level;
-      EXPECT_NEAR(volume(forest, level), 8. / 3., 1e-12);
+      refine_all(forest);
+      EXPECT_EQ(last(forest).n_global_cells(), std::uint64_t(1) << (3 * level));
+      EXPECT_GT(worst_quality(last(forest)), .46) << "level " << level;
+      EXPECT_NEAR(volume(last(forest)), 8. / 3., 1e-12);
     }
-  check_conformity(forest);
+  check_conformity(last(forest));
 }
 
 
 
 TEST(TetrahedralForest, UnstructuredMeshSixLevels)
 {
-  auto         forest = forest_of(unstructured());
-  const double start = worst_quality(forest, 0), space = volume(forest, 0);
-  const auto   areas = check_conformity(forest);
+  auto         forest = forest_of(unstructured_tetrahedra());
+  const double start = worst_quality(forest.mesh(0)), space = volume(forest.mesh(0));
+  const double area = check_conformity(forest.mesh(0));
   for (unsigned int level = 1; level <= 6; ++level)
     {
       // Refine toward the first contact.
+      const ForestMesh &mesh = last(forest);
       std::vector<bool> marked;
-      for (const auto &cell : forest.cells(level - 1))
-        marked.push_back((forest.vertices()[cell.vertices[0]] +
-                          Point<3>(forest.vertices()[cell.vertices[1]] - forest.vertices()[cell.vertices[0]]))
-                             .norm() < 1.5 * std::pow(.5, level));
+      for (std::size_t c = mesh.first_owned; c < mesh.first_owned + mesh.n_owned; ++c)
+        marked.push_back(corners(mesh, c)[1].norm() < 1.5 * std::pow(.5, level));
       ASSERT_TRUE(forest.refine(marked));
-      EXPECT_GE(worst_quality(forest, level), .5 * start) << "level " << level;
-      EXPECT_NEAR(volume(forest, level), space, 1e-12 * space);
-      for (const auto &[id, area] : check_conformity(forest))
-        EXPECT_NEAR(area, areas.at(id), 1e-12 * area);
+      EXPECT_GE(worst_quality(last(forest)), .5 * start) << "level " << level;
+      EXPECT_NEAR(volume(last(forest)), space, 1e-12 * space);
+      EXPECT_NEAR(check_conformity(last(forest)), area, 1e-12 * area);
     }
-  EXPECT_GT(forest.cells(6).size(), forest.cells(0).size());
+  EXPECT_GT(forest.mesh(6).n_global_cells(), forest.mesh(0).n_global_cells());
 }
 
 
 
 TEST(TetrahedralForest, RandomMarks)
 {
-  std::mt19937 random(1);
-  auto         forest = forest_of(split_into_tetrahedra([] {
-    VolumeMesh cube;
-    for (unsigned int v = 0; v < 8; ++v)
-      cube.vertices.emplace_back(v & 1, v >> 1 & 1, v >> 2);
-    cube.cells        = {{{{0, 1, 2, 3, 4, 5, 6, 7}}, 8, 0}};
-    cube.volume_names = {"all"};
-    return cube;
-  }()));
-  const double start  = worst_quality(forest, 0);
+  auto         forest = forest_of(cubes_of_tetrahedra());
+  const double start  = worst_quality(forest.mesh(0));
   for (unsigned int level = 1; level <= 5; ++level)
     {
-      std::vector<bool> marked(forest.cells(level - 1).size());
+      const ForestMesh &mesh = last(forest);
+      std::vector<bool> marked(mesh.n_owned);
       for (std::size_t c = 0; c < marked.size(); ++c)
-        marked[c] = random() % 10 == 0;
-      marked[0] = true;
+        marked[c] = std::mt19937(level + 10 * mesh.cell_numbers[mesh.first_owned + c])() % 10 == 0 ||
+                    mesh.cell_numbers[mesh.first_owned + c] == 0;
       ASSERT_TRUE(forest.refine(marked));
-      const auto areas = check_conformity(forest);
-      EXPECT_NEAR(areas.at(7), 6., 1e-12);
-      EXPECT_NEAR(volume(forest, forest.n_levels() - 1), 1., 1e-12);
-      EXPECT_GE(worst_quality(forest, forest.n_levels() - 1), .5 * start);
-      // Midpoints of edges of the mesh before, or of edges that came with this refinement.
-      for (unsigned int v = forest.n_vertices(forest.n_levels() - 2); v < forest.vertices().size(); ++v)
-        {
-          EXPECT_LT(forest.parents(v)[0], v);
-          EXPECT_LT(forest.parents(v)[1], v);
-        }
+      EXPECT_NEAR(check_conformity(last(forest)), 6., 1e-12);
+      EXPECT_NEAR(volume(last(forest)), 1., 1e-12);
+      EXPECT_GE(worst_quality(last(forest)), .5 * start);
     }
 }
 
@@ -198,7 +162,7 @@ TEST(TetrahedralForest, RandomMarks)
 
 TEST(VolumeMesh, SplitsKeepVolumeAndNames)
 {
-  const VolumeMesh mesh      = unstructured();
+  const VolumeMesh mesh      = unstructured_tetrahedra();
   const VolumeMesh hexahedra = split_into_hexahedra(mesh);
   EXPECT_EQ(hexahedra.cells.size(), 4 * mesh.cells.size());
   EXPECT_EQ(hexahedra.faces.size(), 3 * mesh.faces.size());
