@@ -5,6 +5,7 @@ signorini_add_layer(algebra
   galerkin_product.cc
   nodal_transfer.cc
   node_block_matrix.cc
+  node_exchange.cc
   node_partition.cc
   replicated_data.cc
   rounded_sweep.cc

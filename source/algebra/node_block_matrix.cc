@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <numeric>
 
 namespace Signorini
 {
@@ -158,7 +159,28 @@ namespace Signorini
     for (std::size_t f = 0; f < pattern.foreign_rows.size(); ++f)
       foreign_row_of_ghost[nodes->to_local(pattern.foreign_rows[f]) - n_owned] = n_owned + f;
 
+    collect_ghost_columns();
     plan_compression(pattern);
+  }
+
+
+
+  void NodeBlockMatrix::collect_ghost_columns()
+  {
+    const auto for_all = [&](const auto &action) {
+      for (unsigned int row = 0; row < n_rows(); ++row)
+        for (std::size_t k = upper_start[row + 1]; k > upper_start[row] && columns[k - 1] >= n_rows(); --k)
+          action(row, k - 1, columns[k - 1] - n_rows());
+    };
+    ghost_start.assign(nodes->ghosts().size() + 1, 0);
+    for_all(
+        [&](const unsigned int, const std::size_t, const unsigned int ghost) { ++ghost_start[ghost + 1]; });
+    std::partial_sum(ghost_start.begin(), ghost_start.end(), ghost_start.begin());
+    ghost_couplings.resize(ghost_start.back());
+    std::vector<std::size_t> next(ghost_start);
+    for_all([&](const unsigned int row, const std::size_t k, const unsigned int ghost) {
+      ghost_couplings[next[ghost]++] = {row, k};
+    });
   }
 
 

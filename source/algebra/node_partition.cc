@@ -77,11 +77,42 @@ namespace Signorini
   std::vector<unsigned int> NodePartition::shared_nodes() const
   {
     std::vector<unsigned int> nodes;
-    for (const auto &range : dofs->import_indices())
-      for (unsigned int i = range.first / dim; i < range.second / dim; ++i)
-        nodes.push_back(i);
+    for (const Neighbour &viewer : viewers())
+      nodes.insert(nodes.end(), viewer.nodes.begin(), viewer.nodes.end());
     std::sort(nodes.begin(), nodes.end());
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
     return nodes;
+  }
+
+
+
+  std::vector<NodePartition::Neighbour> NodePartition::viewers() const
+  {
+    // The ranges of all ranks, one rank after the other.
+    std::vector<Neighbour> result;
+    auto                   range = dofs->import_indices().begin();
+    for (const auto &[rank, n_dofs] : dofs->import_targets())
+      {
+        result.push_back({rank, {}});
+        for (std::vector<unsigned int> &nodes = result.back().nodes; dim * nodes.size() < n_dofs; ++range)
+          for (unsigned int i = range->first / dim; i < range->second / dim; ++i)
+            nodes.push_back(i);
+      }
+    return result;
+  }
+
+
+
+  std::vector<NodePartition::Neighbour> NodePartition::owners() const
+  {
+    std::vector<Neighbour> result;
+    unsigned int           ghost = owned_size;
+    for (const auto &[rank, n_dofs] : dofs->ghost_targets())
+      {
+        result.push_back({rank, std::vector<unsigned int>(n_dofs / dim)});
+        for (unsigned int &node : result.back().nodes)
+          node = ghost++;
+      }
+    return result;
   }
 } // namespace Signorini

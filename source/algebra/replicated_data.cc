@@ -162,4 +162,17 @@ namespace Signorini
       }
     return masks;
   }
+
+
+
+  void import_ghost_flags(const NodePartition &partition, std::vector<unsigned char> &flags)
+  {
+    Vector values;
+    partition.reinit(values);
+    for (unsigned int row = 0; row < partition.n_owned(); ++row)
+      values.local_element(dim * row) = flags[row];
+    values.update_ghost_values();
+    for (unsigned int node = partition.n_owned(); node < partition.n_local(); ++node)
+      flags[node] = static_cast<unsigned char>(values.local_element(dim * node));
+  }
 } // namespace Signorini

@@ -21,7 +21,7 @@ namespace Signorini
     /// A row of the arrays.
     struct Row
     {
-      Row(const RoundedSweep::Arrays &arrays, const unsigned int row)
+      Row(const RoundedSweep::Arrays &arrays, const std::size_t row)
         : n(arrays.lower_start[row + 1] - arrays.lower_start[row])
         , columns(arrays.columns + arrays.lower_start[row])
         , blocks(arrays.blocks + n_entries * (arrays.lower_start[row] - arrays.lower_start[0] + row))
@@ -49,9 +49,9 @@ namespace Signorini
       const float        *blocks;
     };
 
-    inline float *node(float *const values, const unsigned int i)
+    inline float *node(float *const values, const std::size_t i)
     {
-      return values + 4 * static_cast<std::size_t>(i);
+      return values + 4 * i;
     }
 
     /// Plain loops, for processors without AVX2.
@@ -88,13 +88,13 @@ namespace Signorini
         });
       }
 
-      void relax(const RoundedSweep::Arrays &arrays, double *const v, const unsigned int *const rows,
-                 const std::size_t n, const RoundedSweep::Options &options)
+      void relax(const RoundedSweep::Arrays &arrays, double *const v, const std::size_t begin,
+                 const std::size_t end, const RoundedSweep::Options &options)
       {
-        for (std::size_t k = 0; k < n; ++k)
+        for (std::size_t k = begin; k < end; ++k)
           {
-            const unsigned int i = rows[options.backward ? n - 1 - k : k];
-            const Row          row(arrays, i);
+            const std::size_t i = options.backward ? begin + end - 1 - k : k;
+            const Row         row(arrays, i);
             float *const x = node(arrays.values, i), *const reduced = node(arrays.reduced, i);
             float s[dim], change[dim];
             std::copy_n(reduced, dim, s);
@@ -105,7 +105,7 @@ namespace Signorini
                 const float y = inverse[c] * s[0] + inverse[dim + c] * s[1] + inverse[2 * dim + c] * s[2];
                 change[c]     = options.passes_all ? y : y - x[c];
                 x[c]          = y;
-                v[dim * static_cast<std::size_t>(i) + c] = arrays.value_unit * y;
+                v[dim * static_cast<std::size_t>(arrays.order[i]) + c] = arrays.value_unit * y;
                 if (options.keeps_residual)
                   reduced[c] = 0.f;
               }
@@ -235,17 +235,15 @@ namespace Signorini
       }
 
       template <bool backward>
-      SIGNORINI_AVX2 void relax(const RoundedSweep::Arrays &arrays, double *const v, const unsigned int *rows,
-                                const std::size_t n, const RoundedSweep::Options &options)
+      SIGNORINI_AVX2 void relax(const RoundedSweep::Arrays &arrays, double *const v, const std::size_t begin,
+                                const std::size_t end, const RoundedSweep::Options &options)
       {
-        const std::ptrdiff_t step = backward ? -1 : 1;
-        if (backward)
-          rows += n - 1;
-        __m128 sum = multiply_but_last<backward>(arrays, Row(arrays, *rows));
-        for (std::size_t k = 0; k < n; ++k, rows += step)
+        const auto at  = [&](const std::size_t k) { return backward ? begin + end - 1 - k : k; };
+        __m128     sum = multiply_but_last<backward>(arrays, Row(arrays, at(begin)));
+        for (std::size_t k = begin; k < end; ++k)
           {
-            const unsigned int i = *rows;
-            const Row          row(arrays, i);
+            const std::size_t i = at(k);
+            const Row         row(arrays, i);
             float *const x = node(arrays.values, i), *const reduced = node(arrays.reduced, i);
             const __m128       old = _mm_loadu_ps(x);
             const __m128       s   = subtract_last(_mm_sub_ps(_mm_loadu_ps(reduced), sum), arrays, row);
@@ -259,12 +257,12 @@ namespace Signorini
             if (options.keeps_residual)
               _mm_storeu_ps(reduced, _mm_setzero_ps());
             const __m256d exact = _mm256_mul_pd(_mm256_cvtps_pd(y), _mm256_set1_pd(arrays.value_unit));
-            double *const here  = v + dim * static_cast<std::size_t>(i);
+            double *const here  = v + dim * static_cast<std::size_t>(arrays.order[i]);
             _mm_storeu_pd(here, _mm256_castpd256_pd128(exact));
             _mm_store_sd(here + 2, _mm256_extractf128_pd(exact, 1));
             // In most cases this needs nothing of this row, and need not wait for it.
-            if (k + 1 < n)
-              sum = multiply_but_last<backward>(arrays, Row(arrays, rows[step]));
+            if (k + 1 < end)
+              sum = multiply_but_last<backward>(arrays, Row(arrays, at(k + 1)));
             pass_down(arrays, row, options.passes_all ? y : _mm_sub_ps(y, old));
           }
       }
@@ -292,6 +290,12 @@ namespace Signorini
       return Eigen::Map<const Eigen::VectorXd>(x.begin(), x.locally_owned_size()).lpNorm<Eigen::Infinity>();
     }
 
+    /// Of three numbers.
+    double largest_of(const double *const x)
+    {
+      return std::max({std::abs(x[0]), std::abs(x[1]), std::abs(x[2])});
+    }
+
     /// 1 for zero; not so close to the ends of double precision that a product of two or its inverse
     /// overflows.
     double power_of_two_near(const double x)
@@ -309,7 +313,7 @@ namespace Signorini
 
     /// Writes n blocks times a factor in the order of RoundedSweep::blocks, and a number behind them.
     SIGNORINI_VECTORIZED
-    void round_blocks(float *to, const double *from, const std::size_t n, const std::size_t n_pairs,
+    void round_blocks(float *to, const double *const *from, const std::size_t n, const std::size_t n_pairs,
                       const double factor)
     {
       const auto round = [&](const double *const row) {
@@ -321,75 +325,157 @@ namespace Signorini
         std::memcpy(to, &rounded, sizeof(rounded));
         to += dim;
       };
-      for (std::size_t p = 0; p < n_pairs; ++p, from += 2 * n_entries)
+      for (std::size_t k = 0; k < 2 * n_pairs; k += 2)
         for (unsigned int c = 0; c < dim; ++c)
           {
-            round(from + dim * c);
-            round(from + n_entries + dim * c);
+            round(from[k] + dim * c);
+            round(from[k + 1] + dim * c);
           }
-      for (std::size_t k = 2 * n_pairs; k < n; ++k, from += n_entries)
+      for (std::size_t k = 2 * n_pairs; k < n; ++k)
         for (unsigned int c = 0; c < dim; ++c)
-          round(from + dim * c);
+          round(from[k] + dim * c);
+    }
+
+    /// Subtracts n blocks (column by column) times three numbers from the nodes at given positions.
+    SIGNORINI_VECTORIZED
+    void subtract_blocks(float *const values, const float *a, const unsigned int *const positions,
+                         const std::size_t n, const float *const change)
+    {
+      for (std::size_t k = 0; k < n; ++k, a += n_entries)
+        {
+          Float4 columns[dim], y;
+          for (unsigned int c = 0; c < dim; ++c)
+            std::memcpy(&columns[c], a + dim * c, sizeof(Float4));
+          float *const here = node(values, positions[k]);
+          std::memcpy(&y, here, sizeof(y));
+          y -= change[0] * columns[0] + change[1] * columns[1] + change[2] * columns[2];
+          std::memcpy(here, &y, sizeof(y));
+        }
     }
   } // namespace RoundingKernels
 
 
 
-  RoundedSweep::RoundedSweep(const NodeBlockMatrix &matrix)
+  RoundedSweep::RoundedSweep(const NodeBlockMatrix &matrix, const std::vector<unsigned int> &order)
     : matrix(matrix)
+    , order(order)
     , values(matrix.n_rows())
     , reduced(matrix.n_rows())
   {
-    matrix_unit          = power_of_two_near(diagonal_scale(matrix));
+    matrix_unit = power_of_two_near(diagonal_scale(matrix));
+    AssertDimension(order.size(), matrix.n_rows());
     const unsigned int n = matrix.n_rows();
     if (n == 0)
       return;
+    if (!std::is_sorted(order.begin(), order.end()))
+      order_columns();
+    ghost_positions.reserve(matrix.n_ghost_couplings());
+    for (unsigned int ghost = 0; ghost < matrix.partition().ghosts().size(); ++ghost)
+      for (auto [coupling, end] = matrix.ghost_column(ghost); coupling != end; ++coupling)
+        ghost_positions.push_back(position(coupling->row));
+    ghost_blocks.resize(n_entries * matrix.n_ghost_couplings() + 1);
     // Registers are filled from behind the last row. Nothing is set: who updates all rows touches the memory
     // for the first time.
     constexpr unsigned int n_behind = 8;
-    const std::size_t      n_blocks = n_entries * (matrix.lower(n - 1).end - matrix.lower(0).begin + n);
+    const Arrays           here     = arrays();
+    const std::size_t      n_blocks = n_entries * (here.lower_start[n] - here.lower_start[0] + n);
     blocks.reset(new float[n_blocks + n_behind]);
     std::fill_n(blocks.get() + n_blocks, n_behind, 0.f);
   }
 
 
 
+  void RoundedSweep::order_columns()
+  {
+    const unsigned int n = matrix.n_rows();
+    positions.resize(n);
+    for (unsigned int i = 0; i < n; ++i)
+      positions[order[i]] = i;
+    own_lower_start = {0};
+    own_lower_start.reserve(n + 1);
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        const std::size_t begin = own_columns.size();
+        for (const BlockRange &range : {matrix.lower(order[i]), matrix.upper(order[i])})
+          for (std::size_t k = range.begin; k < range.end; ++k)
+            if (const unsigned int j = matrix.column(k); j < n && positions[j] < i)
+              own_columns.push_back(positions[j]);
+        std::sort(own_columns.begin() + begin, own_columns.end());
+        own_lower_start.push_back(own_columns.size());
+      }
+  }
+
+
+
   RoundedSweep::Arrays RoundedSweep::arrays()
   {
-    return {blocks.get(),   matrix.lower_start_data(), matrix.column_data(),
-            values.node(0), reduced.node(0),           value_unit};
+    const bool is_own = !positions.empty();
+    return {blocks.get(),
+            is_own ? own_lower_start.data() : matrix.lower_start_data(),
+            is_own ? own_columns.data() : matrix.column_data(),
+            values.node(0),
+            reduced.node(0),
+            value_unit,
+            order.data()};
   }
 
 
 
   void RoundedSweep::update(const std::vector<unsigned int> &rows, const double *const inverse_diagonal)
   {
-    const double factor = 1. / matrix_unit;
-    const Arrays here   = arrays();
+    const double                factor = 1. / matrix_unit;
+    const Arrays                here   = arrays();
+    std::vector<const double *> lower;
     for (const unsigned int i : rows)
       {
-        const Row row(here, i);
-        float    *a = blocks.get() + (row.blocks - here.blocks);
-        RoundingKernels::round_blocks(a, matrix.block(matrix.lower(i).begin), row.n, row.n_pairs(), factor);
+        const Row row(here, position(i));
+        lower.clear();
+        for (std::size_t k = 0; k < row.n; ++k)
+          lower.push_back(matrix.block(positions.empty() ? matrix.lower(i).begin + k
+                                                         : matrix.find(i, order[row.columns[k]])));
+        float *a = blocks.get() + (row.blocks - here.blocks);
+        RoundingKernels::round_blocks(a, lower.data(), row.n, row.n_pairs(), factor);
         a += n_entries * row.n;
         const double *const inverse = inverse_diagonal + n_entries * static_cast<std::size_t>(i);
         for (unsigned int c = 0; c < dim; ++c)
           for (unsigned int d = 0; d < dim; ++d)
             *a++ = static_cast<float>(matrix_unit * inverse[dim * d + c]);
       }
+    update_ghost_couplings();
+  }
+
+
+
+  void RoundedSweep::update_ghost_couplings()
+  {
+    float *a = ghost_blocks.data();
+    for (unsigned int ghost = 0; ghost < matrix.partition().ghosts().size(); ++ghost)
+      for (auto [coupling, end] = matrix.ghost_column(ghost); coupling != end; ++coupling)
+        for (unsigned int c = 0; c < dim; ++c)
+          for (unsigned int d = 0; d < dim; ++d)
+            *a++ = static_cast<float>(matrix.block(coupling->block)[dim * d + c] / matrix_unit);
+  }
+
+
+
+  void RoundedSweep::find_unit(const double largest_value)
+  {
+    has_unit   = largest_value > 0.;
+    value_unit = power_of_two_near(largest_value);
+    rhs_unit   = value_unit * matrix_unit;
   }
 
 
 
   void RoundedSweep::start(const Vector &v, const Vector &rhs)
   {
-    value_unit               = power_of_two_near(std::max(largest(v), largest(rhs) / matrix_unit));
-    rhs_unit                 = value_unit * matrix_unit;
+    has_unit = false;
+    find_unit(std::max(largest(v), largest(rhs) / matrix_unit));
     const double  from_value = 1. / value_unit, from_rhs = 1. / rhs_unit;
     const double *x = v.begin(), *b = rhs.begin();
     for (unsigned int row = 0; row < matrix.n_rows(); ++row, x += dim, b += dim)
       {
-        float *const y = values.node(row), *const r = reduced.node(row);
+        float *const y = values.node(position(row)), *const r = reduced.node(position(row));
         for (unsigned int c = 0; c < dim; ++c)
           {
             y[c] = static_cast<float>(from_value * x[c]);
@@ -400,24 +486,25 @@ namespace Signorini
 
 
 
-  void RoundedSweep::relax(Vector &v, const unsigned int *const rows, const std::size_t n,
-                           const Options &options)
+  void RoundedSweep::relax(Vector &v, const std::size_t begin, const std::size_t end, const Options &options)
   {
-    if (n == 0)
+    if (begin == end)
       return;
     const Arrays here = arrays();
 #ifdef SIGNORINI_AVX2
     if (uses_avx2())
-      return (options.backward ? Avx2::relax<true> : Avx2::relax<false>)(here, v.begin(), rows, n, options);
+      return (options.backward ? Avx2::relax<true> : Avx2::relax<false>)(here, v.begin(), begin, end,
+                                                                         options);
 #endif
-    Plain::relax(here, v.begin(), rows, n, options);
+    Plain::relax(here, v.begin(), begin, end, options);
   }
 
 
 
-  void RoundedSweep::leave_out_rhs(const unsigned int row)
+  void RoundedSweep::set_reduced(const unsigned int row, const std::array<double, 3> &numbers)
   {
-    std::fill_n(reduced.node(row), dim, 0.f);
+    for (unsigned int c = 0; c < dim; ++c)
+      reduced.node(position(row))[c] = static_cast<float>(numbers[c] / rhs_unit);
   }
 
 
@@ -426,13 +513,13 @@ namespace Signorini
   {
     const Arrays here = arrays();
     float        rounded[dim];
-    std::copy_n(reduced.node(row), dim, rounded);
+    std::copy_n(reduced.node(position(row)), dim, rounded);
 #ifdef SIGNORINI_AVX2
     if (uses_avx2())
-      Avx2::multiply(rounded, here, Row(here, row));
+      Avx2::multiply(rounded, here, Row(here, position(row)));
     else
 #endif
-      Plain::multiply(rounded, here, Row(here, row));
+      Plain::multiply(rounded, here, Row(here, position(row)));
     for (unsigned int c = 0; c < dim; ++c)
       s[c] += rhs_unit * rounded[c];
   }
@@ -441,8 +528,10 @@ namespace Signorini
 
   void RoundedSweep::set(const unsigned int row, const double *const v_row)
   {
+    if (!has_unit)
+      find_unit(largest_of(v_row));
     for (unsigned int c = 0; c < dim; ++c)
-      values.node(row)[c] = static_cast<float>(v_row[c] / value_unit);
+      values.node(position(row))[c] = static_cast<float>(v_row[c] / value_unit);
   }
 
 
@@ -455,9 +544,27 @@ namespace Signorini
       rounded[c] = static_cast<float>(change[c] / value_unit);
 #ifdef SIGNORINI_AVX2
     if (uses_avx2())
-      return Avx2::pass_down_change(here, Row(here, row), rounded);
+      return Avx2::pass_down_change(here, Row(here, position(row)), rounded);
 #endif
-    Plain::pass_down(here, Row(here, row), rounded);
+    Plain::pass_down(here, Row(here, position(row)), rounded);
+  }
+
+
+
+  void RoundedSweep::pass_from_ghost(const unsigned int ghost, const double *const change)
+  {
+    const double largest_change = largest_of(change);
+    if (largest_change == 0.)
+      return;
+    if (!has_unit)
+      find_unit(largest_change);
+    float rounded[dim];
+    for (unsigned int c = 0; c < dim; ++c)
+      rounded[c] = static_cast<float>(change[c] / value_unit);
+    const auto        column = matrix.ghost_column(ghost);
+    const std::size_t begin  = column.first - matrix.ghost_column(0).first;
+    RoundingKernels::subtract_blocks(reduced.node(0), ghost_blocks.data() + n_entries * begin,
+                                     ghost_positions.data() + begin, column.second - column.first, rounded);
   }
 
 
@@ -467,7 +574,7 @@ namespace Signorini
     double *r = residual.begin();
     for (unsigned int row = 0; row < matrix.n_rows(); ++row, r += dim)
       {
-        const float *const rounded = reduced.node(row);
+        const float *const rounded = reduced.node(position(row));
         for (unsigned int c = 0; c < dim; ++c)
           r[c] = rhs_unit * rounded[c];
       }

@@ -260,18 +260,16 @@ namespace Signorini
 
   Slip largest_slip(const Discretization &d, const ContactSolution &solution, const unsigned int p)
   {
-    const ContactPair         &pair   = d.pairs[p];
-    const ContactSurface      &non    = pair.nonmortar.surface;
-    const ContactStress        stress = stress_of_pair(d, solution.stress, p);
-    std::vector<unsigned char> active(non.mesh.vertices.size(), 0);
-    for (std::size_t i = 0; i < stress.active.size(); ++i)
-      active[d.couplings[p].vertices[i]] = stress.active[i];
-    const auto moved  = vertex_values(non, d.partition(), solution.displacement);
-    const auto mortar = pair.obstacle
-                            ? std::vector<Vector3>()
-                            : vertex_values(pair.mortar.surface, d.partition(), solution.displacement);
-    const auto width  = widths(non.mesh);
-    Slip       result;
+    const ContactPair               &pair   = d.pairs[p];
+    const ContactSurface            &non    = pair.nonmortar.surface;
+    const ContactStress              stress = stress_of_pair(d, solution.stress, p);
+    const std::vector<unsigned char> active = spread_rows(d.couplings[p], *pair.halo, stress.active);
+    const auto                       moved  = vertex_values(non, d.partition(), solution.displacement);
+    const auto                       mortar = pair.obstacle
+                                                  ? std::vector<Vector3>()
+                                                  : vertex_values(pair.mortar.surface, d.partition(), solution.displacement);
+    const auto                       width  = widths(non.mesh);
+    Slip                             result;
     for (const auto &[v, jump] : relative_displacements(pair, moved, mortar))
       if (active[v] != 0)
         {

@@ -22,12 +22,11 @@ namespace Signorini
     }
 
     /// Of the surfaces with contact nodes.
-    double largest_width(const std::vector<PairCoupling> &couplings)
+    double largest_width(const Discretization &d)
     {
       double size = 0.;
-      for (const PairCoupling &coupling : couplings)
-        for (const Point<3> &x : coupling.positions)
-          size = std::max(size, x.distance(coupling.positions[0]));
+      for (const PairCoupling &coupling : d.couplings)
+        size = std::max(size, width_of_rows(coupling, d.nodal().communicator()));
       return size;
     }
 
@@ -40,7 +39,7 @@ namespace Signorini
       Scales(const Bodies &bodies, const Discretization &d, const Vector &u)
         : displacement(u.linfty_norm())
       {
-        const double width = largest_width(d.couplings), product = bodies.largest_modulus() * displacement;
+        const double width = largest_width(d), product = bodies.largest_modulus() * displacement;
         stress = width > 0. ? product / width : 0.;
         force  = product * width;
       }
@@ -91,14 +90,12 @@ namespace Signorini
       const ContactPair &pair = d.pairs[p];
       if (!pair.mapping)
         return "";
-      const MappingReport report = sum_reports(pair.mapping->report(), d.nodal().communicator());
-      std::vector<bool>   is_near(pair.nonmortar.surface.mesh.vertices.size(), false);
-      for (std::size_t i = 0; i < d.rows_of_pair[p].size(); ++i)
-        if (stress.active[d.rows_of_pair[p][i]])
-          is_near[d.couplings[p].vertices[i]] = true;
+      const MappingReport        report = sum_reports(pair.mapping->report(), d.nodal().communicator());
+      std::vector<unsigned char> is_near =
+          spread_rows(d.couplings[p], *pair.halo, stress_of_pair(d, stress, p).active);
       const auto touches = [&](const auto &vertices) {
         return std::any_of(vertices.begin(), vertices.end(),
-                           [&](const unsigned int v) { return is_near[v]; });
+                           [&](const unsigned int v) { return is_near[v] != 0; });
       };
       for (unsigned int ring = 0; ring < 2; ++ring)
         {
@@ -107,14 +104,16 @@ namespace Signorini
             if (touches(face.corners))
               found.insert(found.end(), face.corners.begin(), face.corners.end());
           for (const unsigned int v : found)
-            is_near[v] = true;
+            is_near[v] = 1;
+          pair.halo->update(is_near);
         }
       const SurfaceTopology &topology = pair.mapping->nonmortar_topology();
-      const bool             any      = !report.lost_edges.empty() ||
-                       std::any_of(report.wrong_triangles.begin(), report.wrong_triangles.end(),
-                                   [&](const unsigned int t) { return touches(topology.triangles[t]); }) ||
-                       std::any_of(report.torn_edges.begin(), report.torn_edges.end(),
-                                   [&](const unsigned int e) { return touches(topology.edges[e]); });
+      const bool             here     = !report.lost_edges.empty() ||
+                        std::any_of(report.wrong_triangles.begin(), report.wrong_triangles.end(),
+                                    [&](const unsigned int t) { return touches(topology.triangles[t]); }) ||
+                        std::any_of(report.torn_edges.begin(), report.torn_edges.end(),
+                                    [&](const unsigned int e) { return touches(topology.edges[e]); });
+      const bool any = Utilities::MPI::max(static_cast<int>(here), d.nodal().communicator()) > 0;
       return any ? describe_errors(report) : "";
     }
 

@@ -3,6 +3,7 @@
 
 #include "replicated_field.h"
 
+#include <signorini/algebra/gathered_lists.h>
 #include <signorini/algebra/input_error.h>
 #include <signorini/application/contact_checks.h>
 #include <signorini/mortar/surface_values.h>
@@ -48,44 +49,30 @@ namespace Signorini
       return reason == DroppedNode::fixed || reason == DroppedNode::normal_fixed;
     }
 
-    /// Calls a function with (moments, reason) for all covered faces of which no node has a multiplier.
+    /// Calls a function with (moments, reason) for all covered faces of this rank of which no node has a
+    /// multiplier.
     template <typename Function>
     void for_lost_faces(const ContactPair &pair, const PairCoupling &coupling, const Function &function)
     {
-      std::map<NodeIndex, DroppedNode::Reason> reasons;
-      for (const DroppedNode &node : coupling.dropped)
-        reasons[node.node] = node.reason;
-      const auto           &rows    = coupling.coupling.rows;
-      const ContactSurface &surface = pair.nonmortar.surface;
-      for (const FaceMoments &m : pair.moments)
-        if (m.covered > 0.)
-          {
-            std::set<NodeIndex> nodes;
-            for (const unsigned int v : surface.faces[m.face].corners)
-              if (surface.hanging[v].empty())
-                nodes.insert(surface.vertex_node[v]);
-              else
-                for (const auto &parent : surface.hanging[v])
-                  nodes.insert(surface.vertex_node[parent.first]);
-            if (std::any_of(nodes.begin(), nodes.end(), [&](const NodeIndex node) {
-                  return std::binary_search(rows.begin(), rows.end(), node);
-                }))
-              continue;
-            DroppedNode::Reason reason = DroppedNode::fixed;
-            for (const NodeIndex node : nodes)
-              if (const auto it = reasons.find(node); it != reasons.end() && !is_condition(it->second))
-                reason = it->second;
-            function(m, reason);
-          }
+      for (const PairCoupling::LostFace &lost : coupling.lost_faces)
+        {
+          const auto m =
+              std::lower_bound(pair.moments.begin(), pair.moments.end(), lost.face,
+                               [](const FaceMoments &a, const unsigned int face) { return a.face < face; });
+          function(*m, lost.reason);
+        }
     }
 
-    LostContact lost_contact(const ContactPair &pair, const PairCoupling &coupling)
+    /// Collective.
+    LostContact lost_contact(const ContactPair &pair, const PairCoupling &coupling, const MPI_Comm comm)
     {
       LostContact result;
-      result.covered = coupling.covered_area;
       for_lost_faces(pair, coupling, [&](const FaceMoments &m, const DroppedNode::Reason reason) {
         (reason == DroppedNode::other_pair ? result.by_other_pairs : result.by_conditions) += m.covered;
       });
+      result.covered        = coupling.covered_area;
+      result.by_conditions  = Utilities::MPI::sum(result.by_conditions, comm);
+      result.by_other_pairs = Utilities::MPI::sum(result.by_other_pairs, comm);
       return result;
     }
 
@@ -99,9 +86,9 @@ namespace Signorini
 
 
 
-  std::string reason_to_turn(const ContactPair &pair, const PairCoupling &coupling)
+  std::string reason_to_turn(const ContactPair &pair, const PairCoupling &coupling, const MPI_Comm comm)
   {
-    const LostContact lost = lost_contact(pair, coupling);
+    const LostContact lost = lost_contact(pair, coupling, comm);
     if (!(lost.by_other_pairs > 1e-12 * lost.covered) &&
         !(lost.by_conditions > ContactRule().lost_share * lost.covered))
       return "";
@@ -116,17 +103,23 @@ namespace Signorini
 
   namespace
   {
-    /// The other pairs that need nodes of a pair's nonmortar side.
-    std::string rivals_of(const std::vector<ContactPair> &pairs, const unsigned int pair)
+    /// Collective. The other pairs that need nodes of a pair's nonmortar side.
+    std::string rivals_of(const std::vector<ContactPair> &pairs, const unsigned int pair, const MPI_Comm comm)
     {
+      const auto of_all_ranks = [comm](const std::set<NodeIndex> &nodes) {
+        const auto list =
+            gather_lists(std::vector<NodeIndex>(nodes.begin(), nodes.end()), comm, Receivers::all);
+        return std::set<NodeIndex>(list.begin(), list.end());
+      };
       const std::set<NodeIndex> own =
-          touched_nonmortar_nodes(pairs[pair].nonmortar.surface, pairs[pair].moments);
+          of_all_ranks(touched_nonmortar_nodes(pairs[pair].nonmortar.surface, pairs[pair].moments));
       std::string text;
       for (unsigned int q = 0; q < pairs.size(); ++q)
         {
           std::set<NodeIndex> nodes = touched_mortar_nodes(pairs[q].mortar.surface, pairs[q].moments);
           if (q != pair)
             nodes.merge(touched_nonmortar_nodes(pairs[q].nonmortar.surface, pairs[q].moments));
+          nodes = of_all_ranks(nodes);
           if (std::any_of(own.begin(), own.end(),
                           [&](const NodeIndex node) { return nodes.count(node) > 0; }))
             text += (text.empty() ? "" : ", ") +
@@ -143,7 +136,7 @@ namespace Signorini
               project_free(surface.vertex_fixed[v], surface.mesh.vertex_normals[v]).norm() < .5);
     }
 
-    /// The faces of a pair of which both sides are held.
+    /// This rank's faces of a pair of which both sides are held.
     std::vector<const FaceMoments *> held_faces(const ContactPair &pair, const PairCoupling &coupling)
     {
       const ContactSurface            &non = pair.nonmortar.surface, &mor = pair.mortar.surface;
@@ -201,7 +194,8 @@ namespace Signorini
     {
       const ContactPair                     &pair  = coupled.pairs[p];
       const std::vector<const FaceMoments *> faces = held_faces(pair, coupled.couplings[p]);
-      if (faces.empty() || pair.is_tied)
+      const MPI_Comm                         comm  = coupled.model.communicator();
+      if (Utilities::MPI::sum(faces.size(), comm) == 0 || pair.is_tied)
         return;
       const ContactSurface  &non = pair.nonmortar.surface;
       std::vector<NodeIndex> nodes(non.vertex_node);
@@ -211,20 +205,35 @@ namespace Signorini
       const ReplicatedField   prescribed(
             space.partition, prescribed_displacement(space.nodal(), space.partition, space.dirichlet),
             std::move(nodes));
-      HeldOverlap  worst;
-      unsigned int where = 0;
+      struct Deepest
+      {
+        double       depth = 0., displacement = 0.;
+        unsigned int face = numbers::invalid_unsigned_int;
+      };
+      Deepest here;
       for (const FaceMoments *m : faces)
         {
           const HeldOverlap overlap = overlap_of(*m, pair, prescribed);
-          worst.displacement        = std::max(worst.displacement, overlap.displacement);
-          if (overlap.depth > worst.depth)
+          here.displacement         = std::max(here.displacement, overlap.displacement);
+          if (overlap.depth > here.depth)
             {
-              worst.depth = overlap.depth;
-              where       = non.faces[m->face].corners[0];
+              here.depth = overlap.depth;
+              here.face  = m->face;
+            }
+        }
+      Deepest worst;
+      for (const Deepest &one : gather_lists(std::vector<Deepest>{here}, comm, Receivers::all))
+        {
+          worst.displacement = std::max(worst.displacement, one.displacement);
+          if (one.depth > worst.depth || (one.depth == worst.depth && one.face < worst.face))
+            {
+              worst.depth = one.depth;
+              worst.face  = one.face;
             }
         }
       if (worst.depth <= ContactRule().held_overlap * worst.displacement)
         return;
+      const unsigned int where = non.faces[worst.face].corners[0];
       std::ostringstream text;
       text << "Pair " << pair.name << ": the displacements that are prescribed on \"" << pair.nonmortar.name
            << "\" and \"" << (pair.obstacle ? "the obstacle" : pair.mortar.name) << "\" make them overlap by "
@@ -243,15 +252,16 @@ namespace Signorini
     for (unsigned int p = 0; p < coupled.pairs.size(); ++p)
       {
         const ContactPair &pair    = coupled.pairs[p];
-        const LostContact  lost    = lost_contact(pair, coupled.couplings[p]);
-        const bool         is_void = coupled.couplings[p].coupling.n_rows() == 0;
+        const MPI_Comm     comm    = coupled.model.communicator();
+        const LostContact  lost    = lost_contact(pair, coupled.couplings[p], comm);
+        const bool         is_void = coupled.couplings[p].n_rows_of_all == 0;
         const std::string  choice  = pair.obstacle ? "" : " or choose the other side as \"Nonmortar\",";
         if (lost.by_other_pairs > ContactRule().lost_share * lost.covered ||
             (is_void && lost.by_other_pairs > lost.by_conditions))
           throw InputError(
               "Pair " + pair.name + ": " + percent(lost.by_other_pairs / lost.covered) + " of \"" +
               pair.nonmortar.name + "\" can carry no contact stress, because the nodes belong to " +
-              rivals_of(coupled.pairs, p) +
+              rivals_of(coupled.pairs, p, comm) +
               ", too. If two pairs are the same, remove one; else choose \"Nonmortar\" so that the common "
               "surface is the other (mortar) side in all of its pairs, or take the common part out of one of "
               "them (\"First region\", \"Second region\").");
@@ -282,6 +292,8 @@ namespace Signorini
             blocks += n * n;
             columns = std::max(columns, n);
           }
+        blocks  = Utilities::MPI::sum(blocks, coupled.model.communicator());
+        columns = Utilities::MPI::max(columns, coupled.model.communicator());
         if (blocks <= ContactRule().few_dense_blocks || blocks <= ContactRule().dense_blocks * own)
           continue;
         std::ostringstream text;

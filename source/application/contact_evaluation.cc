@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/algebra/gathered_lists.h>
 #include <signorini/algebra/input_error.h>
 #include <signorini/algebra/replicated_data.h>
 #include <signorini/application/contact_evaluation.h>
@@ -85,8 +86,9 @@ namespace Signorini
 
     /// What contact does where bodies touch, and how well the gap is known there.
     /// @param is_active per vertex of the nonmortar surface
+    /// @param moments sum of those on both sides
     void measure_contact(PairResult &result, const ContactPair &pair, const std::vector<bool> &is_active,
-                         const ContactForces &forces, const MPI_Comm comm)
+                         const Vector3 &moments, const MPI_Comm comm)
     {
       if (!(result.contact_area > 0.) || pair.is_tied)
         return;
@@ -101,8 +103,7 @@ namespace Signorini
                                                             pair.mapping->overlay(), is_active, comm);
       // With a prescribed gap the surfaces need not lie where they touch.
       if (!pair.obstacle && !pair.prescribed_gap && result.load > 0.)
-        result.moment_balance =
-            (forces.nonmortar.moment + forces.mortar.moment).norm() / (result.load * width);
+        result.moment_balance = moments.norm() / (result.load * width);
     }
   } // namespace
 
@@ -125,23 +126,60 @@ namespace Signorini
 
   namespace
   {
-    /// Area, load and centre of pressure of the active nodes; returns which vertices these are.
+    /// Collective. Area, load and centre of pressure of the active nodes; returns which vertices these are,
+    /// around the faces of this rank.
     std::vector<bool> sum_active(PairResult &result, const ContactPair &pair, const PairCoupling &coupling,
-                                 const ContactStress &stress)
+                                 const ContactStress &stress, const MPI_Comm comm)
     {
-      std::vector<bool> is_active(pair.nonmortar.surface.mesh.vertices.size(), false);
       for (std::size_t i = 0; i < stress.active.size(); ++i)
         if (stress.active[i])
           {
-            const double force              = coupling.areas[i] * stress.pressure[i];
-            is_active[coupling.vertices[i]] = true;
+            const double force = coupling.areas[i] * stress.pressure[i];
             result.contact_area += coupling.areas[i];
             result.load += force;
             result.centre += force * Vector3(coupling.positions[i]);
           }
+      result.contact_area = Utilities::MPI::sum(result.contact_area, comm);
+      result.load         = Utilities::MPI::sum(result.load, comm);
+      result.centre       = sum(Vector3(result.centre), comm);
       if (result.load > 0.)
         result.centre /= result.load;
-      return is_active;
+      const auto active = spread_rows(coupling, *pair.halo, stress.active);
+      return std::vector<bool>(active.begin(), active.end());
+    }
+
+    /// Collective. Extrema of the multipliers, and where the largest one is: at the first of several nodes.
+    void find_extrema(PairResult &result, const PairCoupling &coupling, const ContactStress &stress,
+                      const MPI_Comm comm)
+    {
+      if (coupling.n_rows_of_all == 0)
+        return;
+      struct Extrema
+      {
+        double    least, largest;
+        NodeIndex node;
+        Point<3>  place;
+      };
+      std::vector<Extrema> extrema;
+      if (!stress.pressure.empty())
+        {
+          const auto [least, largest] = std::minmax_element(stress.pressure.begin(), stress.pressure.end());
+          const auto row              = static_cast<std::size_t>(
+              std::find(stress.pressure.begin(), stress.pressure.end(), *largest) - stress.pressure.begin());
+          extrema.push_back({*least, *largest, coupling.coupling.rows[row], coupling.positions[row]});
+        }
+      extrema             = gather_lists(std::move(extrema), comm, Receivers::all);
+      result.min_pressure = extrema[0].least;
+      const Extrema *best = nullptr;
+      for (const Extrema &one : extrema)
+        {
+          result.min_pressure = std::min(result.min_pressure, one.least);
+          if (best == nullptr || one.largest > best->largest ||
+              (one.largest == best->largest && one.node < best->node))
+            best = &one;
+        }
+      result.max_pressure    = best->largest;
+      result.max_pressure_at = best->place;
     }
   } // namespace
 
@@ -158,21 +196,16 @@ namespace Signorini
     result.mortar        = pair.mortar.name;
     result.coverage      = coupling.area > 0. ? coupling.covered_area / coupling.area : 0.;
     result.lost_area     = coupling.lost_area;
-    result.dropped_nodes = coupling.dropped.size();
-    if (!stress.pressure.empty())
-      {
-        const auto [least, largest] = std::minmax_element(stress.pressure.begin(), stress.pressure.end());
-        result.min_pressure         = *least;
-        result.max_pressure         = *largest;
-        result.max_pressure_at      = coupling.positions[largest - stress.pressure.begin()];
-      }
-    const std::vector<bool> is_active = sum_active(result, pair, coupling, stress);
+    const MPI_Comm comm  = d.nodal().communicator();
+    result.dropped_nodes = Utilities::MPI::sum(coupling.dropped.size(), comm);
+    find_extrema(result, coupling, stress, comm);
+    const std::vector<bool> is_active = sum_active(result, pair, coupling, stress, comm);
     const ContactForces     forces =
         compute_contact_forces(pair.nonmortar.surface, pair.mortar.surface, coupling, stress.traction);
-    result.force           = forces.nonmortar.force;
-    result.force_on_mortar = pair.obstacle ? -forces.nonmortar.force : forces.mortar.force;
-    result.moment          = forces.nonmortar.moment;
-    measure_contact(result, pair, is_active, forces, d.nodal().communicator());
+    result.force           = sum(forces.nonmortar.force, comm);
+    result.force_on_mortar = pair.obstacle ? -result.force : sum(forces.mortar.force, comm);
+    result.moment          = sum(forces.nonmortar.moment, comm);
+    measure_contact(result, pair, is_active, sum(forces.nonmortar.moment + forces.mortar.moment, comm), comm);
     const auto penetration     = penetration_of(d, pair, solution.displacement);
     result.min_gap             = penetration.min_gap;
     result.max_penetration     = std::max(0., penetration.max_penetration());
@@ -182,18 +215,37 @@ namespace Signorini
 
 
 
+  namespace
+  {
+    /// As it travels.
+    struct NumberedRow
+    {
+      NodeIndex   node;
+      PressureRow row;
+    };
+  } // namespace
+
+
+
   std::vector<PressureRow> pressure_rows(const Discretization &d, const ContactStress &all,
                                          const unsigned int p)
   {
-    const PairCoupling &coupling = d.couplings[p];
-    const ContactStress stress   = stress_of_pair(d, all, p);
-    const auto          recovered =
-        recover_pressure(d.pairs[p].nonmortar.surface, d.pairs[p].moments, coupling, stress.pressure);
-    std::vector<PressureRow> rows;
+    const PairCoupling      &coupling  = d.couplings[p];
+    const ContactStress      stress    = stress_of_pair(d, all, p);
+    const auto               recovered = recover_pressure(d.pairs[p].nonmortar.surface, *d.pairs[p].halo,
+                                                          d.pairs[p].moments, coupling, stress.pressure);
+    std::vector<NumberedRow> numbered;
     for (std::size_t i = 0; i < stress.pressure.size(); ++i)
-      rows.push_back({coupling.positions[i], coupling.areas[i], stress.pressure[i],
-                      recovered[coupling.vertices[i]], coupling.mean_gap(i, stress.opening[i]),
-                      stress.active[i] != 0});
+      numbered.push_back(
+          {coupling.coupling.rows[i],
+           {coupling.positions[i], coupling.areas[i], stress.pressure[i], recovered[coupling.vertices[i]],
+            coupling.mean_gap(i, stress.opening[i]), stress.active[i] != 0}});
+    numbered = gather_lists(std::move(numbered), d.nodal().communicator(), Receivers::all);
+    std::sort(numbered.begin(), numbered.end(),
+              [](const NumberedRow &a, const NumberedRow &b) { return a.node < b.node; });
+    std::vector<PressureRow> rows;
+    for (const NumberedRow &one : numbered)
+      rows.push_back(one.row);
     return rows;
   }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/algebra/gathered_lists.h>
 #include <signorini/algebra/input_error.h>
 #include <signorini/application/deck_results.h>
 #include <signorini/application/journal.h>
@@ -34,6 +35,13 @@ namespace Signorini
       {
         archive &node &start_vertex &values;
       }
+    };
+
+    /// A contact node with its opening (length) and pressure (force per area).
+    struct ContactRow
+    {
+      NodeIndex node;
+      double    opening, pressure;
     };
 
     std::vector<NodeRow> owned_rows(const ContactModel &model, const Discretization &d,
@@ -91,24 +99,33 @@ namespace Signorini
       return labels;
     }
 
-    FrdField contact_field(const Discretization &d, const ContactSolution &solution,
-                           const std::unordered_map<NodeIndex, long> &labels)
+    /// Collective. Those of all ranks, on rank 0.
+    std::vector<ContactRow> gather_contact(const Discretization &d, const ContactSolution &solution)
     {
-      // Opening and pressure by node; a node of two pairs has the larger pressure.
-      std::map<long, std::pair<double, double>> values;
+      std::vector<ContactRow> rows;
       for (unsigned int p = 0; p < d.pairs.size(); ++p)
         {
           const ContactStress stress = stress_of_pair(d, solution.stress, p);
           for (std::size_t i = 0; i < stress.pressure.size(); ++i)
-            if (const auto it = labels.find(d.coupling.rows[d.rows_of_pair[p][i]]); it != labels.end())
-              {
-                const std::pair<double, double> value(d.couplings[p].mean_gap(i, stress.opening[i]),
-                                                      stress.pressure[i]);
-                const auto [entry, is_new] = values.insert({it->second, value});
-                if (!is_new && value.second > entry->second.second)
-                  entry->second = value;
-              }
+            rows.push_back({d.couplings[p].coupling.rows[i], d.couplings[p].mean_gap(i, stress.opening[i]),
+                            stress.pressure[i]});
         }
+      return gather_lists(std::move(rows), d.nodal().communicator(), Receivers::rank_zero);
+    }
+
+    FrdField contact_field(const std::vector<ContactRow>             &rows,
+                           const std::unordered_map<NodeIndex, long> &labels)
+    {
+      // Opening and pressure by node; a node of two pairs has the larger pressure.
+      std::map<long, std::pair<double, double>> values;
+      for (const ContactRow &row : rows)
+        if (const auto it = labels.find(row.node); it != labels.end())
+          {
+            const std::pair<double, double> value(row.opening, row.pressure);
+            const auto [entry, is_new] = values.insert({it->second, value});
+            if (!is_new && value.second > entry->second.second)
+              entry->second = value;
+          }
       FrdField field{"CONTACT", {}, {}};
       for (const auto &[label, value] : values)
         {
@@ -124,14 +141,15 @@ namespace Signorini
     {
       std::vector<NodeRow>                rows;
       std::vector<std::vector<NodeIndex>> cells;
+      std::vector<ContactRow>             contact;
     };
 
-    void write(std::ostream &out, const DeckProblem &deck, const ContactModel &model, const Discretization &d,
-               const ContactSolution &solution, const Gathered &gathered)
+    void write(std::ostream &out, const DeckProblem &deck, const ContactModel &model,
+               const Gathered &gathered)
     {
-      const auto &[rows, cells] = gathered;
-      const auto labels         = label_nodes(deck, model.bodies(), rows);
-      bool       is_refined     = false;
+      const auto &[rows, cells, contact] = gathered;
+      const auto labels                  = label_nodes(deck, model.bodies(), rows);
+      bool       is_refined              = false;
       for (const NodeRow &row : rows)
         is_refined = is_refined || row.start_vertex == StartNodes::none;
       FrdMesh  mesh;
@@ -161,8 +179,8 @@ namespace Signorini
               mesh.elements.back().nodes.push_back(labels.at(cell[cell.size() == 8 ? around[v] : v]));
           }
       std::vector<FrdField> fields = {displacement, stress};
-      if (d.coupling.n_rows() > 0)
-        fields.push_back(contact_field(d, solution, labels));
+      if (!contact.empty())
+        fields.push_back(contact_field(contact, labels));
       write_frd(out, mesh, fields, 1.);
     }
 
@@ -211,15 +229,16 @@ namespace Signorini
     const MPI_Comm comm  = model.communicator();
     const auto     rows  = Utilities::MPI::gather(comm, owned_rows(model, d, solution));
     const auto     cells = Utilities::MPI::gather(comm, owned_cells(d.nodal()));
+    Gathered       all;
+    all.contact = gather_contact(d, solution);
     if (Utilities::MPI::this_mpi_process(comm) != 0)
       return;
-    Gathered all;
     for (const auto &part : rows)
       all.rows.insert(all.rows.end(), part.begin(), part.end());
     for (const auto &part : cells)
       all.cells.insert(all.cells.end(), part.begin(), part.end());
     std::ofstream out(folder + "results.frd");
-    write(out, deck, model, d, solution, all);
+    write(out, deck, model, all);
     out.close();
     if (!out)
       throw InputError("the file \"" + folder + "results.frd\" cannot be written: is the disk full?");

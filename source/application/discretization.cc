@@ -7,6 +7,7 @@
 #include <signorini/application/journal.h>
 #include <signorini/application/ties.h>
 #include <signorini/mesh/surface_extraction.h>
+#include <signorini/mortar/face_shares.h>
 #include <signorini/surface/mapping_quality.h>
 
 #include <deal.II/base/utilities.h>
@@ -27,16 +28,18 @@ namespace Signorini
     std::vector<std::string> names;
     for (const ContactPair &pair : pairs)
       names.push_back(pair.name);
-    for (const auto &[p, row] : join_couplings(coupling, couplings, names))
+    JoinedCouplings joined = join_couplings(couplings, names, nodal().communicator());
+    coupling               = std::move(joined.coupling);
+    gaps                   = std::move(joined.gaps);
+    for (std::size_t row = 0; row < coupling.n_rows(); ++row)
       {
-        const PairCoupling &c = couplings[p];
-        AssertDimension(rows_of_pair[p].size(), row);
-        rows_of_pair[p].push_back(projections.size());
-        tied.push_back(pairs[p].is_tied);
-        projections.push_back(tied.back() ? RowProjection::tied(c.fixed[row], c.normals[row])
-                                          : RowProjection(c.fixed[row], c.normals[row]));
-        gaps.push_back(c.gaps[row]);
+        tied.push_back(pairs[joined.pairs[row]].is_tied);
+        projections.push_back(tied.back() ? RowProjection::tied(joined.fixed[row], joined.normals[row])
+                                          : RowProjection(joined.fixed[row], joined.normals[row]));
       }
+    for (unsigned int p = 0; p < pairs.size(); ++p)
+      for (const NodeIndex node : couplings[p].coupling.rows)
+        rows_of_pair[p].push_back(coupling.find(node));
     refuse_rigid_mortar_nodes();
     if (has_ties())
       lifted = std::make_unique<const DirichletData>(lift_ties(*constrained, coupling, projections, tied));
@@ -166,7 +169,7 @@ namespace Signorini
         PhaseTimes::Scope time = journal.measure(Phase::mapping);
         pair.mapping           = std::make_unique<const ContactMapping>(
             nonmortar.mesh, pair.mortar.surface.mesh,
-            [&](const unsigned int t) { return nonmortar.faces[nonmortar.triangle_face[t]].owner == rank; },
+            [&](const unsigned int t) { return nonmortar.faces[nonmortar.triangle_face[t]].worker == rank; },
             comm);
         if (Utilities::MPI::sum(pair.mapping->report().n_cells, comm) == 0)
           throw InputError("Pair " + pair.name + ": the surfaces \"" + pair.nonmortar.name + "\" and \"" +
@@ -182,16 +185,20 @@ namespace Signorini
                      "signorini-map; a finer or smoother mesh on the bent or folded parts, or the other side "
                      "as nonmortar side, helps.");
       const auto time = journal.measure(Phase::mortar);
-      pair.moments    = compute_face_moments(nonmortar, pair.mortar.surface, pair.mapping->overlay(),
-                                             pair.prescribed_gap, comm);
+      pair.halo       = std::make_shared<const SurfaceHalo>(nonmortar, comm);
+      pair.moments    = pair.halo->add_ghosts(compute_face_moments(
+             nonmortar, pair.mortar.surface, pair.mapping->overlay(), pair.prescribed_gap, comm));
     }
 
     void meet_obstacle(ContactPair &pair, const MPI_Comm comm, Journal &journal)
     {
       const auto time = journal.measure(Phase::mortar);
-      pair.moments    = compute_rigid_moments(pair.nonmortar.surface, *pair.obstacle, comm);
-      if (std::none_of(pair.moments.begin(), pair.moments.end(),
-                       [](const FaceMoments &m) { return m.covered > 0.; }))
+      pair.halo       = std::make_shared<const SurfaceHalo>(pair.nonmortar.surface, comm);
+      pair.moments =
+          pair.halo->add_ghosts(compute_rigid_moments(pair.nonmortar.surface, *pair.obstacle, comm));
+      const bool meets = std::any_of(pair.moments.begin(), pair.moments.end(),
+                                     [](const FaceMoments &m) { return m.covered > 0.; });
+      if (Utilities::MPI::max(static_cast<int>(meets), comm) == 0)
         throw InputError("Pair " + pair.name + ": the surface \"" + pair.nonmortar.name +
                          "\" does not face the obstacle \"" + pair.mortar.name +
                          "\" anywhere: no outward normal meets it from outside.");
@@ -230,6 +237,8 @@ namespace Signorini
             pair.mortar.name = pair.obstacle->description();
           else
             pair.mortar = std::move(sides[1 - non]);
+          share_faces(pair.nonmortar.surface, pair.mortar.surface,
+                      Utilities::MPI::n_mpi_processes(model.communicator()));
         }
         if (pair.obstacle)
           meet_obstacle(pair, model.communicator(), journal);
@@ -245,7 +254,7 @@ namespace Signorini
       Journal                &journal;
     };
 
-    std::vector<PairCoupling> couple_pairs(const std::vector<ContactPair> &pairs)
+    std::vector<PairCoupling> couple_pairs(const std::vector<ContactPair> &pairs, const MPI_Comm comm)
     {
       std::vector<std::set<NodeIndex>> nonmortar_nodes, mortar_nodes;
       for (const ContactPair &pair : pairs)
@@ -253,11 +262,12 @@ namespace Signorini
           nonmortar_nodes.push_back(touched_nonmortar_nodes(pair.nonmortar.surface, pair.moments));
           mortar_nodes.push_back(touched_mortar_nodes(pair.mortar.surface, pair.moments));
         }
-      const auto                excluded = excluded_nodes(nonmortar_nodes, mortar_nodes);
+      const auto                excluded = excluded_nodes(nonmortar_nodes, mortar_nodes, comm);
       std::vector<PairCoupling> couplings;
       for (unsigned int p = 0; p < pairs.size(); ++p)
-        couplings.push_back(couple(pairs[p].nonmortar.surface, pairs[p].mortar.surface, pairs[p].moments,
-                                   excluded[p], static_cast<bool>(pairs[p].prescribed_gap)));
+        couplings.push_back(couple(pairs[p].nonmortar.surface, pairs[p].mortar.surface, *pairs[p].halo,
+                                   pairs[p].moments, excluded[p],
+                                   static_cast<bool>(pairs[p].prescribed_gap)));
       return couplings;
     }
 
@@ -272,7 +282,8 @@ namespace Signorini
           if (pairs[p].obstacle || turned[p] ||
               model.pairs()[p].definition.nonmortar != NonmortarChoice::automatic)
             continue;
-          if (const std::string reason = reason_to_turn(pairs[p], couplings[p]); !reason.empty())
+          if (const std::string reason = reason_to_turn(pairs[p], couplings[p], model.communicator());
+              !reason.empty())
             {
               result.push_back(p);
               journal.note("pair " + pairs[p].name + ": its sides are swapped, because " + reason + ".");
@@ -292,11 +303,16 @@ namespace Signorini
     }
 
     void note_dropped_nodes(const ContactPair &pair, const PairCoupling &coupling, const unsigned int cycle,
-                            Journal &journal)
+                            const MPI_Comm comm, Journal &journal)
     {
       std::map<std::string, unsigned int> reasons;
+      std::vector<unsigned int>           counts(DroppedNode::n_reasons, 0);
       for (const DroppedNode &node : coupling.dropped)
-        ++reasons[to_string(node.reason)];
+        ++counts[node.reason];
+      Utilities::MPI::sum(counts, comm, counts);
+      for (unsigned int reason = 0; reason < counts.size(); ++reason)
+        if (counts[reason] > 0)
+          reasons[to_string(static_cast<DroppedNode::Reason>(reason))] = counts[reason];
       for (const auto &[reason, n] : reasons)
         journal.note("pair " + pair.name + ", cycle " + std::to_string(cycle) + ": " + std::to_string(n) +
                      " nonmortar nodes without multiplier (" + reason + ").");
@@ -309,10 +325,10 @@ namespace Signorini
     {
       const PairDefinition &definition = coupled.model.pairs()[p].definition;
       const PairCoupling   &c          = coupled.couplings[p];
-      const double          smallest = c.gaps.empty() ? 0. : *std::min_element(c.gaps.begin(), c.gaps.end());
-      double                size     = 0.;
-      for (const Point<3> &x : c.positions)
-        size = std::max(size, x.distance(c.positions[0]));
+      const MPI_Comm        comm       = coupled.model.communicator();
+      const double          smallest =
+          Utilities::MPI::min(c.gaps.empty() ? 0. : *std::min_element(c.gaps.begin(), c.gaps.end()), comm);
+      const double size = width_of_rows(c, comm);
       // Faceted curved surfaces overlap by rounding and by their sagitta; report what exceeds rounding.
       if (!(smallest < -1e-12 * size) || coupled.pairs[p].is_tied)
         return;
@@ -345,7 +361,7 @@ namespace Signorini
       pairs.push_back(maker.make(model.pairs()[p], turned[p]));
 
     const auto                time      = journal.measure(Phase::mortar);
-    std::vector<PairCoupling> couplings = couple_pairs(pairs);
+    std::vector<PairCoupling> couplings = couple_pairs(pairs, model.communicator());
     while (true)
       {
         const auto some = pairs_to_turn(model, pairs, couplings, turned, journal);
@@ -356,7 +372,7 @@ namespace Signorini
             turned[p] = true;
             pairs[p]  = maker.make(model.pairs()[p], true);
           }
-        couplings = couple_pairs(pairs);
+        couplings = couple_pairs(pairs, model.communicator());
       }
     const CoupledPairs coupled{model, *constrained, pairs, couplings};
     refuse_lost_contact(coupled);
@@ -365,7 +381,7 @@ namespace Signorini
       {
         if (model.pairs()[p].definition.gap == GapKind::nodal)
           use_nodal_gaps(couplings[p], pairs[p]);
-        note_dropped_nodes(pairs[p], couplings[p], cycle, journal);
+        note_dropped_nodes(pairs[p], couplings[p], cycle, model.communicator(), journal);
         if (cycle == 0)
           note_overlap(coupled, p, journal);
       }

@@ -13,19 +13,17 @@ namespace Signorini
 
   namespace
   {
-    /// The contact stress lambda n (force per area) of a pair at all vertices of its nonmortar surface.
+    /// Collective. The contact stress lambda n (force per area) of a pair at the corners of this rank's faces
+    /// of its nonmortar surface.
     std::vector<Vector3> stress_at_vertices(const Discretization &d, const ContactStress &all,
                                             const unsigned int p)
     {
-      const ContactSurface &surface = d.pairs[p].nonmortar.surface;
-      std::vector<Vector3>  stress(surface.vertex_node.size());
-      std::vector<bool>     known(stress.size(), false);
-      for (std::size_t i = 0; i < d.rows_of_pair[p].size(); ++i)
-        {
-          const unsigned int v = d.couplings[p].vertices[i];
-          stress[v]            = all.traction[d.rows_of_pair[p][i]];
-          known[v]             = true;
-        }
+      const ContactSurface           &surface = d.pairs[p].nonmortar.surface;
+      const SurfaceHalo              &halo    = *d.pairs[p].halo;
+      const std::vector<Vector3>      rows    = stress_of_pair(d, all, p).traction;
+      std::vector<Vector3>            stress  = spread_rows(d.couplings[p], halo, rows);
+      const std::vector<unsigned int> known =
+          spread_rows(d.couplings[p], halo, std::vector<unsigned int>(rows.size(), 1));
       // Vertices without a multiplier: the mean of the neighbours that have one.
       std::vector<Vector3>      sum(stress.size());
       std::vector<unsigned int> n(stress.size(), 0);
@@ -40,6 +38,7 @@ namespace Signorini
       for (std::size_t v = 0; v < stress.size(); ++v)
         if (!known[v] && n[v] > 0)
           stress[v] = sum[v] / static_cast<double>(n[v]);
+      halo.update(stress);
       for (std::size_t v = 0; v < stress.size(); ++v)
         if (!surface.hanging[v].empty())
           {
@@ -48,6 +47,27 @@ namespace Signorini
               stress[v] += weight * stress[parent];
           }
       return stress;
+    }
+
+    /// Collective. Values of faces, from the ranks that worked on them to those that own the cells.
+    template <typename T>
+    std::vector<T> send_to_owners(const ContactSurface &surface, const SurfaceHalo &halo,
+                                  const std::vector<T> &of_faces)
+    {
+      struct FaceValue
+      {
+        unsigned int face;
+        T            value;
+      };
+      ListsByRank<FaceValue> parcels;
+      for (unsigned int f = 0; f < of_faces.size(); ++f)
+        if (halo.owns_face(f))
+          parcels[surface.faces[f].owner].push_back({f, of_faces[f]});
+      std::vector<T> result(of_faces.size());
+      for (const auto &[sender, values] : send_lists(parcels, halo.communicator()))
+        for (const auto &[face, value] : values)
+          result[face] = value;
+      return result;
     }
 
     /// How far a pair is from its conditions, face by face of the nonmortar surface.
@@ -84,12 +104,14 @@ namespace Signorini
           for (unsigned int f = 0; f < list.size(); ++f)
             faces.add(tractions, f, list[f]);
         };
-        add(non, nonmortar_tractions(pair.nonmortar.surface, pair.moments, stress));
+        add(non, send_to_owners(pair.nonmortar.surface, *pair.halo,
+                                nonmortar_tractions(pair.nonmortar.surface, pair.moments, stress)));
         if (!pair.obstacle)
           add(ContactFaces(d.nodal(), pair.mortar.surface, pair.mortar.ids),
               mortar_tractions(pair.nonmortar.surface, pair.mortar.surface, pair.mapping->overlay(), stress,
                                model.communicator()));
-        const auto violation = violation_of(d, pair, stress, solution.displacement);
+        const auto violation = send_to_owners(pair.nonmortar.surface, *pair.halo,
+                                              violation_of(d, pair, stress, solution.displacement));
         for (unsigned int f = 0; f < violation.size(); ++f)
           if (const int cell = non.cell(f); cell >= 0)
             violations.emplace_back(cell, violation[f]);

@@ -421,7 +421,8 @@ namespace Signorini
         for (unsigned int p = 0; p < d.pairs.size(); ++p)
           {
             const auto active = stress_of_pair(d, last.solution.stress, p).active;
-            if (std::find(active.begin(), active.end(), 1) == active.end())
+            const bool any    = std::find(active.begin(), active.end(), 1) != active.end();
+            if (Utilities::MPI::max(static_cast<int>(any), model.communicator()) == 0)
               journal.note("pair " + d.pairs[p].name +
                            ": the surfaces are separated, there is no contact force.");
           }

@@ -58,15 +58,19 @@ namespace Signorini
                        const MPI_Comm comm)
     {
       const SmallestGap smallest = smallest_initial_gap(pair, comm);
-      if (coupling.gaps.empty())
+      if (coupling.n_rows_of_all == 0)
         return;
-      std::vector<double> gaps;
+      double least = std::numeric_limits<double>::max(), largest = -least;
       for (std::size_t row = 0; row < coupling.gaps.size(); ++row)
-        gaps.push_back(coupling.mean_gap(row, coupling.gaps[row]));
+        {
+          least   = std::min(least, coupling.mean_gap(row, coupling.gaps[row]));
+          largest = std::max(largest, coupling.mean_gap(row, coupling.gaps[row]));
+        }
+      least   = Utilities::MPI::min(least, comm);
+      largest = Utilities::MPI::max(largest, comm);
       out << "pair " << pair.name << ": nonmortar " << pair.nonmortar.name << ", mortar " << pair.mortar.name
-          << ", " << gaps.size() << " contact nodes, gap " << *std::min_element(gaps.begin(), gaps.end())
-          << " to " << *std::max_element(gaps.begin(), gaps.end()) << ", coverage "
-          << coupling.covered_area / coupling.area << std::endl;
+          << ", " << coupling.n_rows_of_all << " contact nodes, gap " << least << " to " << largest
+          << ", coverage " << coupling.covered_area / coupling.area << std::endl;
       if (smallest.value < std::numeric_limits<double>::max())
         out << "  smallest distance of the true surfaces: " << smallest.value
             << (smallest.value < 0. ? " (they overlap)" : "") << ", at (" << smallest.place << ")"

@@ -61,9 +61,7 @@ namespace Signorini
                                    const std::vector<Value> &row_values)
     {
       const ContactSurface &surface = d.pairs[p].nonmortar.surface;
-      std::vector<Value>    values(surface.mesh.vertices.size());
-      for (std::size_t i = 0; i < row_values.size(); ++i)
-        values[d.couplings[p].vertices[i]] = row_values[i];
+      std::vector<Value>    values  = spread_rows(d.couplings[p], *d.pairs[p].halo, row_values);
       for (std::size_t v = 0; v < values.size(); ++v)
         for (const auto &[parent, weight] : surface.hanging[v])
           values[v] += weight * values[parent];
@@ -113,18 +111,18 @@ namespace Signorini
           traction.push_back(-stress.traction[i]);
           gap.push_back(d.couplings[p].mean_gap(i, stress.opening[i]));
         }
-      OutputField active{"active", 1, std::vector<double>(surface.mesh.vertices.size(), 0.)};
-      for (std::size_t i = 0; i < stress.active.size(); ++i)
-        active.values[d.couplings[p].vertices[i]] = stress.active[i];
-      return {
-          field_of("displacement", vertex_values(surface, d.partition(), solution.displacement)),
-          {"pressure", 1, at_vertices(d, p, stress.pressure)},
-          {"recovered pressure", 1, recover_pressure(surface, pair.moments, d.couplings[p], stress.pressure)},
-          field_of("traction", at_vertices(d, p, traction)),
-          {"gap", 1, at_vertices(d, p, gap)},
-          active,
-          field_of("normal", surface.mesh.vertex_normals),
-          field_of("mortar_image", vertex_images(pair))};
+      OutputField active{"active", 1,
+                         spread_rows(d.couplings[p], *pair.halo,
+                                     std::vector<double>(stress.active.begin(), stress.active.end()))};
+      return {field_of("displacement", vertex_values(surface, d.partition(), solution.displacement)),
+              {"pressure", 1, at_vertices(d, p, stress.pressure)},
+              {"recovered pressure", 1,
+               recover_pressure(surface, *pair.halo, pair.moments, d.couplings[p], stress.pressure)},
+              field_of("traction", at_vertices(d, p, traction)),
+              {"gap", 1, at_vertices(d, p, gap)},
+              active,
+              field_of("normal", surface.mesh.vertex_normals),
+              field_of("mortar_image", vertex_images(pair))};
     }
 
     /// Fields by vertex of the mortar surface of a pair.
@@ -133,8 +131,8 @@ namespace Signorini
     {
       const ContactSurface &surface = d.pairs[p].mortar.surface;
       const auto           &normals = surface.mesh.vertex_normals;
-      const auto            stress =
-          mortar_stress(surface, d.couplings[p], stress_of_pair(d, solution.stress, p).traction);
+      const auto            stress  = mortar_stress(
+                      surface, d.couplings[p], stress_of_pair(d, solution.stress, p).traction, d.nodal().communicator());
       OutputField pressure{"pressure", 1, {}};
       for (std::size_t v = 0; v < stress.size(); ++v)
         pressure.values.push_back(-(stress[v] * normals[v]));

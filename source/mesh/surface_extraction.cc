@@ -219,6 +219,7 @@ namespace Signorini
         polygon.clear();
         ContactSurface::Face added;
         added.owner    = face.owner;
+        added.worker   = face.owner;
         added.boundary = face.boundary;
         added.material = face.material;
         for (unsigned int v = 0; v < 8; ++v)

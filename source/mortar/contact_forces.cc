@@ -4,6 +4,7 @@
 #include <signorini/mortar/contact_forces.h>
 
 #include <deal.II/base/exceptions.h>
+#include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <unordered_map>
@@ -77,24 +78,17 @@ namespace Signorini
 
   namespace
   {
-    /// Means over the covered faces around each vertex: sums and weights.
-    struct VertexMeans
+    /// A mean over the covered faces around a vertex.
+    struct VertexMean
     {
-      explicit VertexMeans(const std::size_t n)
-        : sum(n, 0.)
-        , weight(n, 0.)
-        , n_terms(n, 0.)
+      void add(const double value, const double w)
       {
+        sum += value;
+        weight += w;
+        n_terms += 1.;
       }
 
-      void add(const unsigned int vertex, const double value, const double w)
-      {
-        sum[vertex] += value;
-        weight[vertex] += w;
-        n_terms[vertex] += 1.;
-      }
-
-      std::vector<double> sum, weight, n_terms;
+      double sum = 0., weight = 0., n_terms = 0.;
     };
 
     /// Calls visit(moments of a face, a, b) for all pairs of corners of the covered faces.
@@ -112,67 +106,78 @@ namespace Signorini
 
 
 
-  std::vector<double> recover_pressure(const ContactSurface           &nonmortar,
+  std::vector<double> recover_pressure(const ContactSurface &nonmortar, const SurfaceHalo &halo,
                                        const std::vector<FaceMoments> &moments, const PairCoupling &pair,
                                        const std::vector<double> &pressure)
   {
-    const std::size_t   n = nonmortar.mesh.vertices.size();
-    std::vector<double> nodal(n, 0.);
-    std::vector<bool>   has_pressure(n, false);
+    struct Nodal
+    {
+      double value        = 0.;
+      bool   has_pressure = false;
+    };
+    const std::size_t  n = nonmortar.mesh.vertices.size();
+    std::vector<Nodal> nodal(n);
     for (std::size_t row = 0; row < pressure.size(); ++row)
-      {
-        nodal[pair.vertices[row]]        = pressure[row];
-        has_pressure[pair.vertices[row]] = true;
-      }
+      nodal[pair.vertices[row]] = {pressure[row], true};
+    halo.update(nodal);
     for (std::size_t v = 0; v < n; ++v)
-      for (const auto &[parent, share] : nonmortar.hanging[v])
+      if (!nonmortar.hanging[v].empty())
         {
-          nodal[v] += share * nodal[parent];
-          has_pressure[v] = true;
+          nodal[v] = {0., true};
+          for (const auto &[parent, share] : nonmortar.hanging[v])
+            nodal[v].value += share * nodal[parent].value;
         }
-    VertexMeans own(n), patch(n);
+    std::vector<VertexMean> own(n), patch(n);
     for_each_corner_pair(nonmortar, moments,
                          [&](const FaceMoments &m, const unsigned int a, const unsigned int b) {
                            const auto &corners = nonmortar.faces[m.face].corners;
-                           if (const double mass = m.mass[4 * a + b]; has_pressure[corners[b]])
-                             own.add(corners[a], mass * nodal[corners[b]], mass);
+                           if (const double mass = m.mass[4 * a + b]; nodal[corners[b]].has_pressure)
+                             own[corners[a]].add(mass * nodal[corners[b]].value, mass);
                          });
+    halo.update(own);
     for_each_corner_pair(nonmortar, moments,
                          [&](const FaceMoments &m, const unsigned int a, const unsigned int b) {
                            const auto &corners = nonmortar.faces[m.face].corners;
-                           patch.add(corners[a], own.sum[corners[b]], own.weight[corners[b]]);
+                           patch[corners[a]].add(own[corners[b]].sum, own[corners[b]].weight);
                          });
     // A vertex that only a sliver of the covered part touches has a multiplier that means nothing by itself.
     const double        smallest_share = RecoveryRule().smallest_share;
     std::vector<double> recovered(n, 0.);
     for (std::size_t v = 0; v < n; ++v)
-      if (patch.weight[v] > 0. && own.weight[v] * patch.n_terms[v] < smallest_share * patch.weight[v])
-        recovered[v] = patch.sum[v] / patch.weight[v];
-      else if (own.weight[v] > 0.)
-        recovered[v] = own.sum[v] / own.weight[v];
+      if (patch[v].weight > 0. && own[v].weight * patch[v].n_terms < smallest_share * patch[v].weight)
+        recovered[v] = patch[v].sum / patch[v].weight;
+      else if (own[v].weight > 0.)
+        recovered[v] = own[v].sum / own[v].weight;
+    halo.update(recovered);
     return recovered;
   }
 
 
 
   std::vector<Vector3> mortar_stress(const ContactSurface &mortar, const PairCoupling &pair,
-                                     const std::vector<Vector3> &traction)
+                                     const std::vector<Vector3> &traction, const MPI_Comm communicator)
   {
     const std::size_t                           n = mortar.mesh.vertices.size();
     std::unordered_map<NodeIndex, unsigned int> vertex;
     for (unsigned int v = 0; v < n; ++v)
       if (mortar.hanging[v].empty())
         vertex[mortar.vertex_node[v]] = v;
-    std::vector<Vector3> stress(n);
-    std::vector<double>  area(n, 0.);
+    std::vector<double> forces(dim * n, 0.), area(n, 0.);
     for (std::size_t row = 0; row < traction.size(); ++row)
       for (const auto *entry = pair.coupling.begin(row); entry != pair.coupling.end(row); ++entry)
         if (const auto it = vertex.find(entry->node); it != vertex.end())
           {
             const double weight = entry->weight * pair.coupling.weight[row];
-            stress[it->second] += weight * traction[row];
+            for (unsigned int c = 0; c < dim; ++c)
+              forces[dim * it->second + c] += weight * traction[row][c];
             area[it->second] += weight;
           }
+    Utilities::MPI::sum(forces, communicator, forces);
+    Utilities::MPI::sum(area, communicator, area);
+    std::vector<Vector3> stress(n);
+    for (std::size_t v = 0; v < n; ++v)
+      for (unsigned int c = 0; c < dim; ++c)
+        stress[v][c] = forces[dim * v + c];
     const double largest = n == 0 ? 0. : *std::max_element(area.begin(), area.end());
     for (std::size_t v = 0; v < n; ++v)
       stress[v] = area[v] > 1e-6 * largest ? stress[v] / area[v] : Vector3();

@@ -260,7 +260,7 @@ namespace Signorini
     const SurfaceValues non(nonmortar);
     Violation           violation(nonmortar);
     for (unsigned int t = 0; t < nonmortar.mesh.triangles.size(); ++t)
-      if (nonmortar.faces[nonmortar.triangle_face[t]].owner == rank)
+      if (nonmortar.faces[nonmortar.triangle_face[t]].worker == rank)
         for (const auto &point : points)
           {
             const Point<3> x   = non.point(t, point);

@@ -260,77 +260,13 @@ namespace Signorini
 
       std::vector<std::size_t> start, list;
     };
-
-    void pack(std::vector<double> &data, const FaceMoments &m)
-    {
-      data.insert(data.end(), {static_cast<double>(m.face), m.covered, m.area});
-      data.insert(data.end(), m.full.begin(), m.full.end());
-      data.insert(data.end(), m.mass.begin(), m.mass.end());
-      for (const Vector3 &g : m.gap)
-        data.insert(data.end(), {g[0], g[1], g[2]});
-      data.push_back(static_cast<double>(m.coupling.size()));
-      for (const auto &[vertex, values] : m.coupling)
-        {
-          data.push_back(vertex);
-          data.insert(data.end(), values.begin(), values.end());
-        }
-    }
-
-    const double *unpack(FaceMoments &m, const double *data)
-    {
-      const auto next = [&data]() { return *data++; };
-      m.face          = static_cast<unsigned int>(next());
-      m.covered       = next();
-      m.area          = next();
-      std::generate(m.full.begin(), m.full.end(), next);
-      std::generate(m.mass.begin(), m.mass.end(), next);
-      for (Vector3 &g : m.gap)
-        for (unsigned int c = 0; c < dim; ++c)
-          g[c] = next();
-      m.coupling.resize(static_cast<std::size_t>(next()));
-      for (auto &[vertex, values] : m.coupling)
-        {
-          vertex = static_cast<unsigned int>(next());
-          std::generate(values.begin(), values.end(), next);
-        }
-      return data;
-    }
-
-    /// The moments of all ranks, sorted by face. They travel as plain doubles, bit by bit the same
-    /// everywhere.
-    std::vector<FaceMoments> gather(const std::vector<FaceMoments> &mine, const MPI_Comm communicator)
-    {
-      std::vector<double> packed;
-      for (const FaceMoments &m : mine)
-        pack(packed, m);
-      const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
-      const int          n_mine  = static_cast<int>(packed.size());
-      std::vector<int>   sizes(n_ranks), offsets(n_ranks + 1, 0);
-      int                ierr = MPI_Allgather(&n_mine, 1, MPI_INT, sizes.data(), 1, MPI_INT, communicator);
-      AssertThrowMPI(ierr);
-      for (unsigned int r = 0; r < n_ranks; ++r)
-        offsets[r + 1] = offsets[r] + sizes[r];
-      std::vector<double> received(offsets.back());
-      ierr = MPI_Allgatherv(packed.data(), n_mine, MPI_DOUBLE, received.data(), sizes.data(), offsets.data(),
-                            MPI_DOUBLE, communicator);
-      AssertThrowMPI(ierr);
-
-      std::vector<FaceMoments> all;
-      for (const double *data = received.data(); data != received.data() + received.size();)
-        {
-          all.emplace_back();
-          data = unpack(all.back(), data);
-        }
-      std::sort(all.begin(), all.end(), [](const auto &a, const auto &b) { return a.face < b.face; });
-      return all;
-    }
   } // namespace
 
 
 
   namespace
   {
-    /// Integrates the own faces, `add` on top of the triangles of each, and gathers.
+    /// Integrates the own faces, `add` on top of the triangles of each.
     template <typename Add>
     std::vector<FaceMoments> integrate_faces(const ContactSurface &nonmortar, const ContactSurface &mortar,
                                              const GapFunction &prescribed_gap, const MPI_Comm communicator,
@@ -341,7 +277,7 @@ namespace Signorini
                                          [&](const std::size_t t) { return nonmortar.triangle_face[t]; });
       std::vector<FaceMoments> mine;
       for (unsigned int f = 0; f < nonmortar.faces.size(); ++f)
-        if (nonmortar.faces[f].owner == rank)
+        if (nonmortar.faces[f].worker == rank)
           {
             FaceIntegrator integrator(nonmortar, mortar, prescribed_gap, f);
             for (std::size_t i = triangles.start[f]; i < triangles.start[f + 1]; ++i)
@@ -349,9 +285,7 @@ namespace Signorini
             add(integrator, f, triangles);
             mine.push_back(std::move(integrator.moments));
           }
-      if (Utilities::MPI::n_mpi_processes(communicator) == 1)
-        return mine;
-      return gather(mine, communicator);
+      return mine;
     }
   } // namespace
 

@@ -4,9 +4,12 @@ signorini_add_layer(mortar
   dual_basis.cc
   face_map.cc
   face_moments.cc
+  face_shares.cc
   geometric_penetration.cc
+  multiplier_nodes.cc
   pair_conflicts.cc
   pair_coupling.cc
   rigid_obstacle.cc
+  surface_halo.cc
   surface_values.cc
 )

@@ -106,7 +106,7 @@ namespace Signorini
     const unsigned int rank    = Utilities::MPI::this_mpi_process(communicator);
     double             largest = 0.;
     for (unsigned int t = 0; t < nonmortar.mesh.triangles.size(); ++t)
-      if (nonmortar.faces[nonmortar.triangle_face[t]].owner == rank &&
+      if (nonmortar.faces[nonmortar.triangle_face[t]].worker == rank &&
           has_active_corner(nonmortar, t, is_active))
         {
           double unused = 0.;

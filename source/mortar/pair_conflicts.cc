@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/algebra/gathered_lists.h>
 #include <signorini/algebra/input_error.h>
 #include <signorini/mortar/pair_coupling.h>
 
@@ -26,28 +27,26 @@ namespace Signorini
       return pair < names.size() ? "\"" + names[pair] + "\"" : "number " + std::to_string(pair + 1);
     }
 
-    std::string describe(const NodeIndex node, const PairCoupling &pair, const std::size_t row)
+    std::string describe(const JoinedCouplings &joined, const std::size_t row)
     {
       std::ostringstream text;
-      text << "node " << node << " at (" << pair.positions[row] << ")";
+      text << "node " << joined.coupling.rows[row] << " at (" << joined.positions[row] << ")";
       return text.str();
     }
 
     /// No column may be a row.
-    void check_columns(const InterfaceCoupling                                 &joined,
-                       const std::vector<std::pair<unsigned int, std::size_t>> &origin,
-                       const std::vector<PairCoupling> &pairs, const std::vector<std::string> &names)
+    void check_columns(const JoinedCouplings &joined, const std::vector<std::string> &names)
     {
-      for (std::size_t row = 0; row < joined.n_rows(); ++row)
-        for (const auto *entry = joined.begin(row); entry != joined.end(row); ++entry)
-          if (const std::ptrdiff_t other = joined.find(entry->node); other >= 0)
+      const InterfaceCoupling &coupling = joined.coupling;
+      for (std::size_t row = 0; row < coupling.n_rows(); ++row)
+        for (const auto *entry = coupling.begin(row); entry != coupling.end(row); ++entry)
+          if (const std::ptrdiff_t other = coupling.find(entry->node); other >= 0)
             {
-              const auto &[p, i] = origin[other];
-              throw InputError("Contact pairs " + pair_name(names, origin[row].first) + " and " +
-                               pair_name(names, p) +
-                               " form a chain or a cycle: " + describe(entry->node, pairs[p], i) +
-                               " carries a contact stress in " + pair_name(names, p) +
-                               " and moves others in " + pair_name(names, origin[row].first) +
+              const std::string here  = pair_name(names, joined.pairs[row]),
+                                there = pair_name(names, joined.pairs[other]);
+              throw InputError("Contact pairs " + here + " and " + there +
+                               " form a chain or a cycle: " + describe(joined, other) +
+                               " carries a contact stress in " + there + " and moves others in " + here +
                                ". Swap the sides of one of the pairs, or take the common part out of one.");
             }
     }
@@ -80,49 +79,135 @@ namespace Signorini
 
 
 
+  namespace
+  {
+    /// That a pair touches a node on one of its sides.
+    struct Touch
+    {
+      NodeIndex    node;
+      unsigned int pair;
+      bool         is_mortar;
+
+      bool operator<(const Touch &other) const
+      {
+        return std::tie(node, pair, is_mortar) < std::tie(other.node, other.pair, other.is_mortar);
+      }
+    };
+
+    /// Whether one of the touches takes the multiplier from a node of a pair's nonmortar side.
+    bool is_excluded(const std::vector<Touch> &touches, const NodeIndex node, const unsigned int pair)
+    {
+      for (auto t = std::lower_bound(touches.begin(), touches.end(), Touch{node, 0, false});
+           t != touches.end() && t->node == node; ++t)
+        if (t->is_mortar || t->pair != pair)
+          return true;
+      return false;
+    }
+  } // namespace
+
+
+
+  // Nodes meet on some rank, whichever it is.
   std::vector<std::set<NodeIndex>> excluded_nodes(const std::vector<std::set<NodeIndex>> &touched_nonmortar,
-                                                  const std::vector<std::set<NodeIndex>> &touched_mortar)
+                                                  const std::vector<std::set<NodeIndex>> &touched_mortar,
+                                                  const MPI_Comm                          communicator)
   {
     AssertDimension(touched_nonmortar.size(), touched_mortar.size());
+    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
+    const auto meeting_at = [&](const NodeIndex node) { return static_cast<unsigned int>(node % n_ranks); };
+    ListsByRank<Touch> parcels;
+    for (unsigned int p = 0; p < touched_nonmortar.size(); ++p)
+      {
+        for (const NodeIndex node : touched_nonmortar[p])
+          parcels[meeting_at(node)].push_back({node, p, false});
+        for (const NodeIndex node : touched_mortar[p])
+          parcels[meeting_at(node)].push_back({node, p, true});
+      }
+    const auto         arrived = send_lists(parcels, communicator);
+    std::vector<Touch> touches;
+    for (const auto &[sender, list] : arrived)
+      touches.insert(touches.end(), list.begin(), list.end());
+    std::sort(touches.begin(), touches.end());
+    ListsByRank<Touch> answers;
+    for (const auto &[sender, list] : arrived)
+      for (const Touch &touch : list)
+        if (!touch.is_mortar && is_excluded(touches, touch.node, touch.pair))
+          answers[sender].push_back(touch);
     std::vector<std::set<NodeIndex>> excluded(touched_nonmortar.size());
-    for (std::size_t p = 0; p < excluded.size(); ++p)
-      for (std::size_t q = 0; q < excluded.size(); ++q)
-        {
-          if (q != p)
-            excluded[p].insert(touched_nonmortar[q].begin(), touched_nonmortar[q].end());
-          excluded[p].insert(touched_mortar[q].begin(), touched_mortar[q].end());
-        }
+    for (const auto &[sender, list] : send_lists(answers, communicator))
+      for (const Touch &touch : list)
+        excluded[touch.pair].insert(touch.node);
     return excluded;
   }
 
 
 
-  std::vector<std::pair<unsigned int, std::size_t>> join_couplings(InterfaceCoupling               &joined,
-                                                                   const std::vector<PairCoupling> &pairs,
-                                                                   const std::vector<std::string>  &names)
+  namespace
   {
-    std::vector<std::pair<NodeIndex, std::pair<unsigned int, std::size_t>>> order;
-    for (unsigned int p = 0; p < pairs.size(); ++p)
-      for (std::size_t row = 0; row < pairs[p].coupling.n_rows(); ++row)
-        order.push_back({pairs[p].coupling.rows[row], {p, row}});
-    std::sort(order.begin(), order.end());
-    joined = InterfaceCoupling();
-    std::vector<std::pair<unsigned int, std::size_t>> origin;
-    for (const auto &[node, where] : order)
+    /// A row as it travels; its entries follow those of the row before.
+    struct PackedRow
+    {
+      NodeIndex       node;
+      unsigned int    pair, n_entries;
+      double          weight, gap;
+      Vector3         normal;
+      Point<3>        position;
+      FixedDirections fixed;
+      /// First entry, set on arrival.
+      std::size_t begin;
+
+      bool operator<(const PackedRow &other) const
       {
-        const auto &[p, row]       = where;
-        const InterfaceCoupling &c = pairs[p].coupling;
-        if (!joined.rows.empty() && joined.rows.back() == node)
-          throw InputError("Contact pairs " + pair_name(names, origin.back().first) + " and " +
-                           pair_name(names, p) + " share " + describe(node, pairs[p], row) +
-                           ", which carries a contact stress in both. Take it out of one of the pairs.");
-        joined.rows.push_back(node);
-        joined.weight.push_back(c.weight[row]);
-        joined.entries.insert(joined.entries.end(), c.begin(row), c.end(row));
-        joined.row_start.push_back(joined.entries.size());
-        origin.push_back(where);
+        return std::tie(node, pair) < std::tie(other.node, other.pair);
       }
-    check_columns(joined, origin, pairs, names);
-    return origin;
+    };
+  } // namespace
+
+
+
+  JoinedCouplings join_couplings(const std::vector<PairCoupling> &pairs,
+                                 const std::vector<std::string> &names, const MPI_Comm communicator)
+  {
+    std::vector<PackedRow>                rows;
+    std::vector<InterfaceCoupling::Entry> entries;
+    for (unsigned int p = 0; p < pairs.size(); ++p)
+      {
+        const PairCoupling      &pair = pairs[p];
+        const InterfaceCoupling &c    = pair.coupling;
+        for (std::size_t i = 0; i < c.n_rows(); ++i)
+          rows.push_back({c.rows[i], p, static_cast<unsigned int>(c.end(i) - c.begin(i)), c.weight[i],
+                          pair.gaps[i], pair.normals[i], pair.positions[i], pair.fixed[i], 0});
+        entries.insert(entries.end(), c.entries.begin(), c.entries.end());
+      }
+    rows              = gather_lists(std::move(rows), communicator, Receivers::all);
+    entries           = gather_lists(std::move(entries), communicator, Receivers::all);
+    std::size_t begin = 0;
+    for (PackedRow &row : rows)
+      {
+        row.begin = begin;
+        begin += row.n_entries;
+      }
+    std::sort(rows.begin(), rows.end());
+    JoinedCouplings    joined;
+    InterfaceCoupling &coupling = joined.coupling;
+    for (const PackedRow &row : rows)
+      {
+        if (!coupling.rows.empty() && coupling.rows.back() == row.node)
+          throw InputError("Contact pairs " + pair_name(names, joined.pairs.back()) + " and " +
+                           pair_name(names, row.pair) + " share " + describe(joined, coupling.n_rows() - 1) +
+                           ", which carries a contact stress in both. Take it out of one of the pairs.");
+        coupling.rows.push_back(row.node);
+        coupling.weight.push_back(row.weight);
+        coupling.entries.insert(coupling.entries.end(), entries.begin() + row.begin,
+                                entries.begin() + row.begin + row.n_entries);
+        coupling.row_start.push_back(coupling.entries.size());
+        joined.pairs.push_back(row.pair);
+        joined.normals.push_back(row.normal);
+        joined.gaps.push_back(row.gap);
+        joined.fixed.push_back(row.fixed);
+        joined.positions.push_back(row.position);
+      }
+    check_columns(joined, names);
+    return joined;
   }
 } // namespace Signorini

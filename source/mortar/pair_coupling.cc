@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include "multiplier_nodes.h"
+
+#include <signorini/algebra/gathered_lists.h>
 #include <signorini/mortar/dual_basis.h>
 #include <signorini/mortar/pair_coupling.h>
 
@@ -23,14 +26,6 @@ namespace Signorini
 
   namespace
   {
-    /// Faces covered by less than this share of their area are ignored.
-    constexpr double empty_share = 1e-13;
-
-    bool is_empty(const FaceMoments &m)
-    {
-      return m.covered <= empty_share * m.area;
-    }
-
     /// Vertex indices with values; an index may occur several times.
     using Entries = std::vector<std::pair<unsigned int, double>>;
 
@@ -95,164 +90,16 @@ namespace Signorini
       std::vector<bool> is_touched;
     };
 
-    /// Which nonmortar vertices are in R, and why.
-    class MultiplierNodes
-    {
-    public:
-      MultiplierNodes(const ContactSurface &surface, const std::vector<FaceMoments> &moments,
-                      const std::set<NodeIndex> &excluded, const DroppingRule &rule)
-        : surface(surface)
-        , moments(moments)
-        , covered(surface.vertex_node.size(), 0.)
-        , full(covered)
-        , in_r(covered.size(), false)
-        , is_protected(in_r)
-        , reason(covered.size(), DroppedNode::thin_cover)
-      {
-        for (const FaceMoments &m : moments)
-          for (unsigned int a = 0; a < 4; ++a)
-            {
-              const unsigned int v = surface.faces[m.face].corners[a];
-              full[v] += m.full[a];
-              if (!is_empty(m))
-                for (unsigned int b = 0; b < 4; ++b)
-                  covered[v] += m.mass[4 * a + b];
-            }
-        for (unsigned int v = 0; v < in_r.size(); ++v)
-          if (!is_hanging(v))
-            {
-              if (surface.vertex_fixed[v].all())
-                drop(v, DroppedNode::fixed);
-              else if (free_normal(v) < rule.smallest_free_normal)
-                drop(v, DroppedNode::normal_fixed);
-              else if (excluded.count(surface.vertex_node[v]) > 0)
-                drop(v, DroppedNode::other_pair);
-              else if (!(covered[v] > 0.) || covered[v] < rule.smallest_share * full[v])
-                drop(v, DroppedNode::thin_cover);
-            }
-      }
-
-      bool is_in_r(const unsigned int v) const
-      {
-        return in_r[v];
-      }
-
-      bool is_hanging(const unsigned int v) const
-      {
-        return !surface.hanging[v].empty();
-      }
-
-      /// Whether a vertex carries a multiplier, i.e. belongs to K.
-      bool is_row(const unsigned int v) const
-      {
-        return !is_hanging(v) && !in_r[v];
-      }
-
-      double share(const unsigned int v) const
-      {
-        return full[v] > 0. ? covered[v] / full[v] : 0.;
-      }
-
-      void drop(const unsigned int v, const DroppedNode::Reason why)
-      {
-        in_r[v]   = true;
-        reason[v] = why;
-      }
-
-      /// Whether a vertex came back because a face or a hanging vertex needs it: then it stays.
-      bool must_stay(const unsigned int v) const
-      {
-        return is_protected[v];
-      }
-
-      /// Brings vertices back until no covered face is without a function and no covered hanging vertex
-      /// without a parent in K, as far as there are vertices that may come back. Hanging vertices without go
-      /// to R.
-      void complete()
-      {
-        for (bool changed = true; changed;)
-          {
-            changed = false;
-            for (unsigned int h = 0; h < in_r.size(); ++h)
-              if (is_hanging(h))
-                {
-                  std::vector<unsigned int> parents;
-                  for (const auto &parent : surface.hanging[h])
-                    parents.push_back(parent.first);
-                  in_r[h] = all_in_r(parents);
-                  if (in_r[h] && covered[h] > 0. && return_best(parents))
-                    {
-                      in_r[h] = false;
-                      changed = true;
-                    }
-                }
-            for (const FaceMoments &m : moments)
-              if (const auto &corners = surface.faces[m.face].corners; !is_empty(m) && all_in_r(corners))
-                changed = return_best(corners) || changed;
-          }
-      }
-
-      std::vector<DroppedNode> report() const
-      {
-        std::vector<DroppedNode> list;
-        for (unsigned int v = 0; v < in_r.size(); ++v)
-          if (in_r[v] && !is_hanging(v) && covered[v] > empty_share * full[v])
-            list.push_back({surface.vertex_node[v], surface.mesh.vertices[v], reason[v], share(v)});
-        return list;
-      }
-
-    private:
-      template <typename List>
-      bool all_in_r(const List &vertices) const
-      {
-        return std::all_of(vertices.begin(), vertices.end(), [&](const unsigned int v) { return in_r[v]; });
-      }
-
-      /// Length of the part of the normal in free directions.
-      double free_normal(const unsigned int v) const
-      {
-        return project_free(surface.vertex_fixed[v], surface.mesh.vertex_normals[v]).norm();
-      }
-
-      /// Whether a vertex could carry a multiplier, if not as well as others.
-      bool may_return(const unsigned int v) const
-      {
-        return in_r[v] && !is_hanging(v) && covered[v] > 0. &&
-               (reason[v] == DroppedNode::thin_cover || reason[v] == DroppedNode::large_row ||
-                (reason[v] == DroppedNode::normal_fixed && free_normal(v) >= RowProjection::smallest_share));
-      }
-
-      /// Of the vertices that were dropped for their thin cover, or a nearly fixed normal, brings the best
-      /// covered one back.
-      template <typename List>
-      bool return_best(const List &candidates)
-      {
-        int best = -1;
-        for (const unsigned int v : candidates)
-          if (may_return(v) && (best < 0 || share(v) > share(best)))
-            best = static_cast<int>(v);
-        if (best < 0)
-          return false;
-        in_r[best]         = false;
-        is_protected[best] = true;
-        return true;
-      }
-
-      const ContactSurface            &surface;
-      const std::vector<FaceMoments>  &moments;
-      std::vector<double>              covered, full;
-      std::vector<bool>                in_r, is_protected;
-      std::vector<DroppedNode::Reason> reason;
-    };
-
     /// The integrals with the uncondensed dual basis, their combination over hanging vertices, the rows.
     class CouplingAssembler
     {
     public:
       CouplingAssembler(const ContactSurface &nonmortar, const ContactSurface &mortar,
-                        const std::vector<FaceMoments> &moments, const bool prescribed_gap)
+                        const SurfaceHalo &halo, const std::vector<FaceMoments> &moments,
+                        const bool prescribed_gap)
         : non(nonmortar)
         , mor(mortar)
+        , halo(halo)
         , moments(moments)
         , prescribed_gap(prescribed_gap)
         , d_sum(nonmortar)
@@ -268,7 +115,7 @@ namespace Signorini
 
         std::vector<unsigned int> order;
         for (unsigned int v = 0; v < non.vertex_node.size(); ++v)
-          if (nodes.is_row(v))
+          if (halo.owns(v) && nodes.is_row(v))
             order.push_back(v);
         std::sort(order.begin(), order.end(), [&](const unsigned int a, const unsigned int b) {
           return non.vertex_node[a] < non.vertex_node[b];
@@ -290,8 +137,9 @@ namespace Signorini
         diagonal.assign(non.vertex_node.size(), 0.);
         for (const FaceMoments &m : moments)
           {
-            result.area += m.area;
-            result.covered_area += m.covered;
+            const bool is_own = halo.owns_face(m.face);
+            result.area += is_own ? m.area : 0.;
+            result.covered_area += is_own ? m.covered : 0.;
             if (is_empty(m))
               continue;
             const auto         &corners = non.faces[m.face].corners;
@@ -299,7 +147,7 @@ namespace Signorini
             for (unsigned int a = 0; a < 4; ++a)
               in_v[a] = a < non.faces[m.face].n_corners && !nodes.is_in_r(corners[a]);
             const DualBasis psi = compute_dual_basis(m.mass, in_v);
-            if (psi.n_functions == 0)
+            if (psi.n_functions == 0 && is_own)
               result.lost_area += m.covered;
             for (unsigned int i = 0; i < psi.n_functions; ++i)
               add_function(m, corners, psi.corner[i], psi.coefficients[i]);
@@ -328,10 +176,10 @@ namespace Signorini
       void combine_hanging(const MultiplierNodes &nodes)
       {
         combination.assign(non.vertex_node.size(), {});
-        for (unsigned int v = 0; v < combination.size(); ++v)
+        for (const unsigned int v : halo.functions())
           if (nodes.is_row(v))
             combination[v].emplace_back(v, 1.);
-        for (unsigned int h = 0; h < combination.size(); ++h)
+        for (const unsigned int h : halo.functions())
           {
             if (!nodes.is_hanging(h) || nodes.is_in_r(h) || !(diagonal[h] > 0.))
               continue;
@@ -415,6 +263,7 @@ namespace Signorini
       }
 
       const ContactSurface           &non, &mor;
+      const SurfaceHalo              &halo;
       const std::vector<FaceMoments> &moments;
       const bool                      prescribed_gap;
       std::vector<Entries>            d_rows, m_rows, combination;
@@ -424,24 +273,70 @@ namespace Signorini
       VertexSum           d_sum, m_sum;
     };
 
-    /// Drops the nodes whose rows extrapolate. Returns whether there were any.
-    bool drop_large_rows(MultiplierNodes &nodes, const PairCoupling &pair, const double largest_row_sum)
+    /// The vertices of rows that extrapolate, of this rank.
+    std::vector<unsigned int> large_rows(const MultiplierNodes &nodes, const PairCoupling &pair,
+                                         const double largest_row_sum)
     {
-      bool any = false;
+      std::vector<unsigned int> result;
       for (std::size_t row = 0; row < pair.coupling.n_rows(); ++row)
         {
           double sum = 0.;
           for (const auto *entry = pair.coupling.begin(row); entry != pair.coupling.end(row); ++entry)
             sum += std::abs(entry->weight);
           if (sum > largest_row_sum && !nodes.must_stay(pair.vertices[row]))
-            {
-              nodes.drop(pair.vertices[row], DroppedNode::large_row);
-              any = true;
-            }
+            result.push_back(pair.vertices[row]);
         }
-      return any;
+      return result;
     }
   } // namespace
+
+
+
+  PairCoupling couple(const ContactSurface &nonmortar, const ContactSurface &mortar, const SurfaceHalo &halo,
+                      const std::vector<FaceMoments> &moments, const std::set<NodeIndex> &excluded,
+                      const bool prescribed_gap, const DroppingRule &rule)
+  {
+    MultiplierNodes   nodes(nonmortar, halo, moments, excluded, rule);
+    CouplingAssembler assembler(nonmortar, mortar, halo, moments, prescribed_gap);
+    nodes.complete();
+    PairCoupling result = assembler.assemble(nodes);
+    // Every round drops or keeps for good at least one node; a few rounds are the rule.
+    while (nodes.drop_rows(large_rows(nodes, result, rule.largest_row_sum)))
+      {
+        nodes.complete();
+        result = assembler.assemble(nodes);
+      }
+    result.dropped    = nodes.report();
+    result.lost_faces = nodes.lost_faces();
+    for (double *const area : {&result.area, &result.covered_area, &result.lost_area})
+      *area = Utilities::MPI::sum(*area, halo.communicator());
+    result.n_rows_of_all = Utilities::MPI::sum(result.coupling.n_rows(), halo.communicator());
+    return result;
+  }
+
+
+
+  double width_of_rows(const PairCoupling &pair, const MPI_Comm communicator)
+  {
+    struct First
+    {
+      NodeIndex node;
+      Point<3>  position;
+    };
+    std::vector<First> firsts;
+    if (!pair.positions.empty())
+      firsts.push_back({pair.coupling.rows[0], pair.positions[0]});
+    firsts = gather_lists(std::move(firsts), communicator, Receivers::all);
+    if (firsts.empty())
+      return 0.;
+    const Point<3> first = std::min_element(firsts.begin(), firsts.end(), [](const First &a, const First &b) {
+                             return a.node < b.node;
+                           })->position;
+    double         width = 0.;
+    for (const Point<3> &x : pair.positions)
+      width = std::max(width, x.distance(first));
+    return Utilities::MPI::max(width, communicator);
+  }
 
 
 
@@ -449,17 +344,7 @@ namespace Signorini
                       const std::vector<FaceMoments> &moments, const std::set<NodeIndex> &excluded,
                       const bool prescribed_gap, const DroppingRule &rule)
   {
-    MultiplierNodes   nodes(nonmortar, moments, excluded, rule);
-    CouplingAssembler assembler(nonmortar, mortar, moments, prescribed_gap);
-    nodes.complete();
-    PairCoupling result = assembler.assemble(nodes);
-    // Every round drops or keeps for good at least one node; a few rounds are the rule.
-    while (drop_large_rows(nodes, result, rule.largest_row_sum))
-      {
-        nodes.complete();
-        result = assembler.assemble(nodes);
-      }
-    result.dropped = nodes.report();
-    return result;
+    return couple(nonmortar, mortar, SurfaceHalo(nonmortar, MPI_COMM_SELF), moments, excluded, prescribed_gap,
+                  rule);
   }
 } // namespace Signorini

@@ -301,7 +301,7 @@ namespace Signorini
     const unsigned int                         rank    = Utilities::MPI::this_mpi_process(communicator);
     double min_initial = std::numeric_limits<double>::infinity(), min_gap = min_initial;
     for (unsigned int t = 0; t < surface.mesh.triangles.size(); ++t)
-      if (surface.faces[surface.triangle_face[t]].owner == rank)
+      if (surface.faces[surface.triangle_face[t]].worker == rank)
         for (const auto &w : samples)
           {
             Vector3 x, u, n;

@@ -161,7 +161,7 @@ namespace Signorini
     PatchOutput<2>            output(fields);
     static const unsigned int lexicographic[4] = {0, 1, 3, 2};
     for (const auto &face : surface.faces)
-      if (face.owner == rank)
+      if (face.worker == rank)
         {
           auto &patch = output.add_patch(face.n_corners == 4 ? ReferenceCells::Quadrilateral
                                                              : ReferenceCells::Triangle);

@@ -16,10 +16,12 @@ signorini_add_layer(solvers
   linear_multigrid.cc
   monotone_multigrid.cc
   multigrid_hierarchy.cc
+  node_phases.cc
   obstacle_problem.cc
   obstacle_solver.cc
   plane_solver.cc
   projected_gauss_seidel.cc
+  relative_couplings.cc
   rounded_gauss_seidel.cc
   safety_net.cc
   single_threaded.cc
@@ -27,6 +29,7 @@ signorini_add_layer(solvers
   staged_smoother.cc
   strong_blocks.cc
   substep_check.cc
+  sweep_damping.cc
   sweep_measurement.cc
   sweep_rate.cc
   sweep_schedule.cc

@@ -85,5 +85,6 @@ namespace Signorini
         if (const int p = contact.at(owned[r]); p >= 0)
           contact.set_active(p, steps[r].is_active != 0.);
       }
+    v.update_ghost_values();
   }
 } // namespace Signorini

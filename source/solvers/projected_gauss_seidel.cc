@@ -13,30 +13,15 @@ namespace Signorini
 
   ProjectedGaussSeidel::ProjectedGaussSeidel(const NodeBlockMatrix &matrix)
     : matrix(matrix)
-    , all_rows(matrix.partition())
     , inverses(9 * static_cast<std::size_t>(matrix.n_rows()))
   {
-    find_ordered_rows();
     std::vector<unsigned int> rows(matrix.n_rows());
     std::iota(rows.begin(), rows.end(), 0u);
     update(rows);
-  }
-
-
-
-  void ProjectedGaussSeidel::find_ordered_rows()
-  {
-    // The last phase is for nodes that no other rank sees.
-    std::vector<bool> is_inner(matrix.n_rows(), false);
-    for (const unsigned int row : all_rows.phases().back())
-      is_inner[row] = true;
-    ordered = is_inner;
-    for (unsigned int row = 0; row < matrix.n_rows(); ++row)
-      {
-        const BlockRange upper = matrix.upper(row);
-        for (std::size_t k = upper.begin; k < upper.end && ordered[row]; ++k)
-          ordered[row] = matrix.column(k) < matrix.n_rows() && is_inner[matrix.column(k)];
-      }
+    const RelativeCouplings couplings(matrix);
+    node_phases = std::make_unique<NodePhases>(matrix, couplings);
+    all_rows    = schedule(rows);
+    factors     = SweepDamping(matrix, *node_phases, couplings);
   }
 
 
@@ -46,6 +31,8 @@ namespace Signorini
     for (const unsigned int row : rows)
       write_block(inverses.data() + 9 * static_cast<std::size_t>(row),
                   invert(read_block(matrix.block(matrix.diagonal(row)))));
+    if (matrix.partition().n_ranks() > 1 && node_phases)
+      factors.update(RelativeCouplings(matrix));
   }
 
 
@@ -64,38 +51,40 @@ namespace Signorini
     minimize_row(v + dim * static_cast<std::size_t>(row), s, row, contact);
   }
 
-  template void ProjectedGaussSeidel::relax<Direction::forward>(double *, const double *, unsigned int,
-                                                                ContactState &) const;
-  template void ProjectedGaussSeidel::relax<Direction::backward>(double *, const double *, unsigned int,
-                                                                 ContactState &) const;
-
-
-
   void ProjectedGaussSeidel::sweep(Vector &v, const Vector &rhs, ContactState &contact,
                                    const Direction direction, const SweepSchedule &rows) const
   {
-    double *const       values = v.begin();
-    const double *const right  = rhs.begin();
-    if (direction == Direction::forward)
-      visit_rows(v, rows, direction,
-                 [&](const unsigned int row) { relax<Direction::forward>(values, right, row, contact); });
-    else
-      visit_rows(v, rows, direction,
-                 [&](const unsigned int row) { relax<Direction::backward>(values, right, row, contact); });
+    double *const                    values = v.begin();
+    const double *const              right  = rhs.begin();
+    const std::vector<unsigned int> &order  = rows.order();
+    const auto                       visit  = [&](const std::size_t begin, const std::size_t end) {
+      if (direction == Direction::forward)
+        for (std::size_t k = begin; k < end; ++k)
+          relax<Direction::forward>(values, right, order[k], contact);
+      else
+        for (std::size_t k = end; k-- > begin;)
+          relax<Direction::backward>(values, right, order[k], contact);
+    };
+    rows.visit(v, direction, visit, [](const unsigned int, const double *) {});
   }
 
 
 
-  void ProjectedGaussSeidel::sweep_with_residual(Vector &v, const Vector &rhs, ContactState &contact,
-                                                 const SweepSchedule &rows, Vector &residual) const
+  void ProjectedGaussSeidel::sweep_with_residual(Vector &v, ContactState &contact, const SweepSchedule &rows,
+                                                 Vector &residual) const
   {
-    visit_rows(v, rows, Direction::forward,
-               [&](const unsigned int row) { relax_with_residual(v, rhs, row, contact, residual); });
+    const auto visit = [&](const std::size_t begin, const std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k)
+        relax_with_residual(v, rows.order()[k], contact, residual);
+    };
+    rows.visit(v, Direction::forward, visit, [&](const unsigned int ghost, const double *const change) {
+      subtract_change(residual.begin(), matrix, matrix.n_rows() + ghost, change);
+    });
   }
 
 
 
-  inline void ProjectedGaussSeidel::relax_with_residual(Vector &v, const Vector &rhs, const unsigned int row,
+  inline void ProjectedGaussSeidel::relax_with_residual(Vector &v, const unsigned int row,
                                                         ContactState &contact, Vector &residual) const
   {
     const std::size_t   i      = dim * static_cast<std::size_t>(row);
@@ -103,36 +92,12 @@ namespace Signorini
     const double        old[3] = {y[0], y[1], y[2]};
     const double *const r      = residual.begin() + i;
     const double *const a      = matrix.block(matrix.diagonal(row));
-    double              s[3]   = {r[0], r[1], r[2]};
-    if (!ordered[row])
-      {
-        double product[3];
-        matrix.multiply_row(product, row, v);
-        for (unsigned int c = 0; c < dim; ++c)
-          s[c] = rhs.local_element(i + c) - product[c];
-      }
+    double              s[3];
     for (unsigned int c = 0; c < dim; ++c)
-      s[c] += a[dim * c] * old[0] + a[dim * c + 1] * old[1] + a[dim * c + 2] * old[2];
+      s[c] = r[c] + a[dim * c] * old[0] + a[dim * c + 1] * old[1] + a[dim * c + 2] * old[2];
     minimize_row(y, s, row, contact);
     const double change[3] = {y[0] - old[0], y[1] - old[1], y[2] - old[2]};
     subtract_change(residual.begin(), matrix, row, change);
-  }
-
-
-
-  void ProjectedGaussSeidel::complete_residual(Vector &residual, const Vector &v, const Vector &rhs) const
-  {
-    // What the sweeps left at ghosts.
-    residual.zero_out_ghost_values();
-    v.update_ghost_values();
-    for (unsigned int row = 0; row < matrix.n_rows(); ++row)
-      if (!ordered[row])
-        {
-          double *const r = residual.begin() + dim * static_cast<std::size_t>(row);
-          matrix.multiply_row(r, row, v);
-          for (unsigned int c = 0; c < dim; ++c)
-            r[c] = rhs.local_element(dim * row + c) - r[c];
-        }
   }
 
 

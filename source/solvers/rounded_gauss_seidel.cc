@@ -8,7 +8,7 @@ namespace Signorini
   RoundedGaussSeidel::RoundedGaussSeidel(const NodeBlockMatrix &matrix, const ProjectedGaussSeidel &exact)
     : matrix(matrix)
     , exact(exact)
-    , rounded(matrix)
+    , rounded(matrix, exact.schedule().order())
   {
     std::vector<unsigned int> rows(matrix.n_rows());
     std::iota(rows.begin(), rows.end(), 0u);
@@ -29,25 +29,9 @@ namespace Signorini
     rounded.start(v, rhs);
     contact_residual.resize(contact.size());
     for (const unsigned int row : contact.half_spaces().nodes)
-      if (exact.is_ordered(row))
-        rounded.leave_out_rhs(row);
-  }
-
-
-
-  void RoundedGaussSeidel::relax_half_space(double *const y, const double *const rhs, const unsigned int row,
-                                            ContactState &contact, const bool keeps_residual)
-  {
-    double s[dim] = {rhs[0], rhs[1], rhs[2]};
-    rounded.subtract_product(s, row);
-    exact.minimize_row(y, s, row, contact);
-    if (!keeps_residual)
-      return;
-    const double *const a = matrix.block(matrix.diagonal(row));
-    Vector3            &r = contact_residual[contact.at(row)];
-    for (unsigned int c = 0; c < dim; ++c)
-      r[c] = s[c] - (a[dim * c] * y[0] + a[dim * c + 1] * y[1] + a[dim * c + 2] * y[2]);
-    rounded.leave_out_rhs(row);
+      rounded.leave_out_rhs(row);
+    for (unsigned int node = matrix.n_rows(); node < matrix.partition().n_local(); ++node)
+      rounded.pass_from_ghost(node - matrix.n_rows(), v.begin() + dim * static_cast<std::size_t>(node));
   }
 
 
@@ -55,13 +39,22 @@ namespace Signorini
   void RoundedGaussSeidel::relax_apart(Vector &v, const Vector &rhs, const unsigned int row,
                                        ContactState &contact, const RoundedSweep::Options &options)
   {
-    double *const y        = v.begin() + dim * static_cast<std::size_t>(row);
-    const double  old[dim] = {y[0], y[1], y[2]};
-    if (!exact.is_ordered(row))
-      exact.relax<Direction::forward>(v.begin(), rhs.begin(), row, contact);
-    else
-      relax_half_space(y, rhs.begin() + dim * static_cast<std::size_t>(row), row, contact,
-                       options.keeps_residual);
+    const std::size_t i      = dim * static_cast<std::size_t>(row);
+    double *const     y      = v.begin() + i;
+    const double      old[3] = {y[0], y[1], y[2]};
+    double            s[3]   = {0., 0., 0.};
+    if (contact.at(row) >= 0)
+      std::copy_n(rhs.begin() + i, dim, s);
+    rounded.subtract_product(s, row);
+    exact.minimize_row(y, s, row, contact);
+    if (options.keeps_residual)
+      {
+        const double *const   a = matrix.block(matrix.diagonal(row));
+        std::array<double, 3> r;
+        for (unsigned int c = 0; c < dim; ++c)
+          r[c] = s[c] - (a[dim * c] * y[0] + a[dim * c + 1] * y[1] + a[dim * c + 2] * y[2]);
+        keep_residual(r, row, contact);
+      }
     double change[dim];
     for (unsigned int c = 0; c < dim; ++c)
       change[c] = options.passes_all ? y[c] : y[c] - old[c];
@@ -71,39 +64,63 @@ namespace Signorini
 
 
 
-  void RoundedGaussSeidel::sweep(Vector &v, const Vector &rhs, ContactState &contact,
-                                 const RoundedSweep::Options &options)
+  void RoundedGaussSeidel::keep_residual(const std::array<double, 3> &residual, const unsigned int row,
+                                         const ContactState &contact)
   {
-    const auto is_apart = [&](const unsigned int row) {
-      return !exact.is_ordered(row) || contact.at(row) >= 0;
-    };
-    const auto       &phases   = exact.schedule().phases();
-    const std::size_t n_phases = phases.size();
-    for (std::size_t phase = 0; phase < n_phases; ++phase)
+    if (const int p = contact.at(row); p >= 0)
       {
-        v.update_ghost_values();
-        const auto &rows = phases[options.backward ? n_phases - 1 - phase : phase];
-        const auto at = [&](const std::size_t k) { return rows[options.backward ? rows.size() - 1 - k : k]; };
-        for (std::size_t k = 0; k < rows.size();)
-          {
-            const std::size_t begin = k;
-            while (k < rows.size() && !is_apart(at(k)))
-              ++k;
-            rounded.relax(v, rows.data() + (options.backward ? rows.size() - k : begin), k - begin, options);
-            for (; k < rows.size() && is_apart(at(k)); ++k)
-              relax_apart(v, rhs, at(k), contact, options);
-          }
+        for (unsigned int c = 0; c < dim; ++c)
+          contact_residual[p][c] = residual[c];
+        rounded.leave_out_rhs(row);
+      }
+    else
+      rounded.set_reduced(row, residual);
+  }
+
+
+
+  void RoundedGaussSeidel::relax(Vector &v, const Vector &rhs, const std::size_t begin, const std::size_t end,
+                                 ContactState &contact, const RoundedSweep::Options &options)
+  {
+    const std::vector<unsigned int> &order = exact.schedule().order();
+    const auto at = [&](const std::size_t k) { return options.backward ? begin + end - 1 - k : k; };
+    for (std::size_t k = begin; k < end;)
+      {
+        const std::size_t first = k;
+        while (k < end && !is_apart(order[at(k)], contact))
+          ++k;
+        if (options.backward)
+          rounded.relax(v, begin + end - k, begin + end - first, options);
+        else
+          rounded.relax(v, first, k, options);
+        for (; k < end && is_apart(order[at(k)], contact); ++k)
+          relax_apart(v, rhs, order[at(k)], contact, options);
       }
   }
 
 
 
-  void RoundedGaussSeidel::follow(const Vector &v, const unsigned int row, const double *const change,
+  void RoundedGaussSeidel::sweep(Vector &v, const Vector &rhs, ContactState &contact,
+                                 const RoundedSweep::Options &options)
+  {
+    exact.schedule().visit(
+        v, options.backward ? Direction::backward : Direction::forward,
+        [&](const std::size_t begin, const std::size_t end) { relax(v, rhs, begin, end, contact, options); },
+        [&](const unsigned int ghost, const double *const change) {
+          rounded.pass_from_ghost(ghost, change);
+        });
+  }
+
+
+
+  void RoundedGaussSeidel::follow(const Vector &v, const unsigned int node, const double *const change,
                                   const bool passes_on)
   {
-    rounded.set(row, v.begin() + dim * static_cast<std::size_t>(row));
+    if (node >= matrix.n_rows())
+      return rounded.pass_from_ghost(node - matrix.n_rows(), change);
+    rounded.set(node, v.begin() + dim * static_cast<std::size_t>(node));
     if (passes_on)
-      rounded.pass_down(row, change);
+      rounded.pass_down(node, change);
   }
 
 
@@ -113,8 +130,7 @@ namespace Signorini
     rounded.get_residual(residual);
     const std::vector<unsigned int> &nodes = contact.half_spaces().nodes;
     for (std::size_t p = 0; p < nodes.size(); ++p)
-      if (exact.is_ordered(nodes[p]))
-        for (unsigned int c = 0; c < dim; ++c)
-          residual.local_element(dim * nodes[p] + c) += contact_residual[p][c];
+      for (unsigned int c = 0; c < dim; ++c)
+        residual.local_element(dim * nodes[p] + c) += contact_residual[p][c];
   }
 } // namespace Signorini

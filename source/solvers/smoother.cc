@@ -26,10 +26,21 @@ namespace Signorini
 
 
 
-  void subtract_change(double *const residual, const NodeBlockMatrix &matrix, const unsigned int row,
+  void subtract_change(double *const residual, const NodeBlockMatrix &matrix, const unsigned int node,
                        const double *const change)
   {
-    for (const BlockRange &range : matrix.ranges(row))
+    if (node >= matrix.n_rows())
+      {
+        for (auto [coupling, end] = matrix.ghost_column(node - matrix.n_rows()); coupling != end; ++coupling)
+          {
+            const double *const a = matrix.block(coupling->block);
+            double *const       r = residual + dim * static_cast<std::size_t>(coupling->row);
+            for (unsigned int c = 0; c < dim; ++c)
+              r[c] -= a[dim * c] * change[0] + a[dim * c + 1] * change[1] + a[dim * c + 2] * change[2];
+          }
+        return;
+      }
+    for (const BlockRange &range : matrix.ranges(node))
       subtract_transposed_blocks(residual, matrix.block_data(), matrix.column_data(), range, change);
   }
 

@@ -27,7 +27,7 @@ namespace Signorini
       for (const NodeIndex node : contact_nodes)
         if (matrix.partition().owns(node))
           contact_rows.push_back(matrix.partition().to_local(node));
-      return sweep_rate(matrix, sweeps, sweeps.schedule().subset(contact_rows), slow_at_interface) >=
+      return sweep_rate(matrix, sweeps, sweeps.schedule(contact_rows), slow_at_interface) >=
              slow_at_interface.slow;
     }
   } // namespace
@@ -45,7 +45,7 @@ namespace Signorini
           local != dealii::numbers::invalid_unsigned_int)
         is_contact[local] = true;
     owned    = matrix.rows_with_column([&](const unsigned int column) { return is_contact[column]; });
-    schedule = sweeps.schedule().subset(owned);
+    schedule = sweeps.schedule(owned);
   }
 
 
@@ -66,7 +66,8 @@ namespace Signorini
             at_interface.push_back(std::move(correction));
           }
       }
-    after_sweeps.push_back(std::move(blocks));
+    if (!blocks->empty())
+      after_sweeps.push_back(std::move(blocks));
   }
 
 
@@ -103,6 +104,7 @@ namespace Signorini
   void StagedSmoother::smooth(Vector &v, const Vector &rhs, ContactState &contact,
                               const SmoothingParameters &parameters, const Direction direction)
   {
+    v.update_ghost_values();
     const auto run_stages = [&] {
       for_each_stage(after_sweeps, direction,
                      [&](SmoothingStage &stage) { stage.run(v, rhs, contact, direction); });
@@ -127,9 +129,10 @@ namespace Signorini
   void StagedSmoother::run_rounded(SmoothingStage &stage, Vector &v, const Vector &rhs, ContactState &contact,
                                    const Direction direction, const bool passes_on)
   {
-    stage.run_and_follow(v, rhs, contact, direction, [&](const unsigned int row, const double *const change) {
-      rounded.follow(v, row, change, passes_on);
-    });
+    stage.run_and_follow(v, rhs, contact, direction,
+                         [&](const unsigned int node, const double *const change) {
+                           rounded.follow(v, node, change, passes_on);
+                         });
   }
 
 
@@ -161,7 +164,7 @@ namespace Signorini
       }
     for (unsigned int i = 0; i < parameters.n_interface_sweeps; ++i)
       for_each_stage(at_interface, Direction::forward, run_with_residual);
-    sweeps.complete_residual(residual, v, rhs);
+    residual.zero_out_ghost_values();
   }
 
 
@@ -169,6 +172,7 @@ namespace Signorini
   void StagedSmoother::smooth_to_residual(Vector &v, const Vector &rhs, ContactState &contact,
                                           const SmoothingParameters &parameters, Vector *const residual)
   {
+    v.update_ghost_values();
     smooth_interface(v, rhs, contact, parameters.n_interface_sweeps, Direction::backward);
     if (parameters.n_post > 0)
       rounded.start(v, rhs, contact);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/algebra/replicated_data.h>
 #include <signorini/solvers/strong_blocks.h>
 #include <signorini/solvers/sweep_rate.h>
 
@@ -54,9 +55,15 @@ namespace Signorini
     /// Active flags of the contact nodes among them, as factorized.
     std::vector<unsigned char> flags;
     bool                       is_current = false;
+    /// Whether something else solves for its nodes.
+    bool is_dropped = false;
+    /// In which it is visited.
+    unsigned int phase = 0;
     /// Whether there are factors: a block without support (a body that only contact holds) has none, and is
     /// left to the sweeps by node.
     bool is_definite = false;
+    /// Damping of its rows, relative to their diagonal blocks; empty if nothing clashes.
+    std::vector<double> shift;
 
     Eigen::LLT<Eigen::MatrixXd>                                        dense;
     std::unique_ptr<Eigen::SimplicialLLT<Eigen::SparseMatrix<double>>> sparse;
@@ -68,7 +75,6 @@ namespace Signorini
                              const Choice choice)
     : SmoothingStage(matrix)
     , sweeps(sweeps)
-    , phases(sweeps.schedule().phases().size())
     , blocks_of_row(matrix.n_rows())
     , place_in_block(matrix.n_rows(), -1)
   {
@@ -76,7 +82,7 @@ namespace Signorini
       find_patches();
     else
       find_blocks();
-    collect_rows();
+    make_schedule();
   }
 
 
@@ -168,10 +174,9 @@ namespace Signorini
 
   void StrongBlocks::find_blocks()
   {
-    const unsigned int              n = matrix.n_rows();
-    std::vector<double>             most_negative;
-    std::vector<bool>               is_stretched, visited(n, false);
-    const std::vector<unsigned int> phase_of_row = phases_of_rows();
+    const unsigned int  n = matrix.n_rows();
+    std::vector<double> most_negative;
+    std::vector<bool>   is_stretched, visited(n, false);
     find_stretched(is_stretched, most_negative);
     const std::vector<bool> nothing(n, false);
     const auto              strong = [&](const unsigned int row, const std::size_t k) {
@@ -196,11 +201,8 @@ namespace Signorini
           if (rows.size() < 2)
             continue;
           std::sort(rows.begin(), rows.end());
-          const unsigned int phase = phase_of(rows, phase_of_row);
-          // Pieces of blocks that go on at another rank look better than they are.
-          if (phase + 1 < phases.size() ||
-              sweep_rate(matrix, sweeps, rows, slow_in_blocks, zero) >= slow_in_blocks.slow)
-            add_block(std::move(rows), phase);
+          if (sweep_rate(matrix, sweeps, rows, slow_in_blocks, zero) >= slow_in_blocks.slow)
+            add_block(std::move(rows));
         }
   }
 
@@ -231,10 +233,9 @@ namespace Signorini
 
   void StrongBlocks::find_patches()
   {
-    const unsigned int              n            = matrix.n_rows();
-    const std::vector<unsigned int> phase_of_row = phases_of_rows();
-    std::vector<double>             diagonal(n);
-    std::vector<bool>               is_inside(n, false);
+    const unsigned int  n = matrix.n_rows();
+    std::vector<double> diagonal(n);
+    std::vector<bool>   is_inside(n, false);
     for (unsigned int i = 0; i < n; ++i)
       diagonal[i] = trace_of(matrix.block(matrix.diagonal(i)));
     for (unsigned int start = 0; start < n; ++start)
@@ -245,38 +246,14 @@ namespace Signorini
           for (std::size_t k = 0; k < std::max<std::size_t>(1, rows.size() / 2); ++k)
             is_inside[rows[k]] = true;
           std::sort(rows.begin(), rows.end());
-          const unsigned int phase = phase_of(rows, phase_of_row);
-          add_block(std::move(rows), phase);
+          add_block(std::move(rows));
         }
   }
 
 
 
-  std::vector<unsigned int> StrongBlocks::phases_of_rows() const
+  void StrongBlocks::add_block(std::vector<unsigned int> &&rows)
   {
-    std::vector<unsigned int> result(matrix.n_rows(), 0);
-    for (unsigned int phase = 0; phase < phases.size(); ++phase)
-      for (const unsigned int row : sweeps.schedule().phases()[phase])
-        result[row] = phase;
-    return result;
-  }
-
-
-
-  unsigned int StrongBlocks::phase_of(const std::vector<unsigned int> &rows,
-                                      const std::vector<unsigned int> &phase_of_row) const
-  {
-    unsigned int phase = static_cast<unsigned int>(phases.size()) - 1;
-    for (const unsigned int row : rows)
-      phase = std::min(phase, phase_of_row[row]);
-    return phase;
-  }
-
-
-
-  void StrongBlocks::add_block(std::vector<unsigned int> &&rows, const unsigned int phase)
-  {
-    phases[phase].push_back(static_cast<unsigned int>(blocks.size()));
     for (const unsigned int row : rows)
       blocks_of_row[row].push_back(static_cast<unsigned int>(blocks.size()));
     blocks.emplace_back();
@@ -285,7 +262,18 @@ namespace Signorini
 
 
 
-  void StrongBlocks::collect_rows()
+  SweepSchedule::Item StrongBlocks::visit_of(const unsigned int block) const
+  {
+    const NodePhases                &phases = sweeps.phases();
+    const std::vector<unsigned int> &rows   = blocks[block].rows;
+    const auto                       shared =
+        std::find_if(rows.begin(), rows.end(), [&](const unsigned int row) { return phases.is_shared(row); });
+    return {block, phases[shared == rows.end() ? rows.front() : *shared], shared != rows.end()};
+  }
+
+
+
+  void StrongBlocks::make_schedule()
   {
     block_rows.clear();
     for (unsigned int row = 0; row < matrix.n_rows(); ++row)
@@ -293,35 +281,88 @@ namespace Signorini
         block_rows.push_back(row);
     is_empty =
         Utilities::MPI::max(static_cast<int>(!block_rows.empty()), matrix.partition().communicator()) == 0;
+    if (is_empty)
+      return;
+    std::vector<SweepSchedule::Item> items;
+    phases_of_node.assign(matrix.partition().n_local(), 0);
+    for (unsigned int b = 0; b < blocks.size(); ++b)
+      if (!blocks[b].is_dropped)
+        {
+          items.push_back(visit_of(b));
+          blocks[b].phase = items.back().phase;
+          for (const unsigned int row : blocks[b].rows)
+            phases_of_node[row] |= static_cast<unsigned char>(1u << items.back().phase);
+        }
+    import_ghost_flags(matrix.partition(), phases_of_node);
+    schedule = SweepSchedule(matrix.partition(), sweeps.phases().size(), items, phases_of_node);
+    damp();
+  }
+
+
+
+  void StrongBlocks::damp()
+  {
+    if (matrix.partition().n_ranks() == 1)
+      return;
+    // By row and phase: couplings to what other ranks change at that time; how many blocks have the row.
+    std::map<unsigned int, std::vector<double>> sums;
+    const unsigned int                          n_phases = sweeps.phases().size();
+    const RelativeCouplings                     couplings(matrix);
+    for (unsigned int ghost = 0; ghost < matrix.partition().ghosts().size(); ++ghost)
+      if (const unsigned int flags = phases_of_node[matrix.n_rows() + ghost]; flags != 0)
+        for (auto [coupling, end] = matrix.ghost_column(ghost); coupling != end; ++coupling)
+          if (phases_of_node[coupling->row] & flags)
+            {
+              auto &sum = sums[coupling->row];
+              sum.resize(n_phases);
+              const double norm = couplings.bound(*coupling, ghost);
+              for (unsigned int phase = 0; phase < n_phases; ++phase)
+                sum[phase] += flags & (1u << phase) ? norm : 0.;
+            }
+    for (Block &block : blocks)
+      {
+        std::vector<double> shift;
+        for (std::size_t i = 0; i < block.rows.size(); ++i)
+          if (const auto sum = sums.find(block.rows[i]); sum != sums.end() && sum->second[block.phase] > 0.)
+            {
+              const auto &others = blocks_of_row[block.rows[i]];
+              const auto  n      = std::count_if(others.begin(), others.end(), [&](const unsigned int other) {
+                return blocks[other].phase == block.phase;
+              });
+              shift.resize(block.rows.size());
+              shift[i] = DampingRule().shift(sum->second[block.phase], static_cast<unsigned int>(n));
+            }
+        block.is_current = block.is_current && shift == block.shift;
+        block.shift      = std::move(shift);
+      }
   }
 
 
 
   void StrongBlocks::drop_within(const std::vector<bool> &nodes)
   {
-    std::vector<bool> is_dropped(blocks.size(), false);
     for (unsigned int b = 0; b < blocks.size(); ++b)
       {
-        is_dropped[b] = std::all_of(blocks[b].rows.begin(), blocks[b].rows.end(),
-                                    [&](const unsigned int row) { return nodes[row]; });
-        if (is_dropped[b])
-          for (const unsigned int row : blocks[b].rows)
+        Block &block     = blocks[b];
+        block.is_dropped = std::all_of(block.rows.begin(), block.rows.end(),
+                                       [&](const unsigned int row) { return nodes[row]; });
+        if (block.is_dropped)
+          for (const unsigned int row : block.rows)
             blocks_of_row[row].erase(std::find(blocks_of_row[row].begin(), blocks_of_row[row].end(), b));
       }
-    for (auto &phase : phases)
-      phase.erase(
-          std::remove_if(phase.begin(), phase.end(), [&](const unsigned int b) { return is_dropped[b]; }),
-          phase.end());
-    collect_rows();
+    make_schedule();
   }
 
 
 
   void StrongBlocks::update(const std::vector<unsigned int> &rows)
   {
+    if (is_empty)
+      return;
     for (const unsigned int row : rows)
       for (const unsigned int b : blocks_of_row[row])
         blocks[b].is_current = false;
+    damp();
   }
 
 
@@ -347,8 +388,10 @@ namespace Signorini
               if (column >= matrix.n_rows() || place_in_block[column] < 0)
                 continue;
               const auto j = static_cast<std::size_t>(place_in_block[column]);
-              const auto entry =
+              auto       entry =
                   restrict_to_planes(matrix.block(k), row_normal, contact.plane(column), row == column);
+              if (row == column && !block.shift.empty())
+                entry *= 1. + block.shift[i];
               for (unsigned int c = 0; c < dim; ++c)
                 for (unsigned int d = 0; d < dim; ++d)
                   if (is_dense)
@@ -440,14 +483,13 @@ namespace Signorini
   {
     if (is_empty)
       return;
-    const bool forward = direction == Direction::forward;
-    for (std::size_t i = 0; i < phases.size(); ++i)
-      {
-        v.update_ghost_values();
-        const auto &list = phases[forward ? i : phases.size() - 1 - i];
-        const auto  n    = list.size();
-        for (std::size_t k = 0; k < n; ++k)
-          relax(v, rhs, blocks[list[forward ? k : n - 1 - k]], contact);
-      }
+    const auto visit = [&](const std::size_t begin, const std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k)
+        {
+          const std::size_t place = direction == Direction::forward ? k : begin + end - 1 - k;
+          relax(v, rhs, blocks[schedule.order()[place]], contact);
+        }
+    };
+    schedule.visit(v, direction, visit, [](const unsigned int, const double *) {});
   }
 } // namespace Signorini

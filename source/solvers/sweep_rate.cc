@@ -11,30 +11,20 @@ namespace Signorini
 
   namespace
   {
-    using Phases = std::vector<std::vector<unsigned int>>;
-
     /// Sweeps and energies of an error that is zero outside of some rows.
     struct ErrorSweeps
     {
-      const NodeBlockMatrix      &matrix;
-      const ProjectedGaussSeidel &sweeps;
-      const Phases               &phases;
-      Vector                     &error;
-      bool                        has_ghosts;
+      const NodeBlockMatrix           &matrix;
+      const ProjectedGaussSeidel      &sweeps;
+      const std::vector<unsigned int> &rows;
+      Vector                          &error;
 
       void start() const
       {
-        for (const auto &rows : phases)
-          for (const unsigned int row : rows)
-            for (unsigned int c = 0; c < dim; ++c)
-              error.local_element(dim * row + c) =
-                  1. + .1 * std::sin(1. + 7. * (dim * matrix.partition().to_global(row) + c));
-      }
-
-      void exchange() const
-      {
-        if (has_ghosts)
-          error.update_ghost_values();
+        for (const unsigned int row : rows)
+          for (unsigned int c = 0; c < dim; ++c)
+            error.local_element(dim * row + c) =
+                1. + .1 * std::sin(1. + 7. * (dim * matrix.partition().to_global(row) + c));
       }
 
       void relax(const unsigned int row) const
@@ -42,51 +32,46 @@ namespace Signorini
         double product[dim];
         matrix.multiply_row(product, row, error);
         const double *const inverse = sweeps.inverse_diagonal() + 9 * static_cast<std::size_t>(row);
+        const double        factor  = sweeps.damping()[row];
         for (unsigned int c = 0; c < dim; ++c)
-          error.local_element(dim * row + c) -= inverse[dim * c] * product[0] +
-                                                inverse[dim * c + 1] * product[1] +
-                                                inverse[dim * c + 2] * product[2];
+          error.local_element(dim * row + c) -=
+              factor * (inverse[dim * c] * product[0] + inverse[dim * c + 1] * product[1] +
+                        inverse[dim * c + 2] * product[2]);
       }
 
-      void forward_and_backward() const
+      void relax(const std::size_t begin, const std::size_t end, const Direction direction) const
       {
-        for (const auto &rows : phases)
-          {
-            exchange();
-            for (const unsigned int row : rows)
-              relax(row);
-          }
-        for (std::size_t i = phases.size(); i-- > 0;)
-          {
-            exchange();
-            for (std::size_t k = phases[i].size(); k-- > 0;)
-              relax(phases[i][k]);
-          }
+        for (std::size_t k = begin; k < end; ++k)
+          relax(rows[direction == Direction::forward ? k : begin + end - 1 - k]);
       }
 
       double energy() const
       {
-        exchange();
         double sum = 0.;
-        for (const auto &rows : phases)
-          for (const unsigned int row : rows)
-            {
-              double product[dim];
-              matrix.multiply_row(product, row, error);
-              for (unsigned int c = 0; c < dim; ++c)
-                sum += error.local_element(dim * row + c) * product[c];
-            }
-        return has_ghosts ? Utilities::MPI::sum(sum, matrix.partition().communicator()) : sum;
+        for (const unsigned int row : rows)
+          {
+            double product[dim];
+            matrix.multiply_row(product, row, error);
+            for (unsigned int c = 0; c < dim; ++c)
+              sum += error.local_element(dim * row + c) * product[c];
+          }
+        return sum;
       }
 
-      double rate(const SlowSweepsRule &rule) const
+      /// @param sweep goes over all rows in a direction
+      /// @param sum over the ranks that take part
+      template <typename Sweep, typename Sum>
+      double rate(const SlowSweepsRule &rule, const Sweep &sweep, const Sum &sum) const
       {
-        start();
-        for (unsigned int sweep = 1; sweep < rule.measured_sweep; ++sweep)
+        const auto forward_and_backward = [&] {
+          sweep(Direction::forward);
+          sweep(Direction::backward);
+        };
+        for (unsigned int i = 1; i < rule.measured_sweep; ++i)
           forward_and_backward();
-        const double before = energy();
+        const double before = sum(energy());
         forward_and_backward();
-        return before > 0. ? std::sqrt(std::max(0., energy() / before)) : 0.;
+        return before > 0. ? std::sqrt(std::max(0., sum(energy()) / before)) : 0.;
       }
     };
   } // namespace
@@ -98,7 +83,18 @@ namespace Signorini
   {
     Vector error;
     matrix.partition().reinit(error);
-    return ErrorSweeps{matrix, sweeps, rows.phases(), error, true}.rate(rule);
+    const ErrorSweeps errors{matrix, sweeps, rows.order(), error};
+    errors.start();
+    error.update_ghost_values();
+    const auto sweep = [&](const Direction direction) {
+      rows.visit(
+          error, direction,
+          [&](const std::size_t begin, const std::size_t end) { errors.relax(begin, end, direction); },
+          [](const unsigned int, const double *) {});
+    };
+    return errors.rate(rule, sweep, [&](const double energy) {
+      return Utilities::MPI::sum(energy, matrix.partition().communicator());
+    });
   }
 
 
@@ -106,8 +102,11 @@ namespace Signorini
   double sweep_rate(const NodeBlockMatrix &matrix, const ProjectedGaussSeidel &sweeps,
                     const std::vector<unsigned int> &rows, const SlowSweepsRule &rule, Vector &zero)
   {
-    const Phases phases = {rows};
-    const double rate   = ErrorSweeps{matrix, sweeps, phases, zero, false}.rate(rule);
+    const ErrorSweeps errors{matrix, sweeps, rows, zero};
+    errors.start();
+    const double rate = errors.rate(
+        rule, [&](const Direction direction) { errors.relax(0, rows.size(), direction); },
+        [](const double energy) { return energy; });
     for (const unsigned int row : rows)
       for (unsigned int c = 0; c < dim; ++c)
         zero.local_element(dim * row + c) = 0.;

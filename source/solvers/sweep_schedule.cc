@@ -1,78 +1,83 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/algebra/replicated_data.h>
 #include <signorini/solvers/sweep_schedule.h>
-
-#include <deal.II/base/mpi.h>
 
 namespace Signorini
 {
-  using namespace dealii;
-
   namespace
   {
-    /// Greedy colouring of the ranks; neighbours share ghost nodes.
-    std::vector<unsigned int> colour_ranks(const NodePartition &partition)
+    std::vector<SweepSchedule::Item> items_of_rows(const NodePhases                &phases,
+                                                   const std::vector<unsigned int> &rows)
     {
-      std::set<unsigned int> owners;
-      for (const NodeIndex ghost : partition.ghosts())
-        owners.insert(partition.owner(ghost));
-      const auto neighbours = Utilities::MPI::all_gather(
-          partition.communicator(), std::vector<unsigned int>(owners.begin(), owners.end()));
-      std::vector<std::set<unsigned int>> graph(neighbours.size());
-      for (unsigned int rank = 0; rank < neighbours.size(); ++rank)
-        for (const unsigned int other : neighbours[rank])
-          {
-            graph[rank].insert(other);
-            graph[other].insert(rank);
-          }
-      std::vector<unsigned int> colours(graph.size());
-      for (unsigned int rank = 0; rank < graph.size(); ++rank)
-        {
-          std::set<unsigned int> taken;
-          for (const unsigned int other : graph[rank])
-            if (other < rank)
-              taken.insert(colours[other]);
-          while (taken.count(colours[rank]) > 0)
-            ++colours[rank];
-        }
-      return colours;
+      std::vector<SweepSchedule::Item> items;
+      items.reserve(rows.size());
+      for (const unsigned int row : rows)
+        items.push_back({row, phases[row], phases.is_shared(row)});
+      return items;
+    }
+
+    /// Collective. Bit phases[i] for the rows of a list and the ghosts that are such rows elsewhere.
+    std::vector<unsigned char> phases_of_rows(const NodePartition &partition, const NodePhases &phases,
+                                              const std::vector<unsigned int> &rows)
+    {
+      if (partition.n_ranks() == 1)
+        return {};
+      std::vector<unsigned char> is_visited(partition.n_local(), 0);
+      for (const unsigned int row : rows)
+        is_visited[row] = 1;
+      import_ghost_flags(partition, is_visited);
+      for (unsigned int node = 0; node < partition.n_local(); ++node)
+        if (is_visited[node])
+          is_visited[node] = static_cast<unsigned char>(1u << phases[node]);
+      return is_visited;
     }
   } // namespace
 
 
 
-  SweepSchedule::SweepSchedule(const NodePartition &partition)
+  SweepSchedule::SweepSchedule(const NodePartition &partition, const NodePhases &phases,
+                               const std::vector<unsigned int> &rows)
+    : SweepSchedule(partition, phases.size(), items_of_rows(phases, rows),
+                    phases_of_rows(partition, phases, rows))
   {
-    if (partition.n_ranks() == 1)
-      {
-        rows.resize(1, std::vector<unsigned int>(partition.n_owned()));
-        std::iota(rows[0].begin(), rows[0].end(), 0u);
-        return;
-      }
-    const std::vector<unsigned int> colours = colour_ranks(partition);
-    rows.resize(*std::max_element(colours.begin(), colours.end()) + 2);
-
-    std::vector<bool> is_shared(partition.n_owned(), false);
-    for (const unsigned int node : partition.shared_nodes())
-      is_shared[node] = true;
-    // Nodes that see ghosts without being seen would race with their neighbours as well; with a
-    // symmetric matrix structure there are none.
-    auto &shared = rows[colours[Utilities::MPI::this_mpi_process(partition.communicator())]];
-    for (unsigned int node = 0; node < partition.n_owned(); ++node)
-      (is_shared[node] ? shared : rows.back()).push_back(node);
   }
 
 
 
-  SweepSchedule SweepSchedule::subset(const std::vector<unsigned int> &nodes) const
+  SweepSchedule::SweepSchedule(const NodePartition &partition, const unsigned int n_phases,
+                               const std::vector<Item> &all, const std::vector<unsigned char> &phases_of_node)
   {
-    const std::set<unsigned int> wanted(nodes.begin(), nodes.end());
-    SweepSchedule                result;
-    result.rows.resize(rows.size());
-    for (std::size_t phase = 0; phase < rows.size(); ++phase)
-      std::set_intersection(rows[phase].begin(), rows[phase].end(), wanted.begin(), wanted.end(),
-                            std::back_inserter(result.rows[phase]));
-    return result;
+    items.reserve(all.size());
+    ranges.clear();
+    for (unsigned int phase = 0; phase < n_phases; ++phase)
+      {
+        Phase range = {items.size(), 0, 0};
+        for (const bool is_border : {true, false})
+          {
+            for (const Item &item : all)
+              if (item.phase == phase && item.is_border == is_border)
+                items.push_back(item.number);
+            (is_border ? range.border_end : range.end) = items.size();
+          }
+        ranges.push_back(range);
+        if (partition.n_ranks() == 1)
+          continue;
+        std::vector<unsigned char> is_sent(phases_of_node);
+        for (unsigned char &flags : is_sent)
+          flags &= 1u << phase;
+        exchanges.push_back(std::make_shared<NodeExchange>(partition, is_sent));
+      }
+  }
+
+
+
+  std::size_t SweepSchedule::n_messages() const
+  {
+    std::size_t n = 0;
+    for (const auto &exchange : exchanges)
+      n += exchange->n_messages();
+    return n;
   }
 } // namespace Signorini

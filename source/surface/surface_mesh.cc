@@ -110,12 +110,12 @@ namespace Signorini
 
 
 
-  std::vector<unsigned int> spatial_order(const SurfaceMesh &mesh)
+  std::vector<unsigned int> spatial_order(const std::vector<Point<3>> &points)
   {
-    if (mesh.vertices.empty())
+    if (points.empty())
       return {};
-    Point<3> low = mesh.vertices[0], high = low;
-    for (const Point<3> &p : mesh.vertices)
+    Point<3> low = points[0], high = low;
+    for (const Point<3> &p : points)
       for (unsigned int c = 0; c < 3; ++c)
         {
           low[c]  = std::min(low[c], p[c]);
@@ -123,14 +123,14 @@ namespace Signorini
         }
     const double                                        size = std::max(low.distance(high), 1e-300);
     std::vector<std::pair<std::uint64_t, unsigned int>> codes;
-    codes.reserve(mesh.vertices.size());
-    for (unsigned int v = 0; v < mesh.vertices.size(); ++v)
+    codes.reserve(points.size());
+    for (unsigned int v = 0; v < points.size(); ++v)
       {
         // The bits of the three coordinates in turn.
         std::uint64_t code = 0;
         for (unsigned int c = 0; c < 3; ++c)
           {
-            const double place = (mesh.vertices[v][c] - low[c]) / size;
+            const double place = (points[v][c] - low[c]) / size;
             code |= spread_bits(place > 0. ? static_cast<std::uint64_t>(place * 0x1fffff) : 0) << c;
           }
         codes.emplace_back(code, v);
@@ -141,6 +141,13 @@ namespace Signorini
     for (const auto &code : codes)
       order.push_back(code.second);
     return order;
+  }
+
+
+
+  std::vector<unsigned int> spatial_order(const SurfaceMesh &mesh)
+  {
+    return spatial_order(mesh.vertices);
   }
 
 

@@ -173,6 +173,26 @@ namespace Signorini
       return rows;
     }
 
+    /// An owned row that couples to a ghost, and the position of that block.
+    struct GhostCoupling
+    {
+      /// The row, and where its block is.
+      unsigned int row;
+      std::size_t  block;
+    };
+
+    /// The owned rows that couple to a ghost (numbered from 0), ascending: its column.
+    std::pair<const GhostCoupling *, const GhostCoupling *> ghost_column(const unsigned int ghost) const
+    {
+      return {ghost_couplings.data() + ghost_start[ghost], ghost_couplings.data() + ghost_start[ghost + 1]};
+    }
+
+    /// Number of blocks of owned rows whose columns are ghosts.
+    std::size_t n_ghost_couplings() const
+    {
+      return ghost_couplings.size();
+    }
+
     /// The row index (owned or foreign) in which this rank collects contributions to a local node,
     /// or dealii::numbers::invalid_unsigned_int.
     unsigned int row_of(const unsigned int local_node) const
@@ -219,7 +239,12 @@ namespace Signorini
     std::vector<unsigned int> columns;
     std::vector<double>       values;
 
+    void collect_ghost_columns();
+
     std::vector<unsigned int> foreign_row_of_ghost;
+    /// Column by column.
+    std::vector<std::size_t>   ghost_start = {0};
+    std::vector<GhostCoupling> ghost_couplings;
     /// For each rank that gets contributions: the range of stored rows.
     std::vector<std::pair<unsigned int, std::pair<unsigned int, unsigned int>>> send_rows;
     /// For each rank that sends: the positions its blocks are added to.

@@ -93,6 +93,20 @@ namespace Signorini
     /// Local numbers of the owned nodes that are ghosts elsewhere, sorted.
     std::vector<unsigned int> shared_nodes() const;
 
+    /// Local nodes of this rank that another rank has as well.
+    struct Neighbour
+    {
+      /// The other rank, and the local nodes in the order of their global numbers.
+      unsigned int              rank;
+      std::vector<unsigned int> nodes;
+    };
+
+    /// The ranks that have owned nodes of this one as ghosts, and these nodes.
+    std::vector<Neighbour> viewers() const;
+
+    /// The ranks that own ghosts of this one, and these ghosts.
+    std::vector<Neighbour> owners() const;
+
   private:
     MPI_Comm                                                   comm;
     NodeIndex                                                  begin;

@@ -69,6 +69,9 @@ namespace Signorini
   /// Collective. Fixed masks of all local nodes, given those of the owned ones.
   std::vector<FixedDirections> import_ghost_masks(const NodePartition                &partition,
                                                   const std::vector<FixedDirections> &owned);
+
+  /// Collective. Gives the ghosts of a list by local node what their owners have there.
+  void import_ghost_flags(const NodePartition &partition, std::vector<unsigned char> &flags);
 } // namespace Signorini
 
 #endif

@@ -6,6 +6,7 @@
 
 #include <signorini/algebra/node_block_matrix.h>
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -41,13 +42,14 @@ namespace Signorini
 
 
   /// Gauss-Seidel sweeps over owned rows of A v = rhs in single precision, for corrections: A symmetric with
-  /// 3x3 blocks, A = L + D + Lᵀ.
+  /// 3x3 blocks, A = L + D + Lᵀ + G, where L couples a row to those that come before it in the order of the
+  /// sweep, G to ghosts.
   ///
-  /// A sweep reads L and D⁻¹ only, a quarter of the memory of A: products with nodes of smaller number are
-  /// computed, those with the others are kept up to date, in `reduced` = rhs - Lᵀ v, by passing the change of
-  /// a node on to nodes of smaller number while its row is at hand. Sweeps that go backward do the same. The
+  /// A sweep reads L and D⁻¹ only, a quarter of the memory of A: products with rows that come before are
+  /// computed, those with the others are kept up to date, in `reduced` = rhs - Lᵀ v - G v, by passing the
+  /// change of a row on to rows before it while it is at hand. Sweeps that go backward do the same. The
   /// numbers of v are kept in double precision as well, for rows that are not visited in this way: whoever
-  /// changes v there tells by set() and pass_down().
+  /// changes v there tells by set() and pass_down(), and pass_from_ghost().
   ///
   /// Errors are those of single precision relative to v. The matrix must outlive the object.
   class RoundedSweep
@@ -55,14 +57,15 @@ namespace Signorini
   public:
     /// Collective. To be completed by an update of all rows. The diagonal of the matrix, filled already,
     /// gives the units.
-    explicit RoundedSweep(const NodeBlockMatrix &matrix);
+    /// @param order all owned rows in the order of a sweep forward; must outlive the object
+    RoundedSweep(const NodeBlockMatrix &matrix, const std::vector<unsigned int> &order);
 
-    /// Reads some owned rows of the matrix again.
+    /// Reads some owned rows of the matrix again, and all couplings to ghosts.
     /// @param inverse_diagonal the inverse diagonal blocks of all owned rows
     void update(const std::vector<unsigned int> &rows, const double *inverse_diagonal);
 
     /// Takes v and a right hand side. `reduced` is rhs: right if v is zero, or if the first sweep goes
-    /// backward and passes all on.
+    /// backward and passes all on, and ghosts follow with pass_from_ghost().
     void start(const Vector &v, const Vector &rhs);
 
     /// What a sweep does.
@@ -76,19 +79,27 @@ namespace Signorini
       bool keeps_residual = false;
     };
 
-    /// Solves n rows, rows[0] first, or rows[n - 1] if it goes backward.
-    void relax(Vector &v, const unsigned int *rows, const std::size_t n, const Options &options);
+    /// Solves the rows at positions begin ... end - 1 of the order, from the last on if it goes backward.
+    void relax(Vector &v, const std::size_t begin, const std::size_t end, const Options &options);
 
     /// For rows that are solved elsewhere, with a right hand side that must not be rounded. After start():
     /// the sweeps know nothing of the right hand side of a row.
-    void leave_out_rhs(const unsigned int row);
+    void leave_out_rhs(const unsigned int row)
+    {
+      set_reduced(row, {{0., 0., 0.}});
+    }
+    /// `reduced` of a row becomes three given numbers.
+    void set_reduced(const unsigned int row, const std::array<double, 3> &numbers);
     /// s -= (A - D) v in such a row. Once leave_out_rhs() is called again, after the last visit of the row,
     /// the changes of nodes that are visited later are what get_residual() finds there.
     void subtract_product(double *s, const unsigned int row);
 
-    /// Takes new values of a node, and passes a change (three numbers each) on to nodes of smaller number.
+    /// Takes new values of a node, and passes a change (three numbers each) on to rows before it.
     void set(const unsigned int row, const double *v_row);
     void pass_down(const unsigned int row, const double *change);
+
+    /// Passes a change of a ghost, counted from 0, on to all rows.
+    void pass_from_ghost(const unsigned int ghost, const double *change);
 
     /// The residual after a sweep that has kept it.
     void get_residual(Vector &residual) const;
@@ -98,19 +109,38 @@ namespace Signorini
     {
       /// Nine numbers a block, see RoundedSweep::blocks.
       const float *blocks;
-      /// Position of the first lower block of a row in the matrix. Here those positions begin with zero, and
-      /// with an inverse behind each row.
-      const std::size_t  *lower_start;
+      /// By position in the order: the first entry of a row in `columns`. In `blocks` those entries begin
+      /// with zero, and with an inverse behind each row.
+      const std::size_t *lower_start;
+      /// Positions.
       const unsigned int *columns;
-      /// Of node 0.
+      /// Of position 0.
       float *values, *reduced;
       double value_unit;
+      /// The row of each position.
+      const unsigned int *order;
     };
 
   private:
     Arrays arrays();
+    void   order_columns();
+    void   update_ghost_couplings();
+    void   find_unit(const double largest_value);
 
-    const NodeBlockMatrix &matrix;
+    /// Where a row is in the order.
+    unsigned int position(const unsigned int row) const
+    {
+      return positions.empty() ? row : positions[row];
+    }
+
+    const NodeBlockMatrix           &matrix;
+    const std::vector<unsigned int> &order;
+    /// Empty if the order is that of the numbers; then the matrix' own arrays of lower parts are used.
+    std::vector<unsigned int> positions, own_columns;
+    std::vector<std::size_t>  own_lower_start;
+    /// Of NodeBlockMatrix::ghost_column(), one column after the other; nine numbers, column by column.
+    std::vector<float>        ghost_blocks;
+    std::vector<unsigned int> ghost_positions;
     /// A row: its lower blocks two by two, side by side (three rows of six numbers), the last one alone, as
     /// well as the one before if it is left over; then the inverse diagonal block, column by column.
     std::unique_ptr<float[]> blocks;
@@ -118,6 +148,8 @@ namespace Signorini
     /// Powers of two by which matrix, values and right hand side are divided: single precision has a small
     /// range.
     double matrix_unit = 1., value_unit = 1., rhs_unit = 1.;
+    /// Whether there was anything on this rank that gives the unit of values.
+    bool has_unit = false;
   };
 } // namespace Signorini
 

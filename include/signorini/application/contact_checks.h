@@ -8,8 +8,7 @@
 
 namespace Signorini
 {
-  /// The pairs of a mesh with their couplings, before they are joined. References to what it is made of; the
-  /// same on all ranks but for the spaces.
+  /// The pairs of a mesh with their couplings, before they are joined. References to what it is made of.
   struct CoupledPairs
   {
     /// The problem, its space and conditions on this mesh.
@@ -20,16 +19,16 @@ namespace Signorini
     const std::vector<PairCoupling> &couplings;
   };
 
-  /// Why the choice of the nonmortar side of a pair should be turned round, if it may be: the part of it that
-  /// could carry no contact stress, in words. Empty if it should not.
-  std::string reason_to_turn(const ContactPair &pair, const PairCoupling &coupling);
+  /// Collective. Why the choice of the nonmortar side of a pair should be turned round, if it may be: the
+  /// part of it that could carry no contact stress, in words. Empty if it should not.
+  std::string reason_to_turn(const ContactPair &pair, const PairCoupling &coupling, const MPI_Comm comm);
 
-  /// Errors: InputError for pairs of which conditions or other pairs take away the multipliers, and for
-  /// prescribed displacements that make both sides overlap.
+  /// Collective. Errors: InputError for pairs of which conditions or other pairs take away the multipliers,
+  /// and for prescribed displacements that make both sides overlap.
   void refuse_lost_contact(const CoupledPairs &coupled);
 
-  /// Errors: InputError for nonmortar surfaces so much coarser than their partners that their rows would fill
-  /// the matrix.
+  /// Collective. Errors: InputError for nonmortar surfaces so much coarser than their partners that their
+  /// rows would fill the matrix.
   void refuse_dense_coupling(const CoupledPairs &coupled);
 
   /// The smallest distance of two surfaces: its length along the normal, negative where they overlap, and

@@ -23,7 +23,7 @@ namespace Signorini
     dealii::Point<3> point;
   };
 
-  /// Multipliers of one pair, per row of its own coupling.
+  /// Multipliers of one pair, per row of its own coupling on this rank.
   ContactStress stress_of_pair(const Discretization &discretization, const ContactStress &stress,
                                const unsigned int pair);
 
@@ -42,7 +42,8 @@ namespace Signorini
   PairResult evaluate_pair(const Discretization &discretization, const ContactSolution &solution,
                            const unsigned int pair);
 
-  /// Pressures at the contact nodes of one pair.
+  /// Collective. Pressures at the contact nodes of one pair, in the order of the nodes; the same on all
+  /// ranks.
   std::vector<PressureRow> pressure_rows(const Discretization &discretization, const ContactStress &stress,
                                          const unsigned int pair);
 

@@ -51,7 +51,9 @@ namespace Signorini
     std::shared_ptr<const ContactMapping> mapping;
     /// Seconds it took.
     double mapping_time = 0.;
-    /// Integrals over the overlay of this rank's nonmortar faces.
+    /// How the ranks share the nonmortar side.
+    std::shared_ptr<const SurfaceHalo> halo;
+    /// Integrals over own and ghost faces of the nonmortar side, sorted by face.
     std::vector<FaceMoments> moments;
     /// Gap (length) at points of the nonmortar surface; empty for that of the geometry.
     GapFunction prescribed_gap;
@@ -111,7 +113,8 @@ namespace Signorini
 
     /// Of all pairs, joined: rows by contact node, sorted, the same on all ranks.
     InterfaceCoupling coupling;
-    /// Per pair and row of its coupling the row of the joined one; rows of a pair stay in order.
+    /// Per pair and row of its coupling, of this rank, the row of the joined one; rows of a pair stay in
+    /// order.
     std::vector<std::vector<std::size_t>> rows_of_pair;
     /// Per row of the joined coupling: A_p with the normal, gap, whether the pair is tied (û_p = 0) instead
     /// of in contact.

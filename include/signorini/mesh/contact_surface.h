@@ -29,6 +29,8 @@ namespace Signorini
       std::array<unsigned int, 4> corners;
       /// The rank that owns the cell.
       unsigned int owner;
+      /// The rank that maps the face and integrates over it (share_faces()).
+      unsigned int worker;
       unsigned int n_corners = 4;
       /// Of the boundary that the face belongs to.
       dealii::types::boundary_id boundary = dealii::numbers::invalid_boundary_id;

@@ -36,7 +36,7 @@ namespace Signorini
 
   /// F_non,j = -sum_k D_kj lambda_k n_k and F_mor,q = +sum_k M_kq lambda_k n_k (doc/algorithm.md, (20)). The
   /// sums of both sides cancel to rounding, the moments up to sum_k lambda_k int psi_k (x - Phi(x)) x n_k.
-  /// Replicated, no communication.
+  /// Of the rows of this rank: those of all ranks add up.
   /// @param traction contact stress, lambda_k n_k or any (force per area), in the order of the rows of the
   /// pair
   ContactForces compute_contact_forces(const ContactSurface &nonmortar, const ContactSurface &mortar,
@@ -50,19 +50,21 @@ namespace Signorini
     double smallest_share = .05;
   };
 
-  /// A smoother contact pressure than the multipliers, by vertex of the nonmortar surface: the means
-  /// int phi_v lambda_h / int phi_v over the covered part, with lambda_h = sum lambda_p phi_p. The total
-  /// force and constants stay, what jumps from node to node goes. Vertices without a multiplier do not count;
-  /// without any near them the mean is zero.
+  /// Collective. A smoother contact pressure than the multipliers, by vertex of the nonmortar surface: the
+  /// means int phi_v lambda_h / int phi_v over the covered part, with lambda_h = sum lambda_p phi_p. The
+  /// total force and constants stay, what jumps from node to node goes. Vertices without a multiplier do not
+  /// count; without any near them the mean is zero. Given at the vertices of this rank and at the corners of
+  /// its faces.
+  /// @param moments of own and ghost faces
   /// @param pressure per row of the pair
-  std::vector<double> recover_pressure(const ContactSurface           &nonmortar,
+  std::vector<double> recover_pressure(const ContactSurface &nonmortar, const SurfaceHalo &halo,
                                        const std::vector<FaceMoments> &moments, const PairCoupling &pair,
                                        const std::vector<double> &pressure);
 
-  /// The contact stress on the mortar side, by vertex of its surface: sum_p M_pq lambda_p n_p / sum_p M_pq
-  /// (force per area), zero where nothing is covered.
+  /// Collective. The contact stress on the mortar side, by vertex of its surface: sum_p M_pq lambda_p n_p /
+  /// sum_p M_pq (force per area), zero where nothing is covered.
   std::vector<Vector3> mortar_stress(const ContactSurface &mortar, const PairCoupling &pair,
-                                     const std::vector<Vector3> &traction);
+                                     const std::vector<Vector3> &traction, const MPI_Comm communicator);
 } // namespace Signorini
 
 #endif

@@ -38,8 +38,8 @@ namespace Signorini
   /// A gap (length) prescribed at points of the nonmortar surface; empty for the geometric one.
   using GapFunction = ScalarField;
 
-  /// Collective. Moments of all faces of the nonmortar surface, sorted by face, the same on all ranks; those
-  /// of uncovered faces hold the area only.
+  /// Moments of the faces of the nonmortar surface that this rank works on (ContactSurface::Face::worker),
+  /// sorted by face; those of uncovered faces hold the area only.
   ///
   /// Pairs of parallelograms are integrated exactly (degree 4 on every overlay triangle), other faces and
   /// prescribed gaps by a collapsed 8x8 Gauss rule (doc/algorithm.md, chapter 3, moments).
@@ -52,9 +52,9 @@ namespace Signorini
   /// The vector (length) from a point to its image in the direction of a unit normal; false if there is none.
   using ImageFunction = std::function<bool(Vector3 &, const dealii::Point<3> &, const Vector3 &)>;
 
-  /// Collective. The moments of all faces where the images (of points of the true surface) are given by a
-  /// function and nothing moves on the other side: no coupling. Normals are linear on triangles. A triangle
-  /// with a quadrature point without image counts as uncovered.
+  /// The same where the images (of points of the true surface) are given by a function and nothing moves on
+  /// the other side: no coupling. Normals are linear on triangles. A triangle with a quadrature point without
+  /// image counts as uncovered.
   std::vector<FaceMoments> compute_face_moments(const ContactSurface &nonmortar, const ImageFunction &image,
                                                 const MPI_Comm communicator);
 } // namespace Signorini

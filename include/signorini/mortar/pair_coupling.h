@@ -7,6 +7,7 @@
 #include <signorini/algebra/interface_coupling.h>
 #include <signorini/algebra/row_projection.h>
 #include <signorini/mortar/face_moments.h>
+#include <signorini/mortar/surface_halo.h>
 
 #include <set>
 #include <string>
@@ -26,6 +27,8 @@ namespace Signorini
       thin_cover,
       large_row
     };
+    /// Number of reasons.
+    static constexpr unsigned int n_reasons = 5;
 
     /// Which node, where (length), and why.
     NodeIndex        node;
@@ -54,12 +57,12 @@ namespace Signorini
     double smallest_free_normal = .25;
   };
 
-  /// D, M, S = D^-1 M and the weighted gap of one contact pair (doc/algorithm.md, (12) to (17)), the same on
-  /// all ranks.
+  /// D, M, S = D^-1 M and the weighted gap of one contact pair (doc/algorithm.md, (12) to (17)): the rows of
+  /// the vertices that belong to this rank (SurfaceHalo), and what it knows of its own faces.
   struct PairCoupling
   {
-    /// Rows: the nodes K. Entries: M_kq/D_kk for mortar nodes and -D_kr/D_kk for nodes in R; weight D_kk
-    /// (area).
+    /// Rows: the nodes K of this rank. Entries: M_kq/D_kk for mortar nodes and -D_kr/D_kk for nodes in R;
+    /// weight D_kk (area).
     InterfaceCoupling coupling;
     /// In the order of the rows: outward unit normal n_p; weighted gap
     /// g_p = (1/D_pp) int psi_p (Phi(x) - x)·n_p (length); position; int psi_p (area; not D_pp beside nodes
@@ -72,7 +75,7 @@ namespace Signorini
     std::vector<double>           shares;
     std::vector<FixedDirections>  fixed;
     std::vector<unsigned int>     vertices;
-    /// Nodes of the columns that belong to the nonmortar surface (the set R), sorted.
+    /// Nodes of these columns that belong to the nonmortar surface (the set R), sorted.
     std::vector<NodeIndex> r_nodes;
 
     /// The mean gap in reach of a row that belongs to a value g_p or to an opening g_p - n·û_p (lengths):
@@ -83,42 +86,87 @@ namespace Signorini
       return areas[row] > .1 * weight ? value * weight / areas[row] : value;
     }
 
-    /// Nodes without a multiplier.
+    /// A face of which no node has a multiplier although it is covered, and what took them away.
+    struct LostFace
+    {
+      /// Index into ContactSurface::faces.
+      unsigned int        face;
+      DroppedNode::Reason reason;
+    };
+
+    /// This rank's nodes without a multiplier, and its faces without any.
     std::vector<DroppedNode> dropped;
-    /// Areas: of the nonmortar surface, of its covered part, and of the covered part without any multiplier.
+    std::vector<LostFace>    lost_faces;
+    /// Areas, over all ranks: of the nonmortar surface, of its covered part, and of the covered part without
+    /// any multiplier.
     double area = 0., covered_area = 0., lost_area = 0.;
+    /// Number of rows of all ranks.
+    std::size_t n_rows_of_all = 0;
   };
 
-  /// The coupling of one pair from its face moments. Not collective: the same input gives the same result,
-  /// bit by bit, on all ranks.
+  /// Collective. The coupling of one pair from the moments of own and ghost faces
+  /// (SurfaceHalo::add_ghosts()). A row is the same, bit by bit, on any number of ranks.
   /// @param excluded nodes that must not carry a multiplier because of another pair (excluded_nodes())
   /// @param prescribed_gap whether the moments hold gap values instead of vectors
+  PairCoupling couple(const ContactSurface &nonmortar, const ContactSurface &mortar, const SurfaceHalo &halo,
+                      const std::vector<FaceMoments> &moments, const std::set<NodeIndex> &excluded,
+                      const bool prescribed_gap, const DroppingRule &rule = {});
+
+  /// Collective. Largest distance of a row's node from that of the first row of all ranks (length).
+  double width_of_rows(const PairCoupling &pair, const MPI_Comm communicator);
+
+  /// couple() of a surface that belongs to this rank alone.
   PairCoupling couple(const ContactSurface &nonmortar, const ContactSurface &mortar,
                       const std::vector<FaceMoments> &moments, const std::set<NodeIndex> &excluded,
                       const bool prescribed_gap, const DroppingRule &rule = {});
 
-  /// Nodes (conforming) of either side that the covered part of a pair touches.
+  /// Collective. Values of the rows of all ranks by vertex of the nonmortar surface: at the vertices of this
+  /// rank and the corners of its own and ghost faces; T() where there is no row.
+  template <typename T>
+  std::vector<T> spread_rows(const PairCoupling &pair, const SurfaceHalo &halo, const std::vector<T> &values)
+  {
+    std::vector<T> result(halo.n_vertices());
+    for (std::size_t row = 0; row < values.size(); ++row)
+      result[pair.vertices[row]] = values[row];
+    halo.update(result);
+    return result;
+  }
+
+  /// Nodes (conforming) of either side that the covered part of this rank's faces touches.
   std::set<NodeIndex> touched_nonmortar_nodes(const ContactSurface           &nonmortar,
                                               const std::vector<FaceMoments> &moments);
   std::set<NodeIndex> touched_mortar_nodes(const ContactSurface           &mortar,
                                            const std::vector<FaceMoments> &moments);
 
-  /// For each pair the nodes that must not carry a multiplier there, given the nodes that all pairs touch:
-  /// those that are mortar in any pair, or nonmortar in another one. With these, join_couplings() cannot
-  /// fail.
+  /// Collective. For each pair those of its touched nonmortar nodes that must not carry a multiplier there,
+  /// given the nodes that all pairs touch on this rank: what is mortar in any pair, or nonmortar in another
+  /// one, on any rank. With these, join_couplings() cannot fail.
   ///
   /// A node that is nonmortar in two pairs carries a multiplier in none of them: the second pair needs it as
   /// a column (set R), and no column may be a row (S² = 0, doc/algorithm.md, (16)).
   std::vector<std::set<NodeIndex>> excluded_nodes(const std::vector<std::set<NodeIndex>> &touched_nonmortar,
-                                                  const std::vector<std::set<NodeIndex>> &touched_mortar);
+                                                  const std::vector<std::set<NodeIndex>> &touched_mortar,
+                                                  const MPI_Comm                          communicator);
 
-  /// Joins the couplings of all pairs, rows sorted by node. Returns for each row (pair, row in the pair).
+  /// The rows of all pairs, sorted by node.
+  struct JoinedCouplings
+  {
+    /// S and D of all pairs.
+    InterfaceCoupling coupling;
+    /// By row: the pair it comes from, and as in PairCoupling.
+    std::vector<unsigned int>     pairs;
+    std::vector<Vector3>          normals;
+    std::vector<double>           gaps;
+    std::vector<FixedDirections>  fixed;
+    std::vector<dealii::Point<3>> positions;
+  };
+
+  /// Collective. Joins the couplings of all pairs and ranks, on all ranks.
   /// @param names of the pairs, for messages; numbers if left out
   /// Errors: InputError naming the pairs if a node is a row twice, or a row of one pair and a column of
   /// another (S² is not 0, the pairs form a chain or a cycle).
-  std::vector<std::pair<unsigned int, std::size_t>>
-  join_couplings(InterfaceCoupling &joined, const std::vector<PairCoupling> &pairs,
-                 const std::vector<std::string> &names = {});
+  JoinedCouplings join_couplings(const std::vector<PairCoupling> &pairs,
+                                 const std::vector<std::string> &names, const MPI_Comm communicator);
 } // namespace Signorini
 
 #endif

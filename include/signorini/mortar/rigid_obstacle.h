@@ -93,7 +93,7 @@ namespace Signorini
   /// The images of points of a surface on an obstacle, both of which must outlive the function.
   ImageFunction rigid_images(const ContactSurface &surface, const RigidObstacle &obstacle);
 
-  /// Collective. The moments of all faces against an obstacle, as compute_face_moments() has them against a
+  /// The moments of this rank's faces against an obstacle, as compute_face_moments() has them against a
   /// surface. The gap is measured along the linear field of vertex normals. A triangle of which a part does
   /// not see the obstacle, or not face it (RigidObstacle::is_faced()), counts as uncovered.
   std::vector<FaceMoments> compute_rigid_moments(const ContactSurface &surface, const RigidObstacle &obstacle,

@@ -10,10 +10,10 @@
 namespace Signorini
 {
   /// The sweeps of a multigrid cycle: those of ProjectedGaussSeidel in single precision (RoundedSweep) but
-  /// for what must not be rounded: rows that are not ordered, and the right hand side of rows with a
-  /// half-space, which at an active node is the contact force. For corrections, and right hand sides that go
-  /// to zero with them. Calls come in this order: start(), sweeps and changes by others, then the residual,
-  /// if the last sweep has kept it.
+  /// for rows with a half-space, whose right hand side must not be rounded (at an active node it is the
+  /// contact force), and for damped rows. For corrections, and right hand sides that go to zero with them.
+  /// Calls come in this order: start(), sweeps and changes by others, then the residual, if the last sweep
+  /// has kept it.
   class RoundedGaussSeidel
   {
   public:
@@ -23,29 +23,39 @@ namespace Signorini
     /// Rows of the matrix, and the sweeps in double precision, have changed.
     void update(const std::vector<unsigned int> &rows);
 
-    /// Takes v and a right hand side. If v is not zero the first sweep must go backward and pass all on.
+    /// Takes v, with ghost values, and a right hand side. If v is not zero the first sweep must go backward
+    /// and pass all on.
     void start(const Vector &v, const Vector &rhs, const ContactState &contact);
 
-    /// Collective. One sweep over all rows.
+    /// Collective. One sweep over all rows. Ghost values of v are up to date afterwards.
     void sweep(Vector &v, const Vector &rhs, ContactState &contact, const RoundedSweep::Options &options);
 
-    /// A row that others have changed by `change` (three numbers); passed on unless a first sweep follows
-    /// that passes all on.
-    void follow(const Vector &v, const unsigned int row, const double *change, const bool passes_on);
+    /// A local node that others have changed by `change` (three numbers); passed on unless a first sweep
+    /// follows that passes all on.
+    void follow(const Vector &v, const unsigned int node, const double *change, const bool passes_on);
 
-    /// The residual in ordered rows after a sweep that has kept it.
+    /// The residual after a sweep that has kept it.
     void get_residual(Vector &residual, const ContactState &contact) const;
 
   private:
+    /// Rows that are not visited by RoundedSweep.
+    bool is_apart(const unsigned int row, const ContactState &contact) const
+    {
+      return contact.at(row) >= 0 || exact.damping()[row] < 1.;
+    }
+
+    /// One of the ranges of the schedule.
+    void relax(Vector &v, const Vector &rhs, const std::size_t begin, const std::size_t end,
+               ContactState &contact, const RoundedSweep::Options &options);
     void relax_apart(Vector &v, const Vector &rhs, const unsigned int row, ContactState &contact,
                      const RoundedSweep::Options &options);
-    void relax_half_space(double *y, const double *rhs, const unsigned int row, ContactState &contact,
-                          const bool keeps_residual);
+    void keep_residual(const std::array<double, 3> &residual, const unsigned int row,
+                       const ContactState &contact);
 
     const NodeBlockMatrix      &matrix;
     const ProjectedGaussSeidel &exact;
     RoundedSweep                rounded;
-    /// Of relax_half_space(), by half-space.
+    /// By half-space.
     std::vector<Vector3> contact_residual;
   };
 } // namespace Signorini

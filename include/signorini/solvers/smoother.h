@@ -48,7 +48,7 @@ namespace Signorini
     virtual void smooth_to_residual(Vector &v, const Vector &rhs, ContactState &contact,
                                     const SmoothingParameters &parameters, Vector *const residual);
 
-    /// Not collective. Rows of the matrix have changed, of which a smoother may keep something.
+    /// Collective. Rows of the matrix have changed, of which a smoother may keep something.
     virtual void update(const std::vector<unsigned int> &)
     {
     }
@@ -84,7 +84,8 @@ namespace Signorini
 
     virtual ~SmoothingStage() = default;
 
-    /// Collective. One run. The energy never rises, half-spaces are kept.
+    /// Collective. One run. The energy never rises, half-spaces are kept. Ghost values of v are up to date
+    /// before and after it.
     virtual void run(Vector &v, const Vector &rhs, ContactState &contact, const Direction direction) = 0;
 
     /// The owned rows that a run may change.
@@ -93,12 +94,13 @@ namespace Signorini
     /// Collective. A run forward that subtracts A times the change of v from a residual.
     virtual void run_with_residual(Vector &v, const Vector &rhs, ContactState &contact, Vector &residual);
 
-    /// Rows of the matrix have changed.
+    /// Collective. Rows of the matrix have changed.
     virtual void update(const std::vector<unsigned int> &)
     {
     }
 
-    /// A run, then follow(row, change) for each row, with the three numbers by which it has changed.
+    /// Collective. A run, then follow(node, change) for each row and each ghost that has changed, with its
+    /// local number and the three numbers by which it has changed.
     template <typename Follow>
     void run_and_follow(Vector &v, const Vector &rhs, ContactState &contact, const Direction direction,
                         const Follow &follow);
@@ -108,8 +110,8 @@ namespace Signorini
     const NodeBlockMatrix &matrix;
   };
 
-  /// residual -= A (change of an owned row); also in rows of ghosts, where nobody reads it.
-  void subtract_change(double *residual, const NodeBlockMatrix &matrix, const unsigned int row,
+  /// residual -= A (change of a local node), at owned nodes; what it leaves at ghosts has no meaning.
+  void subtract_change(double *residual, const NodeBlockMatrix &matrix, const unsigned int node,
                        const double *change);
 
 
@@ -118,8 +120,10 @@ namespace Signorini
   void SmoothingStage::run_and_follow(Vector &v, const Vector &rhs, ContactState &contact,
                                       const Direction direction, const Follow &follow)
   {
-    const std::vector<unsigned int> &changed = rows();
-    std::vector<double>              old(dim * changed.size());
+    std::vector<unsigned int> changed = rows();
+    for (unsigned int node = matrix.n_rows(); node < matrix.partition().n_local(); ++node)
+      changed.push_back(node);
+    std::vector<double> old(dim * changed.size());
     for (std::size_t r = 0; r < changed.size(); ++r)
       for (unsigned int c = 0; c < dim; ++c)
         old[dim * r + c] = v.local_element(dim * changed[r] + c);
@@ -129,7 +133,8 @@ namespace Signorini
         double change[dim];
         for (unsigned int c = 0; c < dim; ++c)
           change[c] = v.local_element(dim * changed[r] + c) - old[dim * r + c];
-        follow(changed[r], change);
+        if (change[0] != 0. || change[1] != 0. || change[2] != 0.)
+          follow(changed[r], change);
       }
   }
 } // namespace Signorini

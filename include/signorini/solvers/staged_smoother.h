@@ -38,9 +38,9 @@ namespace Signorini
       sweeps.sweep(v, rhs, contact, direction, schedule);
     }
 
-    void run_with_residual(Vector &v, const Vector &rhs, ContactState &contact, Vector &residual) override
+    void run_with_residual(Vector &v, const Vector &, ContactState &contact, Vector &residual) override
     {
-      sweeps.sweep_with_residual(v, rhs, contact, schedule, residual);
+      sweeps.sweep_with_residual(v, contact, schedule, residual);
     }
 
     const std::vector<unsigned int> &rows() const override

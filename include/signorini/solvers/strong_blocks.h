@@ -39,6 +39,12 @@ namespace Signorini
                  const Choice choice = Choice::stretched_cells);
     ~StrongBlocks() override;
 
+    /// Whether there are none on any rank.
+    bool empty() const
+    {
+      return is_empty;
+    }
+
     /// Collective. Drops the blocks that have none but the given local nodes: something else solves those at
     /// once.
     void drop_within(const std::vector<bool> &nodes);
@@ -73,23 +79,23 @@ namespace Signorini
     void   find_patches();
     /// The nodes of a patch, from one node on.
     std::vector<unsigned int> grow_patch(const unsigned int start, const std::vector<double> &diagonal) const;
-    /// The first one in which a row of a block is swept: with a node that other ranks see it waits for the
-    /// turn of this rank.
-    unsigned int              phase_of(const std::vector<unsigned int> &rows,
-                                       const std::vector<unsigned int> &phase_of_row) const;
-    std::vector<unsigned int> phases_of_rows() const;
-    void                      add_block(std::vector<unsigned int> &&rows, const unsigned int phase);
-    /// After blocks were added or dropped.
-    void collect_rows();
+    void                      add_block(std::vector<unsigned int> &&rows);
+    /// Collective. After blocks were added or dropped.
+    void make_schedule();
+    /// The first one in which a row that other ranks see is swept.
+    SweepSchedule::Item visit_of(const unsigned int block) const;
+    /// Collective. By how much the diagonals of blocks grow that clash with blocks of other ranks.
+    void damp();
     void factorize(Block &block, const ContactState &contact);
     void relax(Vector &v, const Vector &rhs, Block &block, const ContactState &contact);
 
     const ProjectedGaussSeidel &sweeps;
-    /// Whether there are none on any rank.
-    bool               is_empty = true;
-    std::vector<Block> blocks;
-    /// Blocks of each phase of the schedule.
-    std::vector<std::vector<unsigned int>> phases;
+    bool                        is_empty = true;
+    std::vector<Block>          blocks;
+    /// Of blocks; those that were dropped are not in it.
+    SweepSchedule schedule;
+    /// For each local node the phases in which a block changes it, bit c for phase c.
+    std::vector<unsigned char> phases_of_node;
     /// Of each owned row; blocks may overlap.
     std::vector<std::vector<unsigned int>> blocks_of_row;
     /// Of each owned row in the block at hand, or -1.

@@ -31,7 +31,7 @@ namespace Signorini
   double sweep_rate(const NodeBlockMatrix &matrix, const ProjectedGaussSeidel &sweeps,
                     const SweepSchedule &rows, const SlowSweepsRule &rule);
 
-  /// The same over rows that have no rows of other ranks beside them; not collective.
+  /// The same while the rows of other ranks are at rest; not collective.
   /// @param zero a vector of zeros in the layout of the matrix, which is left as it was
   double sweep_rate(const NodeBlockMatrix &matrix, const ProjectedGaussSeidel &sweeps,
                     const std::vector<unsigned int> &rows, const SlowSweepsRule &rule, Vector &zero);

@@ -81,6 +81,8 @@ namespace Signorini
   /// The vertices along a space-filling curve (Morton order): neighbours follow soon after each other, so
   /// that what is visited in this order finds its data in the cache.
   std::vector<unsigned int> spatial_order(const SurfaceMesh &mesh);
+  /// Any points along such a curve.
+  std::vector<unsigned int> spatial_order(const std::vector<dealii::Point<3>> &points);
 
   /// A place on a surface: at a vertex, on an edge, or inside of a triangle. Decided once and kept, so that
   /// everything that is built on it agrees.

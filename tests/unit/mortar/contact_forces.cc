@@ -80,7 +80,7 @@ TEST(ContactForces, RecoveredPressureKeepsConstantsAndForceAndHidesNoSliver)
   const auto moments = compute_face_moments(s.non, s.mor, make_overlay(s.non, s.mor), {}, MPI_COMM_SELF);
   const auto pair    = couple(s.non, s.mor, moments, {}, false, DroppingRule{1e-12, 1e12});
   std::vector<double> pressure(pair.gaps.size(), 3.);
-  for (const double p : recover_pressure(s.non, moments, pair, pressure))
+  for (const double p : recover_pressure(s.non, SurfaceHalo(s.non, MPI_COMM_SELF), moments, pair, pressure))
     EXPECT_TRUE(std::abs(p - 3.) < 1e-12 || p == 0.) << p;
   double force = 0., peak = 0.;
   for (std::size_t row = 0; row < pressure.size(); ++row)
@@ -89,7 +89,7 @@ TEST(ContactForces, RecoveredPressureKeepsConstantsAndForceAndHidesNoSliver)
       pressure[row]        = is_sliver ? 500. : 2. + pair.positions[row][1];
       force += pressure[row] * pair.areas[row];
     }
-  const auto recovered = recover_pressure(s.non, moments, pair, pressure);
+  const auto recovered = recover_pressure(s.non, SurfaceHalo(s.non, MPI_COMM_SELF), moments, pair, pressure);
   double     sum       = 0.;
   for (const FaceMoments &m : moments)
     for (unsigned int a = 0; a < 4; ++a)
@@ -107,7 +107,7 @@ TEST(ContactForces, StressOnTheMortarSide)
   const auto moments = compute_face_moments(s.non, s.mor, make_overlay(s.non, s.mor), {}, MPI_COMM_SELF);
   const auto pair    = couple(s.non, s.mor, moments, {}, false);
   std::vector<Vector3> traction(pair.gaps.size(), Point<3>(.5, 0., 2.));
-  for (const Vector3 &t : mortar_stress(s.mor, pair, traction))
+  for (const Vector3 &t : mortar_stress(s.mor, pair, traction, MPI_COMM_SELF))
     EXPECT_LT((t - Point<3>(.5, 0., 2.)).norm(), 1e-12);
 }
 

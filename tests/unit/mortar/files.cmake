@@ -1,7 +1,8 @@
-signorini_add_unit_tests(mortar RANKS "1;2"
+signorini_add_unit_tests(mortar RANKS "1;2;3;4;8"
   contact_forces.cc
   dual_basis.cc
   face_moments.cc
+  interface_parts.cc
   pair_conflicts.cc
   rigid_obstacle.cc
   two_step_rule.cc

@@ -63,7 +63,8 @@ namespace FlatSurfaces
           std::array<unsigned int, 4> corners;
           for (unsigned int a = 0; a < 4; ++a)
             corners[a] = vertex(quad[grid.faces_up ? a : (4 - a) % 4]);
-          surface.faces.push_back({corners, static_cast<unsigned int>(surface.faces.size() % grid.n_ranks)});
+          const auto rank = static_cast<unsigned int>(surface.faces.size() % grid.n_ranks);
+          surface.faces.push_back({corners, rank, rank});
         }
       const std::size_t n = surface.mesh.vertices.size();
       surface.hanging.resize(n);
@@ -225,7 +226,7 @@ namespace FlatSurfaces
       windows.push_back(triangle(mor, m));
     for (unsigned int t = 0; t < non.mesh.triangles.size(); ++t)
       {
-        if (rank >= 0 && static_cast<int>(non.faces[non.triangle_face[t]].owner) != rank)
+        if (rank >= 0 && static_cast<int>(non.faces[non.triangle_face[t]].worker) != rank)
           continue;
         const Polygon own  = triangle(non, t);
         const double  size = cross(own[0], own[1], own[2]);

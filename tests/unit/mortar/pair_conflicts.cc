@@ -35,7 +35,7 @@ namespace
         nonmortar.push_back(touched_nonmortar_nodes(pair.non, pair.moments));
         mortar.push_back(touched_mortar_nodes(pair.mor, pair.moments));
       }
-    const auto                excluded = excluded_nodes(nonmortar, mortar);
+    const auto                excluded = excluded_nodes(nonmortar, mortar, MPI_COMM_SELF);
     std::vector<PairCoupling> couplings;
     for (std::size_t p = 0; p < pairs.size(); ++p)
       couplings.push_back(couple(pairs[p].non, pairs[p].mor, pairs[p].moments,
@@ -65,18 +65,19 @@ namespace
 
 TEST(PairConflicts, SharedNodesLoseTheirMultiplier)
 {
-  const auto        pairs     = neighbours();
-  const auto        couplings = couple_all(pairs, true);
-  InterfaceCoupling joined;
-  const auto        origin = join_couplings(joined, couplings, {"left", "right"});
+  const auto  pairs     = neighbours();
+  const auto  couplings = couple_all(pairs, true);
+  const auto  all       = join_couplings(couplings, {"left", "right"}, MPI_COMM_SELF);
+  const auto &joined    = all.coupling;
   ASSERT_EQ(joined.n_rows(), 24u);
   for (std::size_t row = 0; row < joined.n_rows(); ++row)
     {
-      const auto &[p, i] = origin[row];
-      EXPECT_EQ(joined.rows[row], couplings[p].coupling.rows[i]);
-      EXPECT_EQ(joined.weight[row], couplings[p].coupling.weight[i]);
-      EXPECT_EQ(joined.end(row) - joined.begin(row),
-                couplings[p].coupling.end(i) - couplings[p].coupling.begin(i));
+      const auto          &pair = couplings[all.pairs[row]];
+      const std::ptrdiff_t i    = pair.coupling.find(joined.rows[row]);
+      ASSERT_GE(i, 0);
+      EXPECT_EQ(joined.weight[row], pair.coupling.weight[i]);
+      EXPECT_EQ(all.gaps[row], pair.gaps[i]);
+      EXPECT_EQ(joined.end(row) - joined.begin(row), pair.coupling.end(i) - pair.coupling.begin(i));
     }
   for (std::size_t p = 0; p < 2; ++p)
     {
@@ -97,10 +98,9 @@ TEST(PairConflicts, SharedNodesLoseTheirMultiplier)
 
 TEST(PairConflicts, SharedRowsAreAnError)
 {
-  InterfaceCoupling joined;
   try
     {
-      join_couplings(joined, couple_all(neighbours(), false), {"left", "right"});
+      join_couplings(couple_all(neighbours(), false), {"left", "right"}, MPI_COMM_SELF);
       FAIL();
     }
   catch (const InputError &error)
@@ -113,12 +113,11 @@ TEST(PairConflicts, SharedRowsAreAnError)
 
 TEST(PairConflicts, CyclesAreAnError)
 {
-  const auto        below = surface({3, 3}, 0, true), above = surface({2, 2}, 1000, false);
-  const auto        couplings = couple_all({Pair(below, above), Pair(above, below)}, false);
-  InterfaceCoupling joined;
+  const auto below = surface({3, 3}, 0, true), above = surface({2, 2}, 1000, false);
+  const auto couplings = couple_all({Pair(below, above), Pair(above, below)}, false);
   try
     {
-      join_couplings(joined, couplings, {"up", "down"});
+      join_couplings(couplings, {"up", "down"}, MPI_COMM_SELF);
       FAIL();
     }
   catch (const InputError &error)
@@ -133,23 +132,20 @@ TEST(PairConflicts, CyclesAreAnError)
 // that belong to both of its sides (none here) would be excluded.
 TEST(PairConflicts, ChainOfBodiesWithoutCommonNodes)
 {
-  const auto        couplings = couple_all({Pair(surface({3, 3}, 0, true), surface({2, 2}, 100, false)),
-                                            Pair(surface({4, 4}, 200, true), surface({3, 3}, 300, false))},
-                                           true);
-  InterfaceCoupling joined;
-  join_couplings(joined, couplings);
-  EXPECT_EQ(joined.n_rows(), 16u + 25u);
+  const auto couplings = couple_all({Pair(surface({3, 3}, 0, true), surface({2, 2}, 100, false)),
+                                     Pair(surface({4, 4}, 200, true), surface({3, 3}, 300, false))},
+                                    true);
+  EXPECT_EQ(join_couplings(couplings, {}, MPI_COMM_SELF).coupling.n_rows(), 16u + 25u);
 }
 
 // A node that is mortar in another pair loses its multiplier.
 TEST(PairConflicts, MortarElsewhere)
 {
-  const auto        lower     = surface({3, 3}, 0, true);
-  const auto        upper     = surface({2, 2}, 1000, false);
-  const auto        third     = surface({5, 5, .4, 1., .4, 1.}, 2000, false);
-  const auto        couplings = couple_all({Pair(lower, upper), Pair(third, lower)}, true);
-  InterfaceCoupling joined;
-  join_couplings(joined, couplings, {"a", "b"});
+  const auto lower     = surface({3, 3}, 0, true);
+  const auto upper     = surface({2, 2}, 1000, false);
+  const auto third     = surface({5, 5, .4, 1., .4, 1.}, 2000, false);
+  const auto couplings = couple_all({Pair(lower, upper), Pair(third, lower)}, true);
+  join_couplings(couplings, {"a", "b"}, MPI_COMM_SELF);
   // 9 of the 16 nodes of `lower` are corners of faces under `third`.
   EXPECT_EQ(couplings[0].coupling.n_rows(), 7u);
   EXPECT_EQ(couplings[1].coupling.n_rows(), 36u);

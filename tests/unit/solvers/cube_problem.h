@@ -22,23 +22,30 @@ namespace CubeProblem
   /// A grid of n^3 cells on the unit cube, its nodes distributed in slabs.
   struct Grid
   {
-    explicit Grid(const unsigned int n)
+    /// With a stride other than 1, prime to (n + 1)^3, numbers are scattered: every node has neighbours on
+    /// most of the ranks.
+    explicit Grid(const unsigned int n, const unsigned int stride = 1)
       : n(n)
       , owned((n + 1) * (n + 1) * (n + 1))
+      , place(owned.size())
+      , number(owned.size())
     {
       const unsigned int size = Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
       const unsigned int rank = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
       const NodeIndex    all  = (n + 1) * (n + 1) * (n + 1);
       owned.add_range(all * rank / size, all * (rank + 1) / size);
+      for (NodeIndex p = 0; p < all; ++p)
+        place[number[p] = p * stride % all] = p;
     }
 
     NodeIndex node(const unsigned int i, const unsigned int j, const unsigned int k) const
     {
-      return (k * (n + 1) + j) * (n + 1) + i;
+      return number[(k * (n + 1) + j) * (n + 1) + i];
     }
 
-    std::array<unsigned int, 3> index(const NodeIndex node) const
+    std::array<unsigned int, 3> index(const NodeIndex numbered) const
     {
+      const NodeIndex node = place[numbered];
       return {{static_cast<unsigned int>(node % (n + 1)), static_cast<unsigned int>(node / (n + 1) % (n + 1)),
                static_cast<unsigned int>(node / ((n + 1) * (n + 1)))}};
     }
@@ -54,10 +61,14 @@ namespace CubeProblem
 
     unsigned int n;
     IndexSet     owned;
+
+  private:
+    /// In the order of layers, by number and the opposite.
+    std::vector<NodeIndex> place, number;
   };
 
-  /// Stiffness of E = 1, nu = 0.3; cells belong to the rank of their first node. The cube may be flattened.
-  inline NodeBlockMatrix stiffness(const Grid &grid, const double height = 1.)
+  /// Stiffness of E = 1; cells belong to the rank of their first node. The cube may be flattened.
+  inline NodeBlockMatrix stiffness(const Grid &grid, const double height = 1., const double nu = .3)
   {
     const unsigned int n     = grid.n;
     const NodeIndex    begin = grid.owned.nth_index_in_set(0), size = grid.owned.n_elements();
@@ -94,7 +105,7 @@ namespace CubeProblem
     for (unsigned int v = 0; v < 8; ++v)
       corners[v] = Point<3>((v & 1) / double(n), (v >> 1 & 1) / double(n), height * (v >> 2) / double(n));
     std::array<double, 576> k;
-    Hexahedron::stiffness(k, corners, {1., .3});
+    Hexahedron::stiffness(k, corners, {1., nu});
     for (const auto &cell : cells)
       for (unsigned int a = 0; a < 8; ++a)
         for (unsigned int b = 0; b < 8; ++b)
@@ -162,8 +173,10 @@ namespace CubeProblem
   inline LevelInterface contact_interface(const Grid &grid)
   {
     LevelInterface result;
-    for (NodeIndex p = 0; p < (grid.n + 1) * (grid.n + 1); ++p)
-      result.contact_nodes.push_back(p);
+    for (unsigned int i = 0; i <= grid.n; ++i)
+      for (unsigned int j = 0; j <= grid.n; ++j)
+        result.contact_nodes.push_back(grid.node(i, j, 0));
+    std::sort(result.contact_nodes.begin(), result.contact_nodes.end());
     return result;
   }
 

@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include "multiplier_nodes.h"
+
+#include <signorini/algebra/gathered_lists.h>
+#include <signorini/algebra/row_projection.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+
+namespace Signorini
+{
+  using namespace dealii;
+
+  MultiplierNodes::MultiplierNodes(const ContactSurface &surface, const SurfaceHalo &halo,
+                                   const std::vector<FaceMoments> &moments,
+                                   const std::set<NodeIndex> &excluded, const DroppingRule &rule)
+    : surface(surface)
+    , halo(halo)
+    , moments(moments)
+    , states(surface.vertex_node.size())
+  {
+    std::vector<double> covered(states.size(), 0.), full(covered);
+    for (const FaceMoments &m : moments)
+      for (unsigned int a = 0; a < 4; ++a)
+        {
+          const unsigned int v = surface.faces[m.face].corners[a];
+          full[v] += m.full[a];
+          if (!is_empty(m))
+            for (unsigned int b = 0; b < 4; ++b)
+              covered[v] += m.mass[4 * a + b];
+        }
+    for (unsigned int v = 0; v < states.size(); ++v)
+      {
+        State &state     = states[v];
+        state.is_covered = covered[v] > 0.;
+        state.is_touched = covered[v] > empty_share * full[v];
+        state.share      = full[v] > 0. ? covered[v] / full[v] : 0.;
+        if (is_hanging(v))
+          continue;
+        if (surface.vertex_fixed[v].all())
+          drop(v, DroppedNode::fixed);
+        else if (free_normal(v) < rule.smallest_free_normal)
+          drop(v, DroppedNode::normal_fixed);
+        else if (excluded.count(surface.vertex_node[v]) > 0)
+          drop(v, DroppedNode::other_pair);
+        else if (!(covered[v] > 0.) || covered[v] < rule.smallest_share * full[v])
+          drop(v, DroppedNode::thin_cover);
+      }
+    halo.update(states);
+  }
+
+
+
+  void MultiplierNodes::drop(const unsigned int v, const DroppedNode::Reason why)
+  {
+    states[v].in_r   = true;
+    states[v].reason = why;
+  }
+
+
+
+  bool MultiplierNodes::drop_rows(const std::vector<unsigned int> &rows)
+  {
+    for (const unsigned int v : rows)
+      drop(v, DroppedNode::large_row);
+    if (Utilities::MPI::sum(rows.size(), halo.communicator()) == 0)
+      return false;
+    halo.update(states);
+    return true;
+  }
+
+
+
+  bool MultiplierNodes::is_reported(const unsigned int v) const
+  {
+    return states[v].in_r && !is_hanging(v) && states[v].is_touched;
+  }
+
+
+
+  bool MultiplierNodes::all_in_r(const std::vector<unsigned int> &vertices) const
+  {
+    return std::all_of(vertices.begin(), vertices.end(),
+                       [&](const unsigned int v) { return states[v].in_r; });
+  }
+
+
+
+  std::vector<unsigned int> MultiplierNodes::parents(const unsigned int v) const
+  {
+    std::vector<unsigned int> result;
+    for (const auto &parent : surface.hanging[v])
+      result.push_back(parent.first);
+    return result;
+  }
+
+
+
+  std::vector<unsigned int> MultiplierNodes::corners(const FaceMoments &m) const
+  {
+    const auto &list = surface.faces[m.face].corners;
+    return {list.begin(), list.end()};
+  }
+
+
+
+  void MultiplierNodes::update_hanging()
+  {
+    for (unsigned int v = 0; v < states.size(); ++v)
+      if (is_hanging(v))
+        states[v].in_r = all_in_r(parents(v));
+  }
+
+
+
+  double MultiplierNodes::free_normal(const unsigned int v) const
+  {
+    return project_free(surface.vertex_fixed[v], surface.mesh.vertex_normals[v]).norm();
+  }
+
+
+
+  bool MultiplierNodes::may_return(const unsigned int v) const
+  {
+    const State &state = states[v];
+    return state.in_r && !is_hanging(v) && state.is_covered &&
+           (state.reason == DroppedNode::thin_cover || state.reason == DroppedNode::large_row ||
+            (state.reason == DroppedNode::normal_fixed && free_normal(v) >= RowProjection::smallest_share));
+  }
+
+
+
+  bool MultiplierNodes::any_may_return(const std::vector<unsigned int> &vertices) const
+  {
+    return std::any_of(vertices.begin(), vertices.end(), [&](const unsigned int v) { return may_return(v); });
+  }
+
+
+
+  /// One of the vertices that a place could get a multiplier from: the parents of a hanging vertex, the
+  /// corners of a face. The vertices of a place follow each other.
+  struct MultiplierNodes::NeedyPlace
+  {
+    /// Hanging vertices are looked at before faces.
+    bool         is_face;
+    unsigned int index;
+    /// Whether the place needs one at all.
+    bool         is_covered;
+    unsigned int vertex;
+    bool         is_hanging, may_return;
+    double       share;
+
+    std::pair<bool, unsigned int> place() const
+    {
+      return {is_face, index};
+    }
+
+    /// Of the places of all ranks, one after the other and again until nothing changes: the best covered
+    /// vertex of each that is still without. All vertices are in R at first. The same on all ranks.
+    static std::set<unsigned int> vertices_to_return(std::vector<NeedyPlace> list)
+    {
+      std::stable_sort(list.begin(), list.end(),
+                       [](const auto &a, const auto &b) { return a.place() < b.place(); });
+      std::set<unsigned int> returned, helped;
+      const auto             is_in_r = [&](const NeedyPlace &v) {
+        return v.is_hanging ? helped.count(v.vertex) == 0 : returned.count(v.vertex) == 0;
+      };
+      for (bool changed = true; changed;)
+        {
+          changed = false;
+          for (auto first = list.begin(), last = first; first != list.end(); first = last)
+            {
+              while (last != list.end() && last->place() == first->place())
+                ++last;
+              const bool        is_needy = std::all_of(first, last, is_in_r);
+              const NeedyPlace *best     = nullptr;
+              for (auto v = first; v != last; ++v)
+                if (v->may_return && (best == nullptr || v->share > best->share))
+                  best = &*v;
+              const bool is_helped = is_needy && first->is_covered && best != nullptr;
+              if (is_helped)
+                {
+                  returned.insert(best->vertex);
+                  changed = true;
+                }
+              if (!first->is_face && (is_helped || !is_needy))
+                helped.insert(first->index);
+            }
+        }
+      return returned;
+    }
+  };
+
+
+
+  void MultiplierNodes::add_place(std::vector<NeedyPlace> &places, const bool is_face,
+                                  const unsigned int index, const bool is_covered,
+                                  const std::vector<unsigned int> &vertices) const
+  {
+    for (const unsigned int v : vertices)
+      places.push_back({is_face, index, is_covered, v, is_hanging(v), may_return(v), share(v)});
+  }
+
+
+
+  /// Hanging vertices without a parent in K and faces without a function, of this rank, where that can be
+  /// changed.
+  std::vector<MultiplierNodes::NeedyPlace> MultiplierNodes::needy_places() const
+  {
+    std::vector<NeedyPlace> places;
+    for (unsigned int h = 0; h < states.size(); ++h)
+      if (halo.owns(h) && is_hanging(h) && states[h].in_r && states[h].is_covered &&
+          any_may_return(parents(h)))
+        add_place(places, false, h, true, parents(h));
+    for (const FaceMoments &m : moments)
+      {
+        if (!halo.owns_face(m.face) || is_empty(m))
+          continue;
+        const std::vector<unsigned int> vertices = corners(m);
+        if (!all_in_r(vertices) || !any_may_return(vertices))
+          continue;
+        add_place(places, true, m.face, true, vertices);
+        for (const unsigned int h : vertices)
+          if (is_hanging(h))
+            add_place(places, false, h, states[h].is_covered, parents(h));
+      }
+    return places;
+  }
+
+
+
+  void MultiplierNodes::complete()
+  {
+    update_hanging();
+    const auto all = gather_lists(needy_places(), halo.communicator(), Receivers::all);
+    for (const unsigned int v : NeedyPlace::vertices_to_return(all))
+      {
+        states[v].in_r         = false;
+        states[v].is_protected = true;
+      }
+    update_hanging();
+  }
+
+
+
+  std::vector<DroppedNode> MultiplierNodes::report() const
+  {
+    std::vector<DroppedNode> list;
+    for (unsigned int v = 0; v < states.size(); ++v)
+      if (halo.owns(v) && is_reported(v))
+        list.push_back({surface.vertex_node[v], surface.mesh.vertices[v], states[v].reason, share(v)});
+    return list;
+  }
+
+
+
+  std::vector<PairCoupling::LostFace> MultiplierNodes::lost_faces() const
+  {
+    std::vector<PairCoupling::LostFace> result;
+    for (const FaceMoments &m : moments)
+      {
+        if (!halo.owns_face(m.face) || !(m.covered > 0.))
+          continue;
+        std::map<NodeIndex, unsigned int> nodes;
+        for (const unsigned int v : corners(m))
+          if (!is_hanging(v))
+            nodes[surface.vertex_node[v]] = v;
+          else
+            for (const unsigned int parent : parents(v))
+              nodes[surface.vertex_node[parent]] = parent;
+        if (std::any_of(nodes.begin(), nodes.end(), [&](const auto &node) { return is_row(node.second); }))
+          continue;
+        // Other pairs and the rule are to blame before conditions.
+        DroppedNode::Reason reason = DroppedNode::fixed;
+        for (const auto &[node, v] : nodes)
+          if (const DroppedNode::Reason why = states[v].reason;
+              is_reported(v) && why != DroppedNode::fixed && why != DroppedNode::normal_fixed)
+            reason = why;
+        result.push_back({m.face, reason});
+      }
+    return result;
+  }
+} // namespace Signorini

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+// An interface that is shared by the ranks: every row as it is with all faces on one rank.
+
+#include "flat_surfaces.h"
+#include "replicated_coupling.h"
+
+#include <signorini/algebra/gathered_lists.h>
+#include <signorini/mortar/contact_forces.h>
+#include <signorini/mortar/face_shares.h>
+
+#include <gtest/gtest.h>
+
+namespace
+{
+  using namespace FlatSurfaces;
+  using dealii::Utilities::MPI::n_mpi_processes;
+  using dealii::Utilities::MPI::this_mpi_process;
+
+  /// Two random surfaces, partly covered, with hanging, fixed and excluded nodes: the same on all ranks.
+  struct RandomInterface
+  {
+    explicit RandomInterface(const unsigned int seed)
+      : random(seed)
+      , non(make_surface(grid(1., true)))
+      , mor(make_surface(grid(uniform(.4, 1.1), false)))
+    {
+      const auto shape = [a = uniform(-.2, .2), b = uniform(1., 5.)](const Point<3> &x) {
+        return a * std::sin(b * x[0]) * std::cos(2. * x[1]);
+      };
+      for (ContactSurface *const surface : {&non, &mor})
+        for (Point<3> &x : surface->mesh.vertices)
+          x[2] += shape(x);
+      const double border = uniform(-.5, 1.);
+      for (unsigned int v = 0; v < non.vertex_fixed.size(); ++v)
+        if (non.mesh.vertices[v][0] < border)
+          non.vertex_fixed[v] = static_cast<FixedMask>(number(0, 7));
+        else if (number(0, 20) == 0)
+          excluded.insert(non.vertex_node[v]);
+      overlay = make_overlay(non, mor);
+    }
+
+    double uniform(const double low, const double high)
+    {
+      return std::uniform_real_distribution<double>(low, high)(random);
+    }
+
+    unsigned int number(const unsigned int low, const unsigned int high)
+    {
+      return std::uniform_int_distribution<unsigned int>(low, high)(random);
+    }
+
+    Grid grid(const double extent, const bool is_nonmortar)
+    {
+      Grid g{number(2, 9), number(2, 9), 0., extent, 0., uniform(.5, 1.), {}, uniform(0., .3)};
+      for (unsigned int i = number(0, 6); i > 0; --i)
+        g.refined.insert({number(0, g.nx - 1), number(0, g.ny - 1)});
+      g.first_node = is_nonmortar ? 0 : 1000;
+      g.faces_up   = is_nonmortar;
+      return g;
+    }
+
+    std::mt19937                 random;
+    ContactSurface               non, mor;
+    std::set<NodeIndex>          excluded;
+    std::vector<OverlayTriangle> overlay;
+  };
+
+  /// Shares of equal work, or any.
+  void share(RandomInterface &interface, const unsigned int n_ranks)
+  {
+    if (interface.number(0, 2) > 0)
+      share_faces(interface.non, interface.mor, n_ranks);
+    else
+      for (ContactSurface::Face &face : interface.non.faces)
+        face.worker = interface.number(0, n_ranks - 1);
+  }
+
+  std::vector<OverlayTriangle> own_part(const RandomInterface &interface, const unsigned int rank)
+  {
+    std::vector<OverlayTriangle> part;
+    for (const OverlayTriangle &cell : interface.overlay)
+      if (interface.non.faces[interface.non.triangle_face[cell.nonmortar_triangle]].worker == rank)
+        part.push_back(cell);
+    return part;
+  }
+
+  /// Bit by bit.
+  void expect_row(const PairCoupling &a, const std::size_t i, const PairCoupling &b, const std::size_t j)
+  {
+    EXPECT_EQ(a.coupling.weight[i], b.coupling.weight[j]);
+    EXPECT_EQ(a.gaps[i], b.gaps[j]);
+    EXPECT_EQ(a.areas[i], b.areas[j]);
+    EXPECT_EQ(a.shares[i], b.shares[j]);
+    EXPECT_EQ(a.vertices[i], b.vertices[j]);
+    EXPECT_EQ((a.normals[i] - b.normals[j]).norm() + a.positions[i].distance(b.positions[j]), 0.);
+    ASSERT_EQ(a.coupling.end(i) - a.coupling.begin(i), b.coupling.end(j) - b.coupling.begin(j));
+    for (auto *x = a.coupling.begin(i), *y = b.coupling.begin(j); x != a.coupling.end(i); ++x, ++y)
+      {
+        EXPECT_EQ(x->node, y->node);
+        EXPECT_EQ(x->weight, y->weight);
+      }
+  }
+} // namespace
+
+
+
+TEST(InterfaceParts, RowsAreThoseOfTheWhole)
+{
+  const MPI_Comm     comm = MPI_COMM_WORLD;
+  const unsigned int rank = this_mpi_process(comm), n_ranks = n_mpi_processes(comm);
+  std::size_t        n_dropped = 0, n_lost = 0;
+  for (unsigned int seed = 0; seed < 200; ++seed)
+    {
+      SCOPED_TRACE("interface " + std::to_string(seed));
+      RandomInterface    interface(seed);
+      const DroppingRule rule{interface.uniform(0., .6), interface.uniform(1., 6.)};
+      const auto         moments =
+          compute_face_moments(interface.non, interface.mor, interface.overlay, {}, MPI_COMM_SELF);
+      const auto whole =
+          ReplicatedCoupling::couple(interface.non, interface.mor, moments, interface.excluded, false, rule);
+      share(interface, n_ranks);
+      const SurfaceHalo halo(interface.non, comm);
+      const auto        own =
+          compute_face_moments(interface.non, interface.mor, own_part(interface, rank), {}, comm);
+      const auto ghosted = halo.add_ghosts(own);
+      const auto part = couple(interface.non, interface.mor, halo, ghosted, interface.excluded, false, rule);
+
+      EXPECT_EQ(part.n_rows_of_all, whole.coupling.n_rows());
+      EXPECT_EQ(dealii::Utilities::MPI::sum(part.coupling.n_rows(), comm), whole.coupling.n_rows());
+      for (std::size_t i = 0; i < part.coupling.n_rows(); ++i)
+        {
+          const std::ptrdiff_t j = whole.coupling.find(part.coupling.rows[i]);
+          ASSERT_GE(j, 0);
+          expect_row(part, i, whole, static_cast<std::size_t>(j));
+        }
+      EXPECT_EQ(dealii::Utilities::MPI::sum(part.dropped.size(), comm), whole.dropped.size());
+      for (const DroppedNode &node : part.dropped)
+        EXPECT_TRUE(std::any_of(whole.dropped.begin(), whole.dropped.end(), [&](const DroppedNode &other) {
+          return other.node == node.node && other.reason == node.reason && other.share == node.share;
+        }));
+      for (const auto &[a, b] :
+           {std::make_pair(part.area, whole.area), std::make_pair(part.covered_area, whole.covered_area),
+            std::make_pair(part.lost_area, whole.lost_area)})
+        EXPECT_NEAR(a, b, 1e-13 * whole.area);
+      double lost = 0.;
+      for (const auto &face : part.lost_faces)
+        lost += moments[face.face].covered;
+      EXPECT_GE(dealii::Utilities::MPI::sum(lost, comm), whole.lost_area * (1. - 1e-12));
+      n_dropped += whole.dropped.size();
+      n_lost += whole.lost_area > 0.;
+
+      std::vector<double> pressure;
+      for (const Point<3> &x : whole.positions)
+        pressure.push_back(1. + x[0] * x[1]);
+      std::vector<double> of_part;
+      for (const Point<3> &x : part.positions)
+        of_part.push_back(1. + x[0] * x[1]);
+      const auto      recovered = recover_pressure(interface.non, halo, ghosted, part, of_part);
+      RandomInterface alone(seed);
+      const auto      expected =
+          recover_pressure(alone.non, SurfaceHalo(alone.non, MPI_COMM_SELF), moments, whole, pressure);
+      for (unsigned int f = 0; f < interface.non.faces.size(); ++f)
+        {
+          if (!halo.owns_face(f))
+            continue;
+          for (const unsigned int v : interface.non.faces[f].corners)
+            EXPECT_EQ(recovered[v], expected[v]);
+        }
+    }
+  EXPECT_GT(n_dropped, 200u);
+  EXPECT_GT(n_lost, 10u);
+}
+
+
+
+// Both sides together, in one order for any number of ranks.
+TEST(InterfaceParts, SharesAreEven)
+{
+  for (const unsigned int n_ranks : {2, 3, 8, 16})
+    {
+      auto non = make_surface({24, 24}),
+           mor = make_surface({40, 40, .3, 2., .2, 1.5, {}, 0., 0., 10000, false});
+      for (Point<3> &x : mor.mesh.vertices)
+        x[2] += .5;
+      const auto overlay = make_overlay(non, mor);
+      share_faces(non, mor, n_ranks);
+      std::vector<double> work(n_ranks, 0.), faces(n_ranks, 0.);
+      for (const ContactSurface::Face &face : non.faces)
+        faces.at(face.worker) += 1.;
+      for (const OverlayTriangle &cell : overlay)
+        work[non.faces[non.triangle_face[cell.nonmortar_triangle]].worker] += 1.;
+      EXPECT_GT(*std::min_element(faces.begin(), faces.end()), 0.);
+      const double mean = static_cast<double>(overlay.size()) / n_ranks;
+      EXPECT_LT(*std::max_element(work.begin(), work.end()), 1.3 * mean) << n_ranks;
+    }
+}
