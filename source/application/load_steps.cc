@@ -158,7 +158,8 @@ namespace Signorini
         checkpoints.state().nested.earlier = {};
         std::ostringstream stage;
         stage << "step t = " << time_previous;
-        checkpoints.end_of_stage(stage.str(), converged && steps.size() + 1 < times.size() ? 1. : 0., journal);
+        checkpoints.end_of_stage(stage.str(), converged && steps.size() + 1 < times.size() ? 1. : 0.,
+                                 journal);
       }
 
       void restore(const SeriesState &state)
