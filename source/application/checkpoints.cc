@@ -242,7 +242,8 @@ namespace Signorini
   void Checkpoints::collect_files()
   {
     const std::string to = place + "/" + folder_of_files;
-    fs::create_directories(place);
+    if (fs::create_directories(place))
+      sync(fs::path(place).parent_path().string());
     std::set<std::string> known;
     for (const auto &[name, size] : the_state.files)
       known.insert(name);

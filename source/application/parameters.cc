@@ -136,6 +136,10 @@ namespace Signorini
     prm.add_parameter(
         "Measure sweeps", measure_sweeps,
         "Time Gauss-Seidel sweeps and a plain read of memory on the finest level (costs some ten sweeps).");
+    prm.add_parameter("Most files", most_files,
+                      "Files (.vtu) into which bodies and contact surfaces are divided: where there are more "
+                      "ranks, neighbours write one together. 0: one file a rank.",
+                      Patterns::Integer(0, 1000000));
     add_choice(
         prm, "Checkpoint", checkpoints.times,
         {{CheckpointTimes::automatic, "automatic"},

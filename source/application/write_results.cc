@@ -253,19 +253,22 @@ namespace Signorini
         if (output.stress)
           for (OutputField &field : nodal_stress(d.nodal(), fields[0].values, model.bodies(), model.loads()))
             fields.push_back(std::move(field));
-        write_bodies(folder.path(), "bodies" + suffix, d.nodal(), fields, [&](const types::material_id id) {
-          return static_cast<double>(model.bodies().body_of_material(id));
-        });
+        write_bodies(
+            folder.path(), "bodies" + suffix, d.nodal(), fields,
+            [&](const types::material_id id) {
+              return static_cast<double>(model.bodies().body_of_material(id));
+            },
+            output.most_files);
       }
     if (output.surfaces)
       for (unsigned int p = 0; p < d.pairs.size(); ++p)
         {
           const std::string name = "contact-" + file_name(d.pairs[p].name), mortar = name + "-mortar";
           write_surface(folder.path(), name + suffix, d.pairs[p].nonmortar.surface,
-                        surface_fields(d, solution, p), model.communicator());
+                        surface_fields(d, solution, p), model.communicator(), output.most_files);
           if (!d.pairs[p].obstacle)
             write_surface(folder.path(), mortar + suffix, d.pairs[p].mortar.surface,
-                          mortar_fields(d, solution, p), model.communicator());
+                          mortar_fields(d, solution, p), model.communicator(), output.most_files);
         }
     if (output.mapping)
       write_mappings(d, folder);

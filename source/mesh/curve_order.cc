@@ -49,7 +49,9 @@ namespace Signorini
     for (unsigned int c = 0; c < cells.size(); ++c)
       if (cells[c].is_owned)
         cell_lists[kind_of(cells[c])].push_back(c);
-    std::vector<bool> is_listed(space.owned().n_elements(), false);
+    const NodeIndex   n_owned = space.owned().n_elements();
+    const NodeIndex   begin   = n_owned > 0 ? space.owned().nth_index_in_set(0) : 0;
+    std::vector<bool> is_listed(n_owned, false);
     for (unsigned int kind = 0; kind < n_kinds; ++kind)
       {
         std::sort(cell_lists[kind].begin(), cell_lists[kind].end(),
@@ -58,9 +60,9 @@ namespace Signorini
                   });
         for (const unsigned int c : cell_lists[kind])
           for (const NodeIndex node : space.nodes(cells[c]))
-            if (space.owned().is_element(node) && !is_listed[space.owned().index_within_set(node)])
+            if (node >= begin && node < begin + n_owned && !is_listed[node - begin])
               {
-                is_listed[space.owned().index_within_set(node)] = true;
+                is_listed[node - begin] = true;
                 node_lists[kind].push_back(node);
               }
         const auto counts = Utilities::MPI::all_gather(space.communicator(),

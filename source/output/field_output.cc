@@ -54,7 +54,9 @@ namespace Signorini
         return patch;
       }
 
-      void write(const std::string &folder, const std::string &name, const MPI_Comm comm)
+      /// Neighbouring ranks write one file where there are more ranks than files.
+      void write(const std::string &folder, const std::string &name, const MPI_Comm comm,
+                 const unsigned int most_files)
       {
         DataOutBase::VtkFlags flags;
         flags.compression_level = DataOutBase::VtkFlags::best_speed;
@@ -62,16 +64,16 @@ namespace Signorini
         const unsigned int rank = Utilities::MPI::this_mpi_process(comm),
                            n    = Utilities::MPI::n_mpi_processes(comm);
         const auto piece = [&](const unsigned int r) { return name + "." + std::to_string(r) + ".vtu"; };
+        const unsigned int       n_files = most_files == 0 ? n : std::min(n, most_files);
         std::vector<std::string> pieces;
-        for (unsigned int r = 0; r < n; ++r)
-          pieces.push_back(piece(r));
+        for (unsigned int f = 0; f < n_files; ++f)
+          pieces.push_back(piece(f));
         bool good = true;
         try
           {
-            std::ofstream out(folder + piece(rank));
-            this->write_vtu(out);
-            out.close();
-            good = static_cast<bool>(out);
+            good = write_piece(
+                folder, piece(static_cast<unsigned int>(static_cast<std::uint64_t>(rank) * n_files / n)),
+                n_files < n, comm);
             if (rank == 0)
               {
                 std::ofstream record(folder + name + ".pvtu"), pvd(folder + name + ".pvd");
@@ -89,6 +91,27 @@ namespace Signorini
           }
         if (Utilities::MPI::min(static_cast<int>(good), comm) == 0)
           throw InputError("the results cannot be written to \"" + folder + "\": is the disk full?");
+      }
+
+    private:
+      /// Collective.
+      bool write_piece(const std::string &folder, const std::string &piece, const bool is_shared,
+                       const MPI_Comm comm)
+      {
+        if (!is_shared)
+          {
+            std::ofstream out(folder + piece);
+            this->write_vtu(out);
+            out.close();
+            return static_cast<bool>(out);
+          }
+        // Ranks with the same file have the same piece.
+        const int number = std::stoi(piece.substr(piece.find_last_of('.', piece.size() - 5) + 1));
+        MPI_Comm  group;
+        MPI_Comm_split(comm, number, 0, &group);
+        this->write_vtu_in_parallel(folder + piece, group);
+        MPI_Comm_free(&group);
+        return true;
       }
 
     protected:
@@ -131,7 +154,8 @@ namespace Signorini
 
   void write_bodies(const std::string &folder, const std::string &name, const NodalSpace &space,
                     const std::vector<OutputField>                                 &fields,
-                    const std::function<double(const types::material_id material)> &body)
+                    const std::function<double(const types::material_id material)> &body,
+                    const unsigned int                                              most_files)
   {
     PatchOutput<3> output(fields);
     output.names.push_back("body");
@@ -149,13 +173,14 @@ namespace Signorini
               patch.data(output.names.size() - 1, v) = static_cast<float>(body(cell.material));
             }
         }
-    output.write(folder, name, space.communicator());
+    output.write(folder, name, space.communicator(), most_files);
   }
 
 
 
   void write_surface(const std::string &folder, const std::string &name, const ContactSurface &surface,
-                     const std::vector<OutputField> &fields, const MPI_Comm communicator)
+                     const std::vector<OutputField> &fields, const MPI_Comm communicator,
+                     const unsigned int most_files)
   {
     const unsigned int        rank = Utilities::MPI::this_mpi_process(communicator);
     PatchOutput<2>            output(fields);
@@ -172,7 +197,7 @@ namespace Signorini
               fill(patch, v, fields, vertex);
             }
         }
-    output.write(folder, name, communicator);
+    output.write(folder, name, communicator, most_files);
   }
 
 

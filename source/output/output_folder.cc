@@ -157,6 +157,12 @@ namespace Signorini
 
     bool is_running(const long process)
     {
+      // One that has ended but whose parent has not asked for it is still there, by its number.
+      std::ifstream status("/proc/" + std::to_string(process) + "/stat");
+      std::string   text;
+      if (std::getline(status, text))
+        if (const auto name_ends = text.rfind(") "); name_ends != std::string::npos)
+          return text[name_ends + 2] != 'Z';
       return kill(static_cast<pid_t>(process), 0) == 0 || errno != ESRCH;
     }
   } // namespace

@@ -89,6 +89,25 @@ def signals(p):
             check(os.listdir(folder) == ['out'], f'not cleaned up: {os.listdir(folder)}')
 
 
+def grouped_files(p):
+    """Neighbouring ranks write one file where there are to be fewer of them; all cells are there."""
+    for most, expected in ((2, 2), (0, 3), (64, 3)):
+        with tempfile.TemporaryDirectory() as folder:
+            out = os.path.join(folder, 'out')
+            s = p.solve(PATCH_TEST, 'Refinement/Global cycles=1', f'Output/Most files={most}', keep=out)
+            for name in ('bodies', 'contact-interface', 'contact-interface-mortar'):
+                with open(os.path.join(out, f'{name}.pvtu')) as f:
+                    pieces = re.findall(r'Source="([^"]*)"', f.read())
+                there = {file for file in os.listdir(out) if re.fullmatch(name + r'\.\d+\.vtu', file)}
+                check(set(pieces) == there and len(pieces) == expected, f'{most}: {pieces}, {there}')
+                cells = 0
+                for piece in there:
+                    with open(os.path.join(out, piece), 'rb') as f:
+                        cells += sum(int(n) for n in re.findall(rb'NumberOfCells="(\d+)"', f.read()))
+                check(name != 'bodies' or cells == s['cycles'][-1]['cells'], f'{most}: {cells} cells')
+                check(cells > 0, f'{most}, {name}: no cells')
+
+
 def lost_readers(p):
     """Nobody reads the lines to the end, or they cannot be written: the results come all the same."""
     for command in (f'{" ".join(p.command)} {PATCH_TEST} --output OUT | head -1', f'{" ".join(p.command)} {PATCH_TEST} --output OUT > /dev/full'):

@@ -26,15 +26,19 @@ namespace Signorini
     std::vector<double> values;
   };
 
-  /// Collective. Writes the owned cells as NAME.RANK.vtu with NAME.pvtu and NAME.pvd (on rank 0).
+  /// Collective. Writes the owned cells as NAME.NUMBER.vtu with NAME.pvtu and NAME.pvd (on rank 0).
   /// Fields are indexed like NodalSpace::relevant(); cell_value gives the cell field "body".
+  /// @param most_files of which neighbouring ranks share one where there are more ranks; 0 for one a rank
   void write_bodies(const std::string &folder, const std::string &name, const NodalSpace &space,
                     const std::vector<OutputField>                                         &fields,
-                    const std::function<double(const dealii::types::material_id material)> &body);
+                    const std::function<double(const dealii::types::material_id material)> &body,
+                    const unsigned int                                                      most_files);
 
-  /// Collective. Writes the faces of a contact surface that this rank owns. Fields are indexed by vertex.
+  /// Collective. Writes the faces of a contact surface that this rank owns, in the same way. Fields are
+  /// indexed by vertex.
   void write_surface(const std::string &folder, const std::string &name, const ContactSurface &surface,
-                     const std::vector<OutputField> &fields, const MPI_Comm communicator);
+                     const std::vector<OutputField> &fields, const MPI_Comm communicator,
+                     const unsigned int most_files);
 
   /// Writes the overlay of two surfaces as one .vtu stream: its triangles on the nonmortar side with the
   /// number of both triangles and, at the corners, the way to the image ("image") and its part along the
