@@ -145,11 +145,11 @@ namespace Signorini
       NodeIndex column;
       double    weight;
     };
-    auto lists = NodeRequest(partition, nodes)
-                     .fetch_lists<Entry>([&](std::vector<Entry> &list, const unsigned int i) {
-                       for (std::size_t k = rows.start[i]; k < rows.start[i + 1]; ++k)
-                         list.push_back({rows.columns[k], rows.weights[k]});
-                     });
+    auto lists =
+        NodeRequest(partition, nodes).fetch_lists<Entry>([&](std::vector<Entry> &list, const unsigned int i) {
+          for (std::size_t k = rows.start[i]; k < rows.start[i + 1]; ++k)
+            list.push_back({rows.columns[k], rows.weights[k]});
+        });
     NodeRows result;
     result.start = std::move(lists.start);
     for (const Entry &entry : lists.items)

@@ -207,9 +207,9 @@ namespace Signorini
             nodes.push_back(pair.mortar.surface.vertex_node[entry.first]);
         }
       const ConstrainedSpace &space = coupled.constrained;
-      const ImportedField     prescribed(
-            space.partition, prescribed_displacement(space.nodal(), space.partition, space.dirichlet),
-            std::move(nodes));
+      const ImportedField     prescribed(space.partition,
+                                         prescribed_displacement(space.nodal(), space.partition, space.dirichlet),
+                                         std::move(nodes));
       struct Deepest
       {
         double       depth = 0., displacement = 0.;

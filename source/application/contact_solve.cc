@@ -299,13 +299,13 @@ namespace Signorini
     const auto active = Signorini::solve(result.report, *algebraic, model, d, parameters, journal);
     solving.stop();
 
-    result.n_levels = n_levels;
-    result.stress   = evaluate_stress(d, matrix.partition(), algebraic->v, algebraic->residual,
-                                      algebraic->problem.half_spaces, active);
+    result.n_levels      = n_levels;
+    result.stress        = evaluate_stress(d, matrix.partition(), algebraic->v, algebraic->residual,
+                                           algebraic->problem.half_spaces, active);
     std::size_t n_active = 0;
     for (std::size_t row = 0; row < d.coupling.n_rows(); ++row)
       n_active += d.owns_row(row) && result.stress.active[row];
-    result.n_active = Utilities::MPI::sum(n_active, model.communicator());
+    result.n_active     = Utilities::MPI::sum(n_active, model.communicator());
     result.displacement = d.transformation->to_displacement(algebraic->v, matrix.partition());
     set_tie_stress(result.stress, model, d, result.displacement);
     return result;

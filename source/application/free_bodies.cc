@@ -84,8 +84,8 @@ namespace Signorini
   void settle_free_parts(Vector &v, const ContactModel &model, const Discretization &d,
                          const NodePartition &unknowns, const ObstacleProblem &problem)
   {
-    const auto          fields = motions_of_unknowns(model, *d.constrained, unknowns, *d.transformation);
-    const std::size_t n = fields.size();
+    const auto        fields = motions_of_unknowns(model, *d.constrained, unknowns, *d.transformation);
+    const std::size_t n      = fields.size();
     // By contact node of this rank.
     const std::vector<std::size_t> own    = owned_rows(d.coupling, d.partition());
     const std::size_t              n_rows = own.size();
@@ -95,8 +95,8 @@ namespace Signorini
     const double scale = problem.rhs.l1_norm();
     for (std::size_t m = 0; m < n; ++m)
       {
-        work[m]           = problem.rhs * fields[m];
-        work[m]           = std::abs(work[m]) > 1e-10 * scale ? work[m] : 0.;
+        work[m] = problem.rhs * fields[m];
+        work[m] = std::abs(work[m]) > 1e-10 * scale ? work[m] : 0.;
         for (std::size_t p = 0; p < n_rows; ++p)
           rows[n * p + m] = d.projections[own[p]].direction() *
                             nodal_value(fields[m], unknowns.to_local(d.coupling.rows[own[p]]));

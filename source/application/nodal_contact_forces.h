@@ -24,7 +24,7 @@ namespace Signorini
     };
     const NodePartition  &partition = d.partition();
     ListsByRank<RowForce> parcels;
-    const auto send = [&](const NodeIndex node, const NodeIndex row, const Vector3 &force) {
+    const auto            send = [&](const NodeIndex node, const NodeIndex row, const Vector3 &force) {
       parcels[partition.owner(node)].push_back({node, row, force});
     };
     for (std::size_t p = 0; p < d.coupling.n_rows(); ++p)

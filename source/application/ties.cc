@@ -36,7 +36,7 @@ namespace Signorini
 
   void fix_tied_unknowns(LinearSystem &system, const Discretization &d)
   {
-    const NodePartition &partition = system.matrix.partition();
+    const NodePartition       &partition = system.matrix.partition();
     std::vector<unsigned char> is_tied(partition.n_local(), 0);
     for (std::size_t row = 0; row < d.coupling.n_rows(); ++row)
       if (d.owns_row(row))

@@ -50,21 +50,27 @@ namespace Signorini
     RowParts exchange_parts(const ListsByRank<RowPart> &parts, const ListsByRank<Entry> &entries,
                             const MPI_Comm communicator)
     {
-      RowParts result;
-      const auto all_parts   = send_lists(parts, communicator);
-      const auto all_entries = send_lists(entries, communicator);
-      for (const auto &[rank, list] : all_parts)
+      ListsByRank<char> sent;
+      for (const auto &[rank, list] : parts)
         {
-          for (const RowPart &part : list)
+          Parcel parcel;
+          parcel.write(list);
+          parcel.write(entries.at(rank));
+          sent[rank] = parcel.bytes();
+        }
+      RowParts result;
+      for (const auto &[rank, bytes] : send_lists(sent, communicator))
+        {
+          Parcel      parcel(bytes);
+          std::size_t begin = result.entries.size();
+          for (RowPart part : parcel.read<RowPart>())
             {
-              const std::size_t begin = result.parts.empty() || &part == list.data()
-                                            ? result.entries.size()
-                                            : result.parts.back().begin + result.parts.back().n_entries;
+              part.begin = begin;
+              begin += part.n_entries;
               result.parts.push_back(part);
-              result.parts.back().begin = begin;
             }
-          if (const auto it = all_entries.find(rank); it != all_entries.end())
-            result.entries.insert(result.entries.end(), it->second.begin(), it->second.end());
+          const std::vector<Entry> list = parcel.read<Entry>();
+          result.entries.insert(result.entries.end(), list.begin(), list.end());
         }
       std::sort(result.parts.begin(), result.parts.end());
       return result;
@@ -80,8 +86,8 @@ namespace Signorini
       const std::vector<unsigned char> is_row = request.fetch([&](const unsigned int local) {
         return static_cast<unsigned char>(coupling.find(partition.to_global(local)) >= 0);
       });
-      std::vector<Entry>       kept;
-      std::vector<std::size_t> row_start = {0};
+      std::vector<Entry>               kept;
+      std::vector<std::size_t>         row_start = {0};
       for (std::size_t row = 0; row < coupling.n_rows(); ++row)
         {
           for (const Entry *entry = coupling.begin(row); entry != coupling.end(row); ++entry)
@@ -119,8 +125,9 @@ namespace Signorini
             const unsigned int rank = partition.owner(rows.columns[k]);
             parts[rank].push_back({rows.columns[k], fine.rows[p], w, w * projections[p].normal(),
                                    static_cast<unsigned int>(mapped.size()), 0});
+            std::vector<Entry> &list = entries[rank];
             for (const auto &[column, value] : mapped)
-              entries[rank].push_back({column, w * value});
+              list.push_back({column, w * value});
           }
       }
     const RowParts all = exchange_parts(parts, entries, partition.communicator());

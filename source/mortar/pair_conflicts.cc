@@ -57,16 +57,16 @@ namespace Signorini
       });
       for (std::size_t row = 0; row < coupling.n_rows(); ++row)
         for (const auto *entry = coupling.begin(row); entry != coupling.end(row); ++entry)
-          if (const RowThere &other = rows[std::lower_bound(request.nodes().begin(), request.nodes().end(),
-                                                            entry->node) -
-                                           request.nodes().begin()];
+          if (const RowThere &other =
+                  rows[std::lower_bound(request.nodes().begin(), request.nodes().end(), entry->node) -
+                       request.nodes().begin()];
               other.is_row)
             {
               const std::string here  = pair_name(names, joined.pairs[row]),
                                 there = pair_name(names, other.pair);
-              return "Contact pairs " + here + " and " + there + " form a chain or a cycle: " +
-                     describe(entry->node, other.position) + " carries a contact stress in " + there +
-                     " and moves others in " + here +
+              return "Contact pairs " + here + " and " + there +
+                     " form a chain or a cycle: " + describe(entry->node, other.position) +
+                     " carries a contact stress in " + there + " and moves others in " + here +
                      ". Swap the sides of one of the pairs, or take the common part out of one.";
             }
       return "";
@@ -202,15 +202,28 @@ namespace Signorini
             sent_rows[owner].push_back({c.rows[i], p, static_cast<unsigned int>(c.end(i) - c.begin(i)),
                                         c.weight[i], pair.gaps[i], pair.normals[i], pair.positions[i],
                                         pair.fixed[i], 0});
-            sent_entries[owner].insert(sent_entries[owner].end(), c.begin(i), c.end(i));
+            std::vector<InterfaceCoupling::Entry> &list = sent_entries[owner];
+            list.insert(list.end(), c.begin(i), c.end(i));
           }
       }
     std::vector<PackedRow>                rows;
     std::vector<InterfaceCoupling::Entry> entries;
-    for (const auto &[rank, list] : send_lists(sent_rows, communicator))
-      rows.insert(rows.end(), list.begin(), list.end());
-    for (const auto &[rank, list] : send_lists(sent_entries, communicator))
-      entries.insert(entries.end(), list.begin(), list.end());
+    ListsByRank<char>                     parcels;
+    for (const auto &[rank, list] : sent_rows)
+      {
+        Parcel parcel;
+        parcel.write(list);
+        parcel.write(sent_entries.at(rank));
+        parcels[rank] = parcel.bytes();
+      }
+    for (const auto &[rank, bytes] : send_lists(parcels, communicator))
+      {
+        Parcel     parcel(bytes);
+        const auto some_rows    = parcel.read<PackedRow>();
+        const auto some_entries = parcel.read<InterfaceCoupling::Entry>();
+        rows.insert(rows.end(), some_rows.begin(), some_rows.end());
+        entries.insert(entries.end(), some_entries.begin(), some_entries.end());
+      }
     std::size_t begin = 0;
     for (PackedRow &row : rows)
       {

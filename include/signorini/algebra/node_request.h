@@ -25,7 +25,8 @@ namespace Signorini
       for (const NodeIndex node : wanted_nodes)
         if (!partition.owns(node))
           wanted[partition.owner(node)].push_back(node);
-      asked = send_lists(wanted, partition.communicator());
+      asked        = send_lists(wanted, partition.communicator());
+      owners_asked = ranks_of(wanted);
     }
 
     /// The nodes of this rank's list.
@@ -53,40 +54,48 @@ namespace Signorini
     template <typename T, typename Append>
     Lists<T> fetch_lists(const Append &append) const
     {
-      ListsByRank<unsigned int> lengths;
-      ListsByRank<T>            items;
+      ListsByRank<char> answers;
       for (const auto &[rank, nodes] : asked)
-        for (const NodeIndex node : nodes)
-          {
-            const std::size_t n = items[rank].size();
-            append(items[rank], partition.to_local(node));
-            lengths[rank].push_back(static_cast<unsigned int>(items[rank].size() - n));
-          }
-      const auto all_lengths = send_lists(lengths, partition.communicator());
-      const auto all_items   = send_lists(items, partition.communicator());
+        {
+          std::vector<unsigned int> lengths;
+          std::vector<T>            items;
+          for (const NodeIndex node : nodes)
+            {
+              const std::size_t n = items.size();
+              append(items, partition.to_local(node));
+              lengths.push_back(static_cast<unsigned int>(items.size() - n));
+            }
+          Parcel parcel;
+          parcel.write(lengths);
+          parcel.write(items);
+          answers[rank] = parcel.bytes();
+        }
       // Nodes are sorted, and so are the answers of each rank.
-      struct Place
+      struct Answer
       {
-        std::size_t node = 0, item = 0;
+        std::vector<unsigned int> lengths;
+        std::vector<T>            items;
+        std::size_t               node = 0, item = 0;
       };
-      std::map<unsigned int, Place> places;
-      Lists<T>                      result;
+      std::map<unsigned int, Answer> arrived;
+      for (const auto &[rank, bytes] : answer_lists(answers, owners_asked, partition.communicator()))
+        {
+          Parcel parcel(bytes);
+          arrived[rank].lengths = parcel.read<unsigned int>();
+          arrived[rank].items   = parcel.template read<T>();
+        }
+      Lists<T> result;
       for (const NodeIndex node : wanted_nodes)
         {
           if (partition.owns(node))
             append(result.items, partition.to_local(node));
           else
             {
-              const unsigned int rank  = partition.owner(node);
-              Place             &place = places[rank];
-              const unsigned int n     = all_lengths.at(rank)[place.node++];
-              if (n > 0)
-                {
-                  const auto first =
-                      all_items.at(rank).begin() + static_cast<std::ptrdiff_t>(place.item);
-                  result.items.insert(result.items.end(), first, first + n);
-                  place.item += n;
-                }
+              Answer            &answer = arrived.at(partition.owner(node));
+              const unsigned int n      = answer.lengths[answer.node++];
+              const auto         first  = answer.items.begin() + static_cast<std::ptrdiff_t>(answer.item);
+              result.items.insert(result.items.end(), first, first + n);
+              answer.item += n;
             }
           result.start.push_back(result.items.size());
         }
@@ -98,16 +107,16 @@ namespace Signorini
     auto fetch(const Value &value) const
     {
       using T = std::decay_t<decltype(value(0u))>;
-      return fetch_lists<T>([&](std::vector<T> &list, const unsigned int local) {
-               list.push_back(value(local));
-             })
+      return fetch_lists<T>(
+                 [&](std::vector<T> &list, const unsigned int local) { list.push_back(value(local)); })
           .items;
     }
 
   private:
-    const NodePartition   &partition;
-    std::vector<NodeIndex> wanted_nodes;
-    ListsByRank<NodeIndex> asked;
+    const NodePartition      &partition;
+    std::vector<NodeIndex>    wanted_nodes;
+    std::vector<unsigned int> owners_asked;
+    ListsByRank<NodeIndex>    asked;
   };
 } // namespace Signorini
 

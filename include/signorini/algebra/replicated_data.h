@@ -62,10 +62,10 @@ namespace Signorini
 
   /// Collective. Values of a field, rows, and fixed masks at a list of nodes, sorted, of which every rank has
   /// its own.
-  std::vector<Vector3> import_values(const NodePartition &partition, const Vector &field,
-                                     const std::vector<NodeIndex> &nodes);
-  NodeRows             import_rows(const NodePartition &partition, const NodeRows &owned_rows,
-                                   const std::vector<NodeIndex> &nodes);
+  std::vector<Vector3>         import_values(const NodePartition &partition, const Vector &field,
+                                             const std::vector<NodeIndex> &nodes);
+  NodeRows                     import_rows(const NodePartition &partition, const NodeRows &owned_rows,
+                                           const std::vector<NodeIndex> &nodes);
   std::vector<FixedDirections> import_masks(const NodePartition                &partition,
                                             const std::vector<FixedDirections> &owned,
                                             const std::vector<NodeIndex>       &nodes);

@@ -21,8 +21,8 @@ namespace Signorini
     /// One per row of the coupling.
     const std::vector<RowProjection> &fine_projections;
     /// Sorted nodes of rows and columns of the fine coupling, and their interpolation rows.
-    const std::vector<NodeIndex>     &nodes;
-    const NodeRows                   &node_rows;
+    const std::vector<NodeIndex> &nodes;
+    const NodeRows               &node_rows;
     /// Rows of the coarse nodes that these rows and those of P lead to.
     const InterfaceCoupling          &coarse;
     const std::vector<RowProjection> &coarse_projections;

@@ -74,7 +74,7 @@ TEST(PairConflicts, SharedNodesLoseTheirMultiplier)
 {
   const auto  pairs     = neighbours();
   const auto  couplings = couple_all(pairs, true);
-  const auto  all       = join_couplings(couplings, {"left", "right"}, MPI_COMM_SELF);
+  const auto  all       = join_couplings(couplings, {"left", "right"}, all_nodes());
   const auto &joined    = all.coupling;
   ASSERT_EQ(joined.n_rows(), 24u);
   for (std::size_t row = 0; row < joined.n_rows(); ++row)
