@@ -72,7 +72,7 @@ namespace Signorini
           const std::vector<Entry> list = parcel.read<Entry>();
           result.entries.insert(result.entries.end(), list.begin(), list.end());
         }
-      std::sort(result.parts.begin(), result.parts.end());
+      std::stable_sort(result.parts.begin(), result.parts.end());
       return result;
     }
 
