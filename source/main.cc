@@ -5,6 +5,7 @@
 #include <signorini/application/deck_results.h>
 #include <signorini/application/journal.h>
 #include <signorini/application/problem_description.h>
+#include <signorini/application/problem_identity.h>
 #include <signorini/application/write_results.h>
 #include <signorini/output/termination.h>
 
@@ -25,6 +26,8 @@ namespace
 
   const char *const usage =
       "usage: signorini FILE.prm [--set \"Section/Name=value\"]... [--output DIR]\n"
+      "       signorini --resume FILE.prm ... go on from the checkpoint of an interrupted run, on any number "
+      "of ranks\n"
       "       signorini FILE.inp [--strict] [--ignore KEYWORD,KEYWORD]...   a deck of Abaqus or CalculiX\n"
       "       signorini --check FILE.prm      parse, read the meshes, list bodies, boundaries and gaps; "
       "solve nothing\n"
@@ -38,6 +41,7 @@ namespace
     std::string              file, output, ignored;
     std::vector<std::string> overrides;
     bool                     check = false, mesh_only = false, print = false, help = false, version = false;
+    bool                     resume = false;
   };
 
   CommandLine parse(const int argc, char **argv)
@@ -59,6 +63,8 @@ namespace
           line.overrides.push_back("Deck/Strict=true");
         else if (argument == "--ignore")
           line.ignored += (line.ignored.empty() ? "" : ", ") + value();
+        else if (argument == "--resume")
+          line.resume = true;
         else if (argument == "--check")
           line.check = true;
         else if (argument == "--mesh-only")
@@ -76,6 +82,10 @@ namespace
         else
           throw InputError("more than one parameter file given.\n" + std::string(usage));
       }
+    if (line.resume && (line.check || line.mesh_only || line.print))
+      throw InputError(
+          "--resume goes on with a computation; with --check, --mesh-only and --print-parameters "
+          "there is none.");
     return line;
   }
 
@@ -138,9 +148,16 @@ namespace
     std::optional<OutputFolder> folder;
     if (!line.check)
       folder.emplace(file.output().folder, comm);
-    const NestedParameters parameters = file.nested();
-    Journal                journal(is_root, file.output().verbosity);
-    ContactModel           model = make_model(file, comm, journal);
+    const NestedParameters     parameters = file.nested();
+    Journal                    journal(is_root, file.output().verbosity);
+    std::optional<Checkpoints> checkpoints;
+    if (!line.check && !line.mesh_only)
+      checkpoints.emplace(*folder, problem_identity(file, comm), version_text(), file.output().checkpoints);
+    if (line.resume)
+      checkpoints->resume();
+    else if (checkpoints && !checkpoints->hint().empty())
+      journal.print(checkpoints->hint());
+    ContactModel model = make_model(file, comm, journal);
     if (line.check)
       {
         const auto   space = std::make_shared<const ConstrainedSpace>(model);
@@ -151,17 +168,19 @@ namespace
     const std::vector<double> times  = file.load_steps();
     const OutputParameters    output = file.output();
     NestedSolution            nested =
-        line.mesh_only
-                       ? build_meshes(model, parameters, journal)
-                       : run_load_steps(model, parameters, times, StepWriter(model, output, *folder, times), journal);
+        line.mesh_only ? build_meshes(model, parameters, journal)
+                                  : run_load_steps(model, parameters, times, StepWriter(model, output, *folder, times),
+                                                   journal, &*checkpoints);
     if (file.deck() != nullptr && !line.mesh_only)
       judge_linear_kinematics(*file.deck(), model, nested, journal);
     nested.results.notes = journal.notes();
     if (!line.mesh_only)
-      nested.results.wall_time = time.wall_time();
+      nested.results.wall_time = checkpoints->earlier_wall_time() + time.wall_time();
     write_results(nested, model, file, *folder, line.mesh_only);
     const bool        converged = nested.results.converged;
     const std::string place     = folder->commit(converged ? Outcome::complete : Outcome::not_converged);
+    if (checkpoints)
+      checkpoints->remove();
     if (is_root && file.output().verbosity > 0)
       std::cout << "results in " << place << std::endl;
     if (!converged)
@@ -215,6 +234,12 @@ main(int argc, char **argv)
       if (line.file.empty())
         throw InputError("no parameter file given.\n" + std::string(usage));
       return run(line);
+    }
+  catch (const RunStopped &e)
+    {
+      if (is_root)
+        std::cerr << "signorini: " << e.what() << " Go on with --resume and the same arguments." << std::endl;
+      return 4;
     }
   catch (const InputError &e)
     {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/algebra/checked_count.h>
 #include <signorini/algebra/node_exchange.h>
 
 #include <deal.II/base/mpi.h>
@@ -51,16 +52,16 @@ namespace Signorini
   {
     MPI_Request *request = requests.data();
     for (Message &message : received)
-      MPI_Irecv(message.values.data(), static_cast<int>(message.values.size()), MPI_DOUBLE,
-                static_cast<int>(message.rank), tag, communicator, request++);
+      MPI_Irecv(message.values.data(), checked_count(message.values.size(), "numbers of a message"),
+                MPI_DOUBLE, static_cast<int>(message.rank), tag, communicator, request++);
     for (Message &message : sent)
       {
         double *value = message.values.data();
         for (const unsigned int node : message.nodes)
           for (unsigned int c = 0; c < dim; ++c)
             *value++ = v.local_element(dim * node + c);
-        MPI_Isend(message.values.data(), static_cast<int>(message.values.size()), MPI_DOUBLE,
-                  static_cast<int>(message.rank), tag, communicator, request++);
+        MPI_Isend(message.values.data(), checked_count(message.values.size(), "numbers of a message"),
+                  MPI_DOUBLE, static_cast<int>(message.rank), tag, communicator, request++);
       }
   }
 

@@ -1,6 +1,7 @@
 signorini_add_layer(application
   body_evaluation.cc
   certificate.cc
+  checkpoints.cc
   constrained_space.cc
   contact_checks.cc
   contact_evaluation.cc
@@ -29,6 +30,8 @@ signorini_add_layer(application
   parameters.cc
   pretension.cc
   problem_description.cc
+  problem_identity.cc
+  run_state.cc
   ties.cc
   write_results.cc
 )

@@ -79,11 +79,13 @@ namespace Signorini
     {
     public:
       LoadSteps(ContactModel &model, const NestedParameters &parameters, const NestedSolution &last,
-                Journal &journal)
+                const std::vector<double> &times, Journal &journal)
         : model(model)
         , parameters(parameters)
         , last(last)
+        , times(times)
         , journal(journal)
+        , tightened(model.pretensions())
         , previous(last.solution.displacement)
         , before(previous)
       {
@@ -91,26 +93,45 @@ namespace Signorini
         before   = 0.;
       }
 
-      /// Solves a step. The discretization is that of its conditions.
+      /// Solves all steps but the last, from where a saved state ends.
+      void run(const StepObserver &observe, Checkpoints *const checkpoints)
+      {
+        if (checkpoints != nullptr && checkpoints->state().series)
+          restore(*checkpoints->state().series);
+        for (std::size_t k = steps.size(); k + 1 < times.size() && converged; ++k)
+          {
+            const ContactSolution solution = solve(times[k]);
+            steps.push_back(step_result(times[k], model, *discretization, solution, parameters.probes));
+            journal.print(describe(steps.back()));
+            converged = solution.report.converged;
+            if (!converged)
+              journal.note("the step t = " + std::to_string(times[k]) + " was not solved: " +
+                           solution.report.note + ". The steps after it are left out, but for the last.");
+            observe(static_cast<unsigned int>(k), *discretization, solution);
+            if (checkpoints != nullptr && checkpoints->are_wanted())
+              save(*checkpoints);
+          }
+        model.set_time(times.back());
+        model.pretensions() = tightened;
+      }
+
+      /// Those that were solved.
+      std::vector<StepResult> steps;
+      bool                    converged = true;
+
+    private:
+      /// The discretization is that of the conditions of the step.
       ContactSolution solve(const double time)
       {
-        model.set_time(time);
-        const Discretization &full = *last.discretization;
-        discretization             = std::make_unique<const Discretization>(
-            full, std::make_shared<const ConstrainedSpace>(*full.constrained, model));
-        foretell_pretension(model, *discretization);
-        const Vector start = foretell(time);
         if (solver == nullptr)
+          set_up(time);
+        if (time != times.front())
           {
-            SolveParameters how_to = parameters.solve;
-            how_to.compare_linear  = false;
-            const NestedStart from{start, last.solution.report.needed_interface_sweeps,
-                                   last.solution.report.needed_patches};
-            solver = std::make_unique<ContactSolver>(model, *discretization, coarser, &from, how_to, journal);
+            set_time(time);
+            solver->change_loads(*discretization, foretell(time));
           }
-        else
-          solver->change_loads(*discretization, start);
         ContactSolution solution = solve_with_pretension(model, *solver, *discretization, journal);
+        needed_patches           = needed_patches || solution.report.needed_patches;
         before.swap(previous);
         previous      = solution.displacement;
         time_before   = time_previous;
@@ -118,12 +139,71 @@ namespace Signorini
         return solution;
       }
 
-      const Discretization &present() const
+      /// What the steps to come depend on.
+      void save(Checkpoints &checkpoints) const
       {
-        return *discretization;
+        const CurveOrder     order(last.discretization->nodal());
+        const NodePartition &partition = last.discretization->partition();
+        SeriesState         &state     = checkpoints.state().series.emplace();
+        state                          = {steps,
+                                          time_previous,
+                                          time_before,
+                                          save_field(previous, partition, order),
+                                          save_field(before, partition, order),
+                                          save_bolts(model.loads().pretensions),
+                                          converged,
+                                          needed_patches};
+        // They have been compared, and the last cycle has got its potential energy.
+        checkpoints.state().nested.cycles  = last.results.cycles;
+        checkpoints.state().nested.earlier = {};
+        std::ostringstream stage;
+        stage << "step t = " << time_previous;
+        checkpoints.end_of_stage(stage.str(), converged && steps.size() + 1 < times.size() ? 1. : 0.,
+                                 journal);
       }
 
-    private:
+      void restore(const SeriesState &state)
+      {
+        steps     = state.steps;
+        converged = state.converged;
+        const CurveOrder order(last.discretization->nodal());
+        restore_field(previous, state.previous, last.discretization->partition(), order);
+        restore_field(before, state.before, last.discretization->partition(), order);
+        time_previous  = state.time_previous;
+        time_before    = state.time_before;
+        needed_patches = state.needed_patches;
+        restore_bolts(model.pretensions(), state.bolts);
+      }
+
+      /// Conditions and strains of bolts of a step.
+      void set_time(const double time)
+      {
+        model.set_time(time);
+        const Discretization &full = *last.discretization;
+        discretization             = std::make_unique<const Discretization>(
+            full, std::make_shared<const ConstrainedSpace>(*full.constrained, model));
+        foretell_pretension(model, *discretization);
+      }
+
+      /// The solver of all steps, which is that of the first, also where a saved series goes on.
+      /// @param time of the step that is to be solved
+      void set_up(const double time)
+      {
+        const std::vector<Pretension> present = model.pretensions();
+        model.pretensions()                   = tightened;
+        set_time(times.front());
+        Vector start = previous;
+        start        = 0.;
+        start.update_ghost_values();
+        SolveParameters how_to = parameters.solve;
+        how_to.compare_linear  = false;
+        const NestedStart from{start, last.solution.report.needed_interface_sweeps,
+                               last.solution.report.needed_patches || needed_patches};
+        solver = std::make_unique<ContactSolver>(model, *discretization, coarser, &from, how_to, journal);
+        if (time != times.front())
+          model.pretensions() = present;
+      }
+
       /// The line through the two steps before (the first is zero at t = 0).
       Vector foretell(const double time) const
       {
@@ -140,10 +220,13 @@ namespace Signorini
       ContactModel                         &model;
       const NestedParameters               &parameters;
       const NestedSolution                 &last;
+      const std::vector<double>            &times;
       Journal                              &journal;
+      const std::vector<Pretension>         tightened;
       CoarserSpaces                         coarser;
       Vector                                previous, before;
       double                                time_previous = 0., time_before = 0.;
+      bool                                  needed_patches = false;
       std::unique_ptr<const Discretization> discretization;
       std::unique_ptr<ContactSolver>        solver;
     };
@@ -153,31 +236,22 @@ namespace Signorini
 
   NestedSolution run_load_steps(ContactModel &model, const NestedParameters &parameters,
                                 const std::vector<double> &times, const StepObserver &observe,
-                                Journal &journal)
+                                Journal &journal, Checkpoints *const checkpoints)
   {
     if (!times.empty())
       model.set_time(times.back());
-    NestedSolution last = run_nested_iteration(model, parameters, journal);
+    if (checkpoints != nullptr)
+      checkpoints->announce_steps(times.size() > 1);
+    NestedSolution last = run_nested_iteration(model, parameters, journal, checkpoints);
     if (times.empty() || !last.results.converged)
       return last;
-    std::vector<StepResult>       steps;
-    const std::vector<Pretension> tightened = model.pretensions();
+    std::vector<StepResult> steps;
     {
-      LoadSteps series(model, parameters, last, journal);
-      for (std::size_t k = 0; k + 1 < times.size() && last.results.converged; ++k)
-        {
-          const ContactSolution solution = series.solve(times[k]);
-          steps.push_back(step_result(times[k], model, series.present(), solution, parameters.probes));
-          journal.print(describe(steps.back()));
-          last.results.converged = solution.report.converged;
-          if (!solution.report.converged)
-            journal.note("the step t = " + std::to_string(times[k]) + " was not solved: " +
-                         solution.report.note + ". The steps after it are left out, but for the last.");
-          observe(static_cast<unsigned int>(k), series.present(), solution);
-        }
+      LoadSteps series(model, parameters, last, times, journal);
+      series.run(observe, checkpoints);
+      steps                  = std::move(series.steps);
+      last.results.converged = series.converged;
     }
-    model.set_time(times.back());
-    model.pretensions() = tightened;
     steps.push_back(step_result(times.back(), model, *last.discretization, last.solution, parameters.probes));
     journal.print(describe(steps.back()));
     observe(static_cast<unsigned int>(times.size() - 1), *last.discretization, last.solution);

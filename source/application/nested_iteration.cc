@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/algebra/input_error.h>
 #include <signorini/application/certificate.h>
 #include <signorini/application/error_estimate.h>
 #include <signorini/application/free_bodies.h>
@@ -118,10 +119,12 @@ namespace Signorini
     class NestedIteration
     {
     public:
-      NestedIteration(ContactModel &model, const NestedParameters &parameters, Journal &journal)
+      NestedIteration(ContactModel &model, const NestedParameters &parameters, Journal &journal,
+                      Checkpoints *const checkpoints)
         : model(model)
         , parameters(parameters)
         , journal(journal)
+        , checkpoints(checkpoints)
         , refinement(parameters.refinement)
         , is_adaptive(parameters.refinement.adaptive_cycles > 0)
       {
@@ -129,9 +132,16 @@ namespace Signorini
 
       NestedSolution run()
       {
-        for (unsigned int cycle = 0; cycle <= refinement.n_cycles() && goes_on(cycle); ++cycle)
+        const bool resumes = checkpoints != nullptr && checkpoints->reader() != nullptr;
+        for (unsigned int cycle = resumes ? restore() + 1 : 0;
+             cycle <= refinement.n_cycles() && goes_on(cycle); ++cycle)
           if (next_mesh(cycle))
-            solve_mesh(cycle);
+            {
+              solve_mesh(cycle);
+              save(cycle);
+            }
+        if (!last.discretization)
+          restore_solution();
         compare_cycles();
         journal.show("evaluating");
         evaluate();
@@ -161,12 +171,15 @@ namespace Signorini
             return true;
           }
         journal.show("refining");
-        const NodalSpace &old = space->nodal();
-        if (!model.refine(old, refinement.is_adaptive(cycle)
-                                   ? mark_adaptively(old, indicator, last.results.cycles.back(), cycle,
-                                                     parameters.refinement, journal)
-                                   : refinement.mark(model.bodies(), old, cycle)))
+        const NodalSpace       &old    = space->nodal();
+        const std::vector<bool> marked = refinement.is_adaptive(cycle)
+                                             ? mark_adaptively(old, indicator, last.results.cycles.back(),
+                                                               cycle, parameters.refinement, journal)
+                                             : refinement.mark(model.bodies(), old, cycle);
+        if (!model.refine(old, marked))
           return false;
+        if (keeps_state())
+          note_marks(marked, CurveOrder(old));
         model.note_movement(journal);
         carry_over(std::make_shared<const ConstrainedSpace>(model, is_adaptive));
         return true;
@@ -180,7 +193,6 @@ namespace Signorini
                                last.solution.report.needed_interface_sweeps, last.solution.report.needed_patches};
         for (Vector &displacement : earlier_displacements)
           displacement = next->interpolate(displacement, *space, rows);
-        turned = last.discretization->turned;
         last.discretization.reset();
         space = std::move(next);
       }
@@ -198,6 +210,7 @@ namespace Signorini
                         std::to_string(result.dofs) + " unknowns");
         journal.show("contact mapping and mortar integrals");
         last.discretization     = discretize(model, space, turned, cycle, journal);
+        turned                  = last.discretization->turned;
         SolveParameters how_to  = parameters.solve;
         how_to.measure_sweeps   = how_to.measure_sweeps && cycle == refinement.n_cycles();
         const NestedStart *from = cycle > 0 ? &start : nullptr;
@@ -223,6 +236,134 @@ namespace Signorini
         result.times = journal.take_times();
         journal.print(describe(result, is_adaptive));
         last.results.cycles.push_back(result);
+      }
+
+      bool keeps_state() const
+      {
+        return checkpoints != nullptr && checkpoints->are_wanted();
+      }
+
+      void note_marks(const std::vector<bool> &marked, const CurveOrder &order)
+      {
+        auto &all = checkpoints->state().nested.marked;
+        all.emplace_back();
+        for (unsigned int kind = 0; kind < CurveOrder::n_kinds; ++kind)
+          for (const unsigned int cell : order.cells(kind))
+            all.back()[kind].push_back(marked[cell]);
+      }
+
+      /// The state after a cycle, from which its file is written.
+      void save(const unsigned int cycle)
+      {
+        if (!keeps_state())
+          return;
+        const CurveOrder     order(space->nodal());
+        const NodePartition &partition = space->partition;
+        NestedState         &state     = checkpoints->state().nested;
+        state.cycle                    = cycle;
+        state.trace                    = order.trace();
+        state.turned                   = turned;
+        state.bolts                    = save_bolts(model.loads().pretensions);
+        state.cycles                   = last.results.cycles;
+        state.converged                = last.results.converged;
+        state.solution.report          = last.solution.report;
+        state.solution.pretensions     = last.solution.pretensions;
+        state.solution.n_active        = last.solution.n_active;
+        state.solution.n_levels        = last.solution.n_levels;
+        state.displacement             = save_field(last.solution.displacement, partition, order);
+        state.earlier.clear();
+        for (const Vector &displacement : earlier_displacements)
+          state.earlier.push_back(save_field(displacement, partition, order));
+        state.contact       = save_stress(last.solution.stress, *last.discretization, order);
+        state.has_indicator = is_adaptive;
+        for (unsigned int kind = 0; kind < CurveOrder::n_kinds; ++kind)
+          {
+            state.indicator[kind].clear();
+            for (const unsigned int cell : order.cells(kind))
+              if (is_adaptive)
+                state.indicator[kind].push_back(indicator[cell]);
+          }
+        checkpoints->end_of_stage("cycle " + std::to_string(cycle), growth_of_work(cycle), journal);
+      }
+
+      /// How many times as long the next cycle will take; 0 after the last.
+      double growth_of_work(const unsigned int cycle) const
+      {
+        const std::vector<CycleResult> &cycles = last.results.cycles;
+        if (cycle >= refinement.n_cycles() || !last.results.converged)
+          return 0.;
+        if (refinement.is_global(cycle + 1))
+          return 8.;
+        return cycles.size() < 2 ? 2.
+                                 : static_cast<double>(cycles.back().dofs) /
+                                       static_cast<double>(cycles[cycles.size() - 2].dofs);
+      }
+
+      /// Meshes and fields of a saved state; returns its cycle.
+      unsigned int restore()
+      {
+        journal.show("rebuilding the meshes");
+        RunState               &saved  = checkpoints->state();
+        NestedState            &state  = saved.nested;
+        const CheckpointReader &reader = *checkpoints->reader();
+        try
+          {
+            for (unsigned int k = 0; k < state.marked.size(); ++k)
+              {
+                const NodalSpace old(model.communicator(), model.bodies().mesh());
+                const CurveOrder order(old);
+                read_marks(state, reader, k, order);
+                std::vector<bool> marked(old.cells().size(), false);
+                for (unsigned int kind = 0; kind < CurveOrder::n_kinds; ++kind)
+                  for (std::size_t i = 0; i < order.cells(kind).size(); ++i)
+                    marked[order.cells(kind)[i]] = state.marked[k][kind][i] != 0;
+                model.refine(old, marked);
+              }
+            space = std::make_shared<const ConstrainedSpace>(model, is_adaptive);
+            read_fields(saved, reader, CurveOrder(space->nodal()));
+          }
+        catch (const InputError &e)
+          {
+            checkpoints->refuse(e.what());
+          }
+        checkpoints->end_of_reading();
+        take_over(saved);
+        return state.cycle;
+      }
+
+      /// What a state has of this object.
+      void take_over(const RunState &saved)
+      {
+        const NestedState &state = saved.nested;
+        const CurveOrder   order(space->nodal());
+        for (const std::string &note : saved.notes)
+          journal.note(note);
+        turned                 = state.turned;
+        last.results.cycles    = state.cycles;
+        last.results.converged = state.converged;
+        last.solution          = state.solution;
+        restore_field(last.solution.displacement, state.displacement, space->partition, order);
+        for (const SavedField &displacement : state.earlier)
+          restore_field(earlier_displacements.emplace_back(), displacement, space->partition, order);
+        restore_bolts(model.pretensions(), state.bolts);
+        indicator.assign(is_adaptive ? space->nodal().cells().size() : 0, 0.);
+        for (unsigned int kind = 0; kind < CurveOrder::n_kinds; ++kind)
+          for (std::size_t i = 0; i < state.indicator[kind].size(); ++i)
+            indicator[order.cells(kind)[i]] = state.indicator[kind][i];
+        journal.print("goes on after cycle " + std::to_string(state.cycle) +
+                      (saved.series ? " and step " + std::to_string(saved.series->steps.size()) : "") +
+                      " of an interrupted run");
+        check_free_parts(model, space->free_parts, parameters.solve.solver.method, journal);
+      }
+
+      /// The last mesh was that of the state: what is evaluated on it.
+      void restore_solution()
+      {
+        const NestedState &state = checkpoints->state().nested;
+        last.discretization      = discretize(model, space, turned, state.cycle, journal);
+        last.solution.stress =
+            restore_stress(state.contact, *last.discretization, CurveOrder(space->nodal()));
+        journal.take_times();
       }
 
       /// Work is in proportion to the unknowns; those of the meshes to come are guessed.
@@ -295,6 +436,7 @@ namespace Signorini
       ContactModel                           &model;
       const NestedParameters                 &parameters;
       Journal                                &journal;
+      Checkpoints *const                      checkpoints;
       const Refinement                        refinement;
       const bool                              is_adaptive;
       std::shared_ptr<const ConstrainedSpace> space;
@@ -311,9 +453,9 @@ namespace Signorini
 
 
   NestedSolution run_nested_iteration(ContactModel &model, const NestedParameters &parameters,
-                                      Journal &journal)
+                                      Journal &journal, Checkpoints *const checkpoints)
   {
-    return NestedIteration(model, parameters, journal).run();
+    return NestedIteration(model, parameters, journal, checkpoints).run();
   }
 
 

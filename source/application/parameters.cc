@@ -136,6 +136,21 @@ namespace Signorini
     prm.add_parameter(
         "Measure sweeps", measure_sweeps,
         "Time Gauss-Seidel sweeps and a plain read of memory on the finest level (costs some ten sweeps).");
+    add_choice(
+        prm, "Checkpoint", checkpoints.times,
+        {{CheckpointTimes::automatic, "automatic"},
+         {CheckpointTimes::always, "always"},
+         {CheckpointTimes::never, "never"}},
+        "Save the state beside the output folder after cycles and load steps; --resume goes on from it, "
+        "on any number of ranks. automatic: after those that make it cost less than 2 % of the time.");
+    prm.declare_entry(
+        "Wall time limit", "", Patterns::Anything(),
+        "Seconds, minutes:seconds or hours:minutes:seconds that the process may take: a run that "
+        "would take longer ends before the next cycle or load step, with a checkpoint and exit "
+        "code 4. Empty for no limit.");
+    prm.add_action("Wall time limit", [this](const std::string &text) {
+      checkpoints.wall_time_limit = parse_duration(text, "Output/Wall time limit");
+    });
   }
 
 

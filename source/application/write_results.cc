@@ -289,9 +289,12 @@ namespace Signorini
   {
     OutputParameters fields = output;
     fields.mapping          = false;
-    const std::string suffix =
-        "-step-" + Utilities::int_to_string(step + 1, std::to_string(times.size()).size());
-    write_fields(model, d, solution, fields, folder, suffix);
+    const auto suffix       = [this](const std::size_t k) {
+      return "-step-" +
+             Utilities::int_to_string(static_cast<unsigned int>(k) + 1,
+                                            static_cast<unsigned int>(std::to_string(times.size()).size()));
+    };
+    write_fields(model, d, solution, fields, folder, suffix(step));
 
     std::vector<std::string> names;
     if (output.bodies)
@@ -305,8 +308,9 @@ namespace Signorini
         }
     for (const std::string &name : names)
       {
-        auto &list = series[name];
-        list.emplace_back(times[step], name + suffix + ".pvtu");
+        std::vector<std::pair<double, std::string>> list;
+        for (std::size_t k = 0; k <= step; ++k)
+          list.emplace_back(times[k], name + suffix(k) + ".pvtu");
         if (Utilities::MPI::this_mpi_process(model.communicator()) == 0)
           write_file(folder.path() + name + "-steps.pvd",
                      [&](std::ostream &o) { DataOutBase::write_pvd_record(o, list); });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/algebra/gathered_lists.h>
 #include <signorini/discretization/boundary_conditions.h>
 #include <signorini/discretization/hexahedron.h>
 #include <signorini/discretization/interpolation_exchange.h>
@@ -214,6 +215,72 @@ namespace Signorini
     for (const auto &space : coarser)
       add(*space);
     add(finest);
+    gather_small_levels(finest.communicator());
+  }
+
+
+
+  void LevelSpaces::gather_small_levels(const MPI_Comm communicator)
+  {
+    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator),
+                       rank    = Utilities::MPI::this_mpi_process(communicator);
+    for (unsigned int level = 0; level + 1 < n_levels(); ++level)
+      {
+        const unsigned int size = SmallLevelsRule().group_size(owned_nodes[level].size(), n_ranks);
+        if (size == 1)
+          continue;
+        MPI_Comm group;
+        MPI_Comm_split(communicator, static_cast<int>(rank / size), static_cast<int>(rank), &group);
+        gather_level(level, group);
+        MPI_Comm_free(&group);
+      }
+  }
+
+
+
+  void LevelSpaces::gather_level(const unsigned int level, const MPI_Comm group)
+  {
+    const auto gathered = [&](auto &list) {
+      list = gather_lists(std::move(list), group, Receivers::rank_zero);
+    };
+    const NodeIndex        n    = owned_nodes[level].size();
+    std::vector<NodeIndex> ends = {0, 0};
+    if (owned_nodes[level].n_elements() > 0)
+      ends = {owned_nodes[level].nth_index_in_set(0),
+              owned_nodes[level].nth_index_in_set(owned_nodes[level].n_elements() - 1) + 1};
+    // Ranks own consecutive ranges.
+    if (ends[0] == ends[1])
+      ends.clear();
+    gathered(ends);
+    owned_nodes[level] = IndexSet(n);
+    if (!ends.empty())
+      owned_nodes[level].add_range(ends.front(), ends.back());
+    owned_nodes[level].compress();
+    gathered(masks[level]);
+    if (level > 0)
+      {
+        NodeRows                &mine = rows[level - 1];
+        std::vector<std::size_t> lengths(mine.n_rows());
+        for (std::size_t i = 0; i < lengths.size(); ++i)
+          lengths[i] = mine.start[i + 1] - mine.start[i];
+        gathered(lengths);
+        gathered(mine.columns);
+        gathered(mine.weights);
+        mine.start.assign(1, 0);
+        for (const std::size_t length : lengths)
+          mine.start.push_back(mine.start.back() + length);
+      }
+    else
+      {
+        std::vector<std::array<double, 3>> positions;
+        for (const Point<3> &p : places.positions)
+          positions.push_back({{p[0], p[1], p[2]}});
+        gathered(positions);
+        gathered(places.parts);
+        places.positions.clear();
+        for (const auto &p : positions)
+          places.positions.emplace_back(p[0], p[1], p[2]);
+      }
   }
 
 

@@ -6,6 +6,7 @@
 #include <signorini/algebra/input_error.h>
 #include <signorini/mesh/bodies.h>
 #include <signorini/mesh/nodal_space.h>
+#include <signorini/mesh/size_limit.h>
 
 #include <deal.II/grid/grid_tools.h>
 
@@ -282,11 +283,20 @@ namespace Signorini
   bool Bodies::refine(const NodalSpace &space, const std::vector<bool> &marked)
   {
     AssertDimension(marked.size(), space.cells().size());
-    bool any = false;
+    std::uint64_t n_marked = 0, n_cells = 0;
     for (std::size_t c = 0; c < marked.size(); ++c)
-      any = any || (marked[c] && space.cells()[c].is_owned);
-    if (Utilities::MPI::max(static_cast<int>(any), comm) == 0)
+      if (space.cells()[c].is_owned)
+        {
+          ++n_cells;
+          n_marked += marked[c];
+        }
+    n_marked = Utilities::MPI::sum(n_marked, comm);
+    n_cells  = Utilities::MPI::sum(n_cells, comm);
+    if (n_marked == 0)
       return false;
+    // A marked cell becomes eight.
+    const double growth = 1. + 7. * static_cast<double>(n_marked) / static_cast<double>(n_cells);
+    refuse_too_many_unknowns(growth * dim * static_cast<double>(space.n_nodes()));
     std::size_t c = 0;
     last_movement = MovementReport();
     if (tria)

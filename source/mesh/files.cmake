@@ -8,6 +8,7 @@ signorini_add_layer(mesh
   body_shapes.cc
   boundary_shape.cc
   coarser_meshes.cc
+  curve_order.cc
   deck.cc
   deck_elements.cc
   deck_faces.cc

@@ -8,6 +8,7 @@
 
 #include <fstream>
 #include <iomanip>
+#include <limits>
 #include <sstream>
 
 #include <unistd.h>
@@ -57,6 +58,20 @@ namespace Signorini
     std::ostringstream text;
     text << std::setprecision(2) << what << " would have " << n_cells << " cells, which take " << needed / 1e9
          << " GB of memory at least; there are " << there / 1e9 << " GB. " << cure;
+    throw InputError(text.str());
+  }
+
+
+
+  void refuse_too_many_unknowns(const double n_unknowns)
+  {
+    const auto largest = static_cast<double>(std::numeric_limits<types::global_dof_index>::max());
+    if (n_unknowns <= largest)
+      return;
+    std::ostringstream text;
+    text << std::setprecision(2) << "The next mesh would have " << n_unknowns
+         << " unknowns, and this deal.II numbers " << largest
+         << " of them. Refine less, or build deal.II with DEAL_II_WITH_64BIT_INDICES.";
     throw InputError(text.str());
   }
 } // namespace Signorini

@@ -1,4 +1,5 @@
 signorini_add_layer(output
+  checkpoint_file.cc
   field_output.cc
   frd_output.cc
   load_curve.cc

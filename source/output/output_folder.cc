@@ -24,6 +24,8 @@ namespace Signorini
   namespace
   {
     const char *const marker = ".signorini";
+    /// Of OutputFolder::checkpoint() in the folder itself.
+    const char *const checkpoint_inside = ".signorini-checkpoint";
 
     /// Runs on rank 0; an error there is raised everywhere.
     template <typename F>
@@ -114,9 +116,18 @@ namespace Signorini
       return result;
     }
 
+    std::set<std::string> entries(const std::string &folder)
+    {
+      std::set<std::string> names;
+      for (const auto &entry : fs::directory_iterator(folder))
+        names.insert(entry.path().filename().string());
+      names.erase(checkpoint_inside);
+      return names;
+    }
+
     bool is_void(const std::string &folder)
     {
-      return !fs::exists(folder) || (fs::is_directory(folder) && fs::is_empty(folder));
+      return !fs::exists(folder) || (fs::is_directory(folder) && entries(folder).empty());
     }
 
     /// What tells whether somebody else has been there; "foreign" where no results are.
@@ -125,14 +136,6 @@ namespace Signorini
       if (is_void(folder))
         return "";
       return fs::exists(folder + "/" + marker) ? "results " + read_marker(folder).id : "foreign";
-    }
-
-    std::set<std::string> entries(const std::string &folder)
-    {
-      std::set<std::string> names;
-      for (const auto &entry : fs::directory_iterator(folder))
-        names.insert(entry.path().filename().string());
-      return names;
     }
 
     /// Whether a folder has to keep its place: because somebody works in it, it is another file system, or
@@ -171,7 +174,8 @@ namespace Signorini
         target.pop_back();
       if (fs::exists(target) && !fs::is_directory(target))
         throw InputError("\"" + target + "\" is a file. Choose another name.");
-      in_place = is_pinned(target);
+      in_place       = is_pinned(target);
+      for_checkpoint = in_place ? target + "/" + checkpoint_inside : target + ".checkpoint";
       remove_abandoned();
       found = identity(target);
       if (found == "foreign")
@@ -179,11 +183,33 @@ namespace Signorini
                          "\" exists and was not written by signorini. Choose another name or remove it.");
       make_temporary();
     });
-    temporary = Utilities::MPI::broadcast(comm, temporary, 0);
-    TerminationWatch::guard(temporary, Utilities::MPI::this_mpi_process(comm) > 0 ? ""
-                                       : found.empty()
-                                           ? "nothing was written."
-                                           : "the earlier results in " + target + " are unchanged.");
+    temporary      = Utilities::MPI::broadcast(comm, temporary, 0);
+    for_checkpoint = Utilities::MPI::broadcast(comm, for_checkpoint, 0);
+    TerminationWatch::guard(temporary, last_words());
+  }
+
+
+
+  std::string OutputFolder::last_words() const
+  {
+    return Utilities::MPI::this_mpi_process(comm) > 0 ? ""
+           : found.empty()                            ? "no results were written."
+                           : "the earlier results in " + target + " are unchanged.";
+  }
+
+
+
+  void OutputFolder::set_last_words(const std::string &text)
+  {
+    const std::string words = last_words();
+    TerminationWatch::guard(temporary, words.empty() ? words : words + " " + text);
+  }
+
+
+
+  std::string OutputFolder::earlier_results() const
+  {
+    return found.empty() ? "" : read_marker(target).outcome;
   }
 
 

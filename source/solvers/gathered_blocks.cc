@@ -61,6 +61,7 @@ namespace Signorini
   GatheredBlocks::LowerHalf GatheredBlocks::lower_structure() const
   {
     const auto n = static_cast<Eigen::Index>(dim * n_rows());
+    checked_count(dim * dim * columns.size(), "numbers of a matrix that is factorized");
     LowerHalf  lower(n, n);
     int *const outer = lower.outerIndexPtr();
     outer[0]         = 0;

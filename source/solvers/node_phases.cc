@@ -57,7 +57,8 @@ namespace Signorini
       {
         const auto [begin, end] = matrix.ghost_column(ghost);
         for (auto coupling = begin; coupling != end; ++coupling)
-          between_ranks.push_back({coupling->row, matrix.n_rows() + ghost, couplings.norm(*coupling, ghost)});
+          between_ranks.push_back(
+              {coupling->row, matrix.n_rows() + ghost, couplings.bound(*coupling, ghost)});
       }
     std::stable_sort(between_ranks.begin(), between_ranks.end(),
                      [](const Coupling &a, const Coupling &b) { return a.row < b.row; });

@@ -18,7 +18,7 @@ namespace Signorini
     std::vector<unsigned int> rows(matrix.n_rows());
     std::iota(rows.begin(), rows.end(), 0u);
     update(rows);
-    const RelativeCouplings couplings(matrix, inverses.data());
+    const RelativeCouplings couplings(matrix);
     node_phases = std::make_unique<NodePhases>(matrix, couplings);
     all_rows    = schedule(rows);
     factors     = SweepDamping(matrix, *node_phases, couplings);
@@ -32,7 +32,7 @@ namespace Signorini
       write_block(inverses.data() + 9 * static_cast<std::size_t>(row),
                   invert(read_block(matrix.block(matrix.diagonal(row)))));
     if (matrix.partition().n_ranks() > 1 && node_phases)
-      factors.update(RelativeCouplings(matrix, inverses.data()));
+      factors.update(RelativeCouplings(matrix));
   }
 
 

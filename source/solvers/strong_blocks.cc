@@ -307,7 +307,7 @@ namespace Signorini
     // By row and phase: couplings to what other ranks change at that time; how many blocks have the row.
     std::map<unsigned int, std::vector<double>> sums;
     const unsigned int                          n_phases = sweeps.phases().size();
-    const RelativeCouplings                     couplings(matrix, sweeps.inverse_diagonal());
+    const RelativeCouplings                     couplings(matrix);
     for (unsigned int ghost = 0; ghost < matrix.partition().ghosts().size(); ++ghost)
       if (const unsigned int flags = phases_of_node[matrix.n_rows() + ghost]; flags != 0)
         for (auto [coupling, end] = matrix.ghost_column(ghost); coupling != end; ++coupling)
@@ -315,7 +315,7 @@ namespace Signorini
             {
               auto &sum = sums[coupling->row];
               sum.resize(n_phases);
-              const double norm = couplings.norm(*coupling, ghost);
+              const double norm = couplings.bound(*coupling, ghost);
               for (unsigned int phase = 0; phase < n_phases; ++phase)
                 sum[phase] += flags & (1u << phase) ? norm : 0.;
             }

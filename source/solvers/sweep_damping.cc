@@ -27,7 +27,7 @@ namespace Signorini
       return;
     factors.assign(matrix->n_rows(), 0.);
     for (const auto &[coupling, ghost] : clashes)
-      factors[coupling.row] += couplings.norm(coupling, ghost);
+      factors[coupling.row] += couplings.bound(coupling, ghost);
     for (double &factor : factors)
       factor = DampingRule().factor(factor);
   }

@@ -11,6 +11,7 @@ import subprocess
 import sys
 import tempfile
 
+import checkpoint_cases
 import deck_cases
 import finished_mesh_cases
 import geometry_cases
@@ -694,7 +695,7 @@ def surface_map(p):
 
 
 if __name__ == '__main__':
-    modules = (sys.modules[__name__], deck_cases, geometry_cases, heat_cases, finished_mesh_cases, load_cases, random_pair_cases, shape_cases, tool_cases, true_gap_cases,
+    modules = (sys.modules[__name__], checkpoint_cases, deck_cases, geometry_cases, heat_cases, finished_mesh_cases, load_cases, random_pair_cases, shape_cases, tool_cases, true_gap_cases,
                verification_cases)
     case = next(getattr(m, sys.argv[2]) for m in modules if hasattr(m, sys.argv[2]))
     case(Program(sys.argv[1], int(sys.argv[3])))

@@ -4,6 +4,8 @@
 #ifndef signorini_algebra_gathered_lists_h
 #define signorini_algebra_gathered_lists_h
 
+#include <signorini/algebra/checked_count.h>
+
 #include <deal.II/base/mpi.h>
 
 #include <numeric>
@@ -31,9 +33,10 @@ namespace Signorini
     MPI_Datatype item;
     MPI_Type_contiguous(sizeof(T), MPI_BYTE, &item);
     MPI_Type_commit(&item);
-    const int        n = static_cast<int>(mine.size());
+    const int        n = checked_count(mine.size(), "items of a list");
     std::vector<int> counts(n_ranks), starts(n_ranks, 0);
     MPI_Allgather(&n, 1, MPI_INT, counts.data(), 1, MPI_INT, communicator);
+    checked_count(std::accumulate(counts.begin(), counts.end(), std::size_t(0)), "items of a gathered list");
     std::partial_sum(counts.begin(), counts.end() - 1, starts.begin() + 1);
     const bool receives =
         receivers == Receivers::all || dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
@@ -60,9 +63,10 @@ namespace Signorini
     MPI_Datatype item;
     MPI_Type_contiguous(sizeof(T), MPI_BYTE, &item);
     MPI_Type_commit(&item);
-    const int        n_mine = static_cast<int>(n);
+    const int        n_mine = checked_count(n, "items of a list");
     std::vector<int> counts(n_ranks), starts(n_ranks, 0);
     MPI_Gather(&n_mine, 1, MPI_INT, counts.data(), 1, MPI_INT, 0, communicator);
+    checked_count(all.size(), "items of a gathered list");
     std::partial_sum(counts.begin(), counts.end() - 1, starts.begin() + 1);
     std::vector<T> mine(n);
     MPI_Scatterv(all.data(), counts.data(), starts.data(), item, mine.data(), n_mine, item, 0, communicator);

@@ -25,10 +25,11 @@ namespace Signorini
   /// the steps before, each of which begins with what the two before it foretell. (Frictionless contact of
   /// linear bodies does not depend on the path.) Errors: those of run_nested_iteration(); a step that is not
   /// solved ends the series with a note.
+  /// @param checkpoints as in run_nested_iteration(), after each step, too
   /// @return the last step, with Results::steps of all
   NestedSolution run_load_steps(ContactModel &model, const NestedParameters &parameters,
                                 const std::vector<double> &times, const StepObserver &observe,
-                                Journal &journal);
+                                Journal &journal, Checkpoints *const checkpoints = nullptr);
 } // namespace Signorini
 
 #endif

@@ -4,6 +4,7 @@
 #ifndef signorini_application_nested_iteration_h
 #define signorini_application_nested_iteration_h
 
+#include <signorini/application/checkpoints.h>
 #include <signorini/application/contact_evaluation.h>
 #include <signorini/mesh/refinement.h>
 
@@ -37,8 +38,10 @@ namespace Signorini
 
   /// Collective. Solves on one mesh after the other; each begins with the solution of the one before. The
   /// model is left with the last mesh.
+  /// @param checkpoints saved after each mesh; goes on from where it has a state; null for none
+  /// Errors: RunStopped, between two meshes; InputError for a state that does not fit to the model.
   NestedSolution run_nested_iteration(ContactModel &model, const NestedParameters &parameters,
-                                      Journal &journal);
+                                      Journal &journal, Checkpoints *const checkpoints = nullptr);
 
   /// Collective. Builds the meshes of all cycles that need no solutions and the contact mapping of the last,
   /// and solves nothing.

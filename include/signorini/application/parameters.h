@@ -51,6 +51,8 @@ namespace Signorini
     unsigned int verbosity = 1;
     /// Files of bodies, of contact surfaces, with stresses in them, of the mapping; times of sweeps.
     bool bodies = true, surfaces = true, stress = true, mapping = false, measure_sweeps = true;
+    /// When the state is saved, and how long the run may take.
+    CheckpointParameters checkpoints;
 
     /// Declares the parameters in the current subsection.
     void add_parameters(dealii::ParameterHandler &prm);

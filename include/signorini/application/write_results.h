@@ -35,8 +35,6 @@ namespace Signorini
     const OutputParameters    &output;
     const OutputFolder        &folder;
     const std::vector<double> &times;
-    /// By name of a series: times and files.
-    std::map<std::string, std::vector<std::pair<double, std::string>>> series;
   };
 
   /// Collective. Writes everything of a solved problem (or its meshes and mapping only) into a folder, and

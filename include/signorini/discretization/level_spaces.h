@@ -32,8 +32,26 @@ namespace Signorini
     none
   };
 
+  /// Where a level is too small for all ranks: messages then take longer than the work that is shared.
+  struct SmallLevelsRule
+  {
+    /// Nodes that a rank has at least, on the mean, where there are several.
+    NodeIndex least_nodes = 1000;
+
+    /// Every how many ranks there is one that has nodes: a power of two, so that groups contain those of
+    /// finer levels.
+    unsigned int group_size(const NodeIndex n_nodes, const unsigned int n_ranks) const
+    {
+      unsigned int size = 1;
+      while (size < n_ranks && n_nodes * size < least_nodes * n_ranks)
+        size *= 2;
+      return size;
+    }
+  };
+
   /// The levels of the hierarchy as nodes and the interpolation between consecutive ones: the meshes, and
-  /// below the coarsest one background levels, if wanted.
+  /// below the coarsest one background levels, if wanted. Small levels are owned by fewer ranks than the
+  /// meshes are.
   class LevelSpaces
   {
   public:
@@ -102,6 +120,9 @@ namespace Signorini
   private:
     void add_background(std::vector<DistributedBackgroundLevel> &&levels,
                         const std::vector<RigidFace>             &rigid);
+    /// Collective. Small levels move to fewer ranks.
+    void gather_small_levels(const MPI_Comm communicator);
+    void gather_level(const unsigned int level, const MPI_Comm group);
 
     std::vector<dealii::IndexSet>             owned_nodes;
     std::vector<NodeRows>                     rows;

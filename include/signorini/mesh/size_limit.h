@@ -27,6 +27,8 @@ namespace Signorini
   void refuse_too_many_cells(const double n_cells, const std::string &what, const std::string &cure,
                              const MPI_Comm communicator,
                              const double   unknowns_per_cell = SizeRule().unknowns_per_cell);
+  /// Errors: InputError if unknowns could not be numbered by this deal.II.
+  void refuse_too_many_unknowns(const double n_unknowns);
 } // namespace Signorini
 
 #endif

@@ -31,6 +31,25 @@ namespace Signorini
 
     OutputFolder(const OutputFolder &) = delete;
 
+    /// The ranks that write there.
+    MPI_Comm communicator() const
+    {
+      return comm;
+    }
+
+    /// The folder for what an interrupted run needs to go on: beside the results, or in their folder where
+    /// that keeps its place. It is no result and stays when results are replaced.
+    const std::string &checkpoint() const
+    {
+      return for_checkpoint;
+    }
+
+    /// On rank 0: "complete" or "not converged" where there were results at the beginning, else empty.
+    std::string earlier_results() const;
+
+    /// What the user hears last if a signal ends the run, beside that earlier results are unchanged.
+    void set_last_words(const std::string &text);
+
     /// Where to write, with a slash at the end.
     const std::string &path() const
     {
@@ -44,13 +63,14 @@ namespace Signorini
     std::string commit(const Outcome outcome = Outcome::complete);
 
   private:
-    std::string target, temporary;
+    std::string target, temporary, for_checkpoint;
     /// Which results were there at the beginning: see the file .signorini.
     std::string    found;
     const MPI_Comm comm;
     /// Whether the temporary folder lies in the folder, because that cannot be renamed.
     bool in_place = false, committed = false;
 
+    std::string last_words() const;
     void        make_temporary();
     void        remove_abandoned() const;
     std::string destination(const Outcome outcome) const;

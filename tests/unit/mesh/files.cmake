@@ -4,6 +4,7 @@ signorini_add_unit_tests(mesh RANKS "1;2;4"
   expression.cc
   generated_mesh.cc
   mesh_input.cc
+  size_limit.cc
   surface_extraction.cc
   tetrahedral_forest.cc
   surface_file.cc

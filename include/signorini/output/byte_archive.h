@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_output_byte_archive_h
+#define signorini_output_byte_archive_h
+
+#include <signorini/algebra/input_error.h>
+
+#include <deal.II/base/point.h>
+
+#include <cstring>
+#include <map>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace Signorini
+{
+  /// Values as bytes, one after the other. What a struct consists of says a function
+  /// `template <typename Archive> void transfer(Archive &archive, Struct &value)` beside it, which calls the
+  /// archive with all members: the same for both directions.
+  class ByteWriter
+  {
+  public:
+    /// Appends values.
+    template <typename... Values>
+    void operator()(const Values &...values)
+    {
+      (write(values), ...);
+    }
+
+    /// All so far.
+    const std::string &bytes() const
+    {
+      return text;
+    }
+
+  private:
+    template <typename T>
+    void write(const T &value)
+    {
+      if constexpr (std::is_arithmetic<T>::value || std::is_enum<T>::value)
+        text.append(reinterpret_cast<const char *>(&value), sizeof(T));
+      else
+        transfer(*this, const_cast<T &>(value));
+    }
+
+    void write(const std::string &value)
+    {
+      write(static_cast<std::uint64_t>(value.size()));
+      text += value;
+    }
+
+    void write(const dealii::Tensor<1, 3> &value)
+    {
+      for (unsigned int c = 0; c < 3; ++c)
+        write(value[c]);
+    }
+
+    void write(const dealii::Point<3> &value)
+    {
+      write(static_cast<const dealii::Tensor<1, 3> &>(value));
+    }
+
+    template <typename T>
+    void write(const std::vector<T> &values)
+    {
+      write(static_cast<std::uint64_t>(values.size()));
+      for (const auto &value : values)
+        write(static_cast<const T &>(value));
+    }
+
+    template <typename Key, typename T>
+    void write(const std::map<Key, T> &values)
+    {
+      write(static_cast<std::uint64_t>(values.size()));
+      for (const auto &[key, value] : values)
+        (*this)(key, value);
+    }
+
+    template <typename First, typename Second>
+    void write(const std::pair<First, Second> &value)
+    {
+      (*this)(value.first, value.second);
+    }
+
+    template <typename T>
+    void write(const std::optional<T> &value)
+    {
+      write(value.has_value());
+      if (value)
+        write(*value);
+    }
+
+    std::string text;
+  };
+
+
+
+  /// Gives back what a ByteWriter took, in its order. Errors: InputError for bytes that end too early.
+  class ByteReader
+  {
+  public:
+    /// The bytes of a ByteWriter.
+    explicit ByteReader(std::string bytes)
+      : text(std::move(bytes))
+    {
+    }
+
+    /// Takes values.
+    template <typename... Values>
+    void operator()(Values &...values)
+    {
+      (read(values), ...);
+    }
+
+  private:
+    template <typename T>
+    void read(T &value)
+    {
+      if constexpr (std::is_arithmetic<T>::value || std::is_enum<T>::value)
+        take(&value, sizeof(T));
+      else
+        transfer(*this, value);
+    }
+
+    void read(std::string &value)
+    {
+      value.resize(length());
+      take(&value[0], value.size());
+    }
+
+    void read(dealii::Tensor<1, 3> &value)
+    {
+      for (unsigned int c = 0; c < 3; ++c)
+        read(value[c]);
+    }
+
+    void read(dealii::Point<3> &value)
+    {
+      read(static_cast<dealii::Tensor<1, 3> &>(value));
+    }
+
+    template <typename T>
+    void read(std::vector<T> &values)
+    {
+      const std::size_t n = length();
+      values.clear();
+      for (std::size_t i = 0; i < n; ++i)
+        {
+          T value{};
+          read(value);
+          values.push_back(std::move(value));
+        }
+    }
+
+    template <typename Key, typename T>
+    void read(std::map<Key, T> &values)
+    {
+      const std::size_t n = length();
+      values.clear();
+      for (std::size_t i = 0; i < n; ++i)
+        {
+          Key key{};
+          read(key);
+          read(values[key]);
+        }
+    }
+
+    template <typename First, typename Second>
+    void read(std::pair<First, Second> &value)
+    {
+      (*this)(value.first, value.second);
+    }
+
+    template <typename T>
+    void read(std::optional<T> &value)
+    {
+      bool is_there = false;
+      read(is_there);
+      value = is_there ? std::optional<T>(T{}) : std::optional<T>();
+      if (value)
+        read(*value);
+    }
+
+    /// Of a list: none of its entries is shorter than a byte.
+    std::size_t length()
+    {
+      std::uint64_t n = 0;
+      read(n);
+      if (n > text.size() - position)
+        fail();
+      return static_cast<std::size_t>(n);
+    }
+
+    void take(void *const to, const std::size_t n)
+    {
+      if (n > text.size() - position)
+        fail();
+      std::memcpy(to, text.data() + position, n);
+      position += n;
+    }
+
+    [[noreturn]] static void fail()
+    {
+      throw InputError("it ends too early.");
+    }
+
+    const std::string text;
+    std::size_t       position = 0;
+  };
+} // namespace Signorini
+
+#endif
