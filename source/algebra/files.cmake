@@ -3,6 +3,7 @@ signorini_add_layer(algebra
   block_row.cc
   fixed_directions.cc
   galerkin_product.cc
+  interface_rows.cc
   nodal_transfer.cc
   node_block_matrix.cc
   node_exchange.cc

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/algebra/node_request.h>
 #include <signorini/algebra/replicated_data.h>
 
 #include <deal.II/base/mpi.h>
@@ -119,6 +120,53 @@ namespace Signorini
       for (unsigned int c = 0; c < dim; ++c)
         values[i][c] = all[dim * i + c];
     return values;
+  }
+
+
+
+  std::vector<Vector3> import_values(const NodePartition &partition, const Vector &field,
+                                     const std::vector<NodeIndex> &nodes)
+  {
+    return NodeRequest(partition, nodes).fetch([&](const unsigned int i) {
+      Vector3 value;
+      for (unsigned int c = 0; c < dim; ++c)
+        value[c] = field.local_element(dim * i + c);
+      return value;
+    });
+  }
+
+
+
+  NodeRows import_rows(const NodePartition &partition, const NodeRows &rows,
+                       const std::vector<NodeIndex> &nodes)
+  {
+    struct Entry
+    {
+      NodeIndex column;
+      double    weight;
+    };
+    auto lists =
+        NodeRequest(partition, nodes).fetch_lists<Entry>([&](std::vector<Entry> &list, const unsigned int i) {
+          for (std::size_t k = rows.start[i]; k < rows.start[i + 1]; ++k)
+            list.push_back({rows.columns[k], rows.weights[k]});
+        });
+    NodeRows result;
+    result.start = std::move(lists.start);
+    for (const Entry &entry : lists.items)
+      {
+        result.columns.push_back(entry.column);
+        result.weights.push_back(entry.weight);
+      }
+    return result;
+  }
+
+
+
+  std::vector<FixedDirections> import_masks(const NodePartition                &partition,
+                                            const std::vector<FixedDirections> &owned,
+                                            const std::vector<NodeIndex>       &nodes)
+  {
+    return NodeRequest(partition, nodes).fetch([&](const unsigned int i) { return owned[i]; });
   }
 
 

@@ -52,7 +52,7 @@ namespace Signorini
       double largest = 0., tension = 0., penetration = 0., product = 0.;
       for (std::size_t row = 0; row < d.coupling.n_rows(); ++row)
         {
-          if (d.tied[row])
+          if (d.tied[row] || !d.owns_row(row))
             continue;
           // What is left of the pressure where nothing touches is rounding, and no scale.
           if (stress.active[row])
@@ -61,6 +61,8 @@ namespace Signorini
           penetration = std::max(penetration, -stress.opening[row]);
           product     = std::max(product, std::abs(stress.pressure[row] * stress.opening[row]));
         }
+      for (double *const value : {&largest, &tension, &penetration, &product})
+        *value = Utilities::MPI::max(*value, d.nodal().communicator());
       // Where nothing touches: the stress of such displacements over such a length.
       const double u = scales.displacement, scale = largest > 0. ? largest : scales.stress;
       c.penetration     = u > 0. ? penetration / u : 0.;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
-#include "replicated_field.h"
+#include "imported_field.h"
 
 #include <signorini/algebra/gathered_lists.h>
 #include <signorini/algebra/input_error.h>
@@ -160,7 +160,7 @@ namespace Signorini
       double depth = 0., displacement = 0.;
     };
 
-    HeldOverlap overlap_of(const FaceMoments &m, const ContactPair &pair, const ReplicatedField &prescribed)
+    HeldOverlap overlap_of(const FaceMoments &m, const ContactPair &pair, const ImportedField &prescribed)
     {
       const ContactSurface       &non     = pair.nonmortar.surface;
       const ContactSurface::Face &face    = non.faces[m.face];
@@ -198,13 +198,18 @@ namespace Signorini
       if (Utilities::MPI::sum(faces.size(), comm) == 0 || pair.is_tied)
         return;
       const ContactSurface  &non = pair.nonmortar.surface;
-      std::vector<NodeIndex> nodes(non.vertex_node);
-      nodes.insert(nodes.end(), pair.mortar.surface.vertex_node.begin(),
-                   pair.mortar.surface.vertex_node.end());
+      std::vector<NodeIndex> nodes;
+      for (const FaceMoments *m : faces)
+        {
+          for (const unsigned int v : non.faces[m->face].corners)
+            nodes.push_back(non.vertex_node[v]);
+          for (const auto &entry : m->coupling)
+            nodes.push_back(pair.mortar.surface.vertex_node[entry.first]);
+        }
       const ConstrainedSpace &space = coupled.constrained;
-      const ReplicatedField   prescribed(
-            space.partition, prescribed_displacement(space.nodal(), space.partition, space.dirichlet),
-            std::move(nodes));
+      const ImportedField     prescribed(space.partition,
+                                         prescribed_displacement(space.nodal(), space.partition, space.dirichlet),
+                                         std::move(nodes));
       struct Deepest
       {
         double       depth = 0., displacement = 0.;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include "nodal_contact_forces.h"
+
 #include <signorini/algebra/gathered_lists.h>
 #include <signorini/algebra/input_error.h>
-#include <signorini/algebra/replicated_data.h>
+#include <signorini/algebra/node_request.h>
 #include <signorini/application/contact_evaluation.h>
 #include <signorini/application/nodal_sums.h>
 #include <signorini/discretization/elasticity.h>
@@ -111,13 +113,24 @@ namespace Signorini
 
   ContactStress stress_of_pair(const Discretization &d, const ContactStress &stress, const unsigned int p)
   {
-    ContactStress result;
-    for (const std::size_t row : d.rows_of_pair[p])
+    struct RowStress
+    {
+      Vector3       traction;
+      double        pressure, opening;
+      unsigned char active;
+    };
+    const NodeRequest request(d.partition(), d.couplings[p].coupling.rows);
+    ContactStress     result;
+    for (const RowStress &one : request.fetch([&](const unsigned int local) {
+           const std::size_t row = d.coupling.find(d.partition().to_global(local));
+           return RowStress{stress.traction[row], stress.pressure[row], stress.opening[row],
+                            stress.active[row]};
+         }))
       {
-        result.traction.push_back(stress.traction[row]);
-        result.pressure.push_back(stress.pressure[row]);
-        result.opening.push_back(stress.opening[row]);
-        result.active.push_back(stress.active[row]);
+        result.traction.push_back(one.traction);
+        result.pressure.push_back(one.pressure);
+        result.opening.push_back(one.opening);
+        result.active.push_back(one.active);
       }
     return result;
   }
@@ -256,18 +269,10 @@ namespace Signorini
     /// Puts the contact forces on the other side of the equilibrium.
     void subtract_contact_forces(Vector &residual, const Discretization &d, const ContactStress &stress)
     {
-      const auto subtract = [&](const NodeIndex node, const Vector3 &force) {
-        if (d.partition().owns(node))
-          for (unsigned int c = 0; c < dim; ++c)
-            residual.local_element(dim * d.partition().to_local(node) + c) -= force[c];
-      };
-      for (std::size_t row = 0; row < d.coupling.n_rows(); ++row)
-        {
-          const Vector3 force = d.coupling.weight[row] * stress.traction[row];
-          subtract(d.coupling.rows[row], -force);
-          for (const auto *entry = d.coupling.begin(row); entry != d.coupling.end(row); ++entry)
-            subtract(entry->node, entry->weight * force);
-        }
+      for_contact_forces(d, stress, [&](const unsigned int i, const Vector3 &force) {
+        for (unsigned int c = 0; c < dim; ++c)
+          residual.local_element(dim * i + c) -= force[c];
+      });
     }
 
     /// Splits what is left at the owned nodes into the reactions of the conditions (their sums) and the rest.

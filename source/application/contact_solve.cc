@@ -34,7 +34,7 @@ namespace Signorini
     {
       HalfSpaces result;
       for (std::size_t p = 0; p < d.coupling.n_rows(); ++p)
-        if (!d.tied[p] && unknowns.owns(d.coupling.rows[p]))
+        if (!d.tied[p] && d.owns_row(p))
           {
             result.nodes.push_back(unknowns.to_local(d.coupling.rows[p]));
             result.normals.push_back(d.projections[p].direction());
@@ -98,15 +98,15 @@ namespace Signorini
                                   const Vector &residual, const HalfSpaces &half_spaces,
                                   const std::vector<unsigned char> &active)
     {
-      const auto                forces = replicate_values(partition, residual, d.coupling.rows);
-      const auto                values = replicate_values(partition, v, d.coupling.rows);
+      const auto                forces = import_values(partition, residual, d.coupling.rows);
+      const auto                values = import_values(partition, v, d.coupling.rows);
       const std::vector<double> bounds = d.transformation->reduce_gaps(d.gaps);
       // The active set is what the projection of the solver wrote.
       Vector flags;
       flags.reinit(v);
       for (std::size_t p = 0; p < half_spaces.size(); ++p)
         flags.local_element(dim * half_spaces.nodes[p]) = active[p];
-      const auto    active_rows = replicate_values(partition, flags, d.coupling.rows);
+      const auto    active_rows = import_values(partition, flags, d.coupling.rows);
       ContactStress stress      = no_stress(d);
       for (std::size_t p = 0; p < d.coupling.n_rows(); ++p)
         {
@@ -299,11 +299,13 @@ namespace Signorini
     const auto active = Signorini::solve(result.report, *algebraic, model, d, parameters, journal);
     solving.stop();
 
-    result.n_levels = n_levels;
-    result.stress   = evaluate_stress(d, matrix.partition(), algebraic->v, algebraic->residual,
-                                      algebraic->problem.half_spaces, active);
-    result.n_active =
-        std::accumulate(result.stress.active.begin(), result.stress.active.end(), std::size_t(0));
+    result.n_levels      = n_levels;
+    result.stress        = evaluate_stress(d, matrix.partition(), algebraic->v, algebraic->residual,
+                                           algebraic->problem.half_spaces, active);
+    std::size_t n_active = 0;
+    for (std::size_t row = 0; row < d.coupling.n_rows(); ++row)
+      n_active += d.owns_row(row) && result.stress.active[row];
+    result.n_active     = Utilities::MPI::sum(n_active, model.communicator());
     result.displacement = d.transformation->to_displacement(algebraic->v, matrix.partition());
     set_tie_stress(result.stress, model, d, result.displacement);
     return result;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
-#include <signorini/algebra/input_error.h>
+#include <signorini/algebra/common_error.h>
+#include <signorini/algebra/interface_rows.h>
 #include <signorini/application/contact_checks.h>
 #include <signorini/application/discretization.h>
 #include <signorini/application/journal.h>
@@ -23,23 +24,27 @@ namespace Signorini
     , pairs(std::move(some_pairs))
     , couplings(std::move(some_couplings))
     , turned(std::move(turned))
-    , rows_of_pair(pairs.size())
   {
     std::vector<std::string> names;
     for (const ContactPair &pair : pairs)
       names.push_back(pair.name);
-    JoinedCouplings joined = join_couplings(couplings, names, nodal().communicator());
-    coupling               = std::move(joined.coupling);
-    gaps                   = std::move(joined.gaps);
-    for (std::size_t row = 0; row < coupling.n_rows(); ++row)
+    const JoinedCouplings owned = join_couplings(couplings, names, partition());
+    for (std::size_t row = 0; row < owned.pairs.size(); ++row)
       {
-        tied.push_back(pairs[joined.pairs[row]].is_tied);
-        projections.push_back(tied.back() ? RowProjection::tied(joined.fixed[row], joined.normals[row])
-                                          : RowProjection(joined.fixed[row], joined.normals[row]));
+        tied.push_back(pairs[owned.pairs[row]].is_tied);
+        projections.push_back(tied.back() ? RowProjection::tied(owned.fixed[row], owned.normals[row])
+                                          : RowProjection(owned.fixed[row], owned.normals[row]));
       }
-    for (unsigned int p = 0; p < pairs.size(); ++p)
-      for (const NodeIndex node : couplings[p].coupling.rows)
-        rows_of_pair[p].push_back(coupling.find(node));
+    std::vector<NodeIndex> nodes(owned.coupling.rows);
+    nodes.insert(nodes.end(), partition().ghosts().begin(), partition().ghosts().end());
+    const NodeRequest request(partition(), sorted_nodes(std::move(nodes)));
+    coupling        = import_rows(owned.coupling, request);
+    gaps            = import_row_values(owned.coupling, owned.gaps, request);
+    tied            = import_row_values(owned.coupling, tied, request);
+    projections     = import_row_values(owned.coupling, projections, request);
+    n_contact_nodes = Utilities::MPI::sum(owned.coupling.n_rows(), nodal().communicator());
+    const bool any  = std::find(tied.begin(), tied.end(), 1) != tied.end();
+    has_tied_rows   = Utilities::MPI::max(static_cast<int>(any), nodal().communicator()) > 0;
     refuse_rigid_mortar_nodes();
     if (has_ties())
       lifted = std::make_unique<const DirichletData>(lift_ties(*constrained, coupling, projections, tied));
@@ -53,16 +58,18 @@ namespace Signorini
   {
     if (dirichlet().rigid == nullptr)
       return;
+    std::string error;
     for (const auto &entry : coupling.entries)
       if (const RigidFaces::Dependence *const node = dirichlet().rigid->find(entry.node))
         {
           std::ostringstream place;
           place << node->position;
-          throw InputError(
-              "a contact surface has nodes in common with a rigid face, at (" + place.str() +
-              ") for example. Leave them out of the surface (First region, Second region), or make "
-              "their surface the nonmortar one.");
+          error = "a contact surface has nodes in common with a rigid face, at (" + place.str() +
+                  ") for example. Leave them out of the surface (First region, Second region), or make "
+                  "their surface the nonmortar one.";
+          break;
         }
+    throw_everywhere(error, nodal().communicator());
   }
 
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/algebra/gathered_lists.h>
 #include <signorini/algebra/input_error.h>
-#include <signorini/algebra/replicated_data.h>
+#include <signorini/algebra/interface_rows.h>
 #include <signorini/algebra/vector_span.h>
 #include <signorini/application/free_bodies.h>
 #include <signorini/application/journal.h>
+#include <signorini/application/nodal_sums.h>
 
 #include <Eigen/Dense>
 
@@ -82,31 +84,36 @@ namespace Signorini
   void settle_free_parts(Vector &v, const ContactModel &model, const Discretization &d,
                          const NodePartition &unknowns, const ObstacleProblem &problem)
   {
-    const auto          fields = motions_of_unknowns(model, *d.constrained, unknowns, *d.transformation);
-    const std::size_t   n = fields.size(), n_rows = d.coupling.n_rows();
-    std::vector<double> rows(n * n_rows), work(n);
-    std::vector<double> bounds = d.transformation->reduce_gaps(d.gaps);
+    const auto        fields = motions_of_unknowns(model, *d.constrained, unknowns, *d.transformation);
+    const std::size_t n      = fields.size();
+    // By contact node of this rank.
+    const std::vector<std::size_t> own    = owned_rows(d.coupling, d.partition());
+    const std::size_t              n_rows = own.size();
+    std::vector<double>            bounds = select_values(d.transformation->reduce_gaps(d.gaps), own);
+    std::vector<double>            rows(n * n_rows), work(n);
     // The work of the loads on a motion, zero to the rounding of their sums.
     const double scale = problem.rhs.l1_norm();
     for (std::size_t m = 0; m < n; ++m)
       {
-        work[m]           = problem.rhs * fields[m];
-        work[m]           = std::abs(work[m]) > 1e-10 * scale ? work[m] : 0.;
-        const auto values = replicate_values(unknowns, fields[m], d.coupling.rows);
+        work[m] = problem.rhs * fields[m];
+        work[m] = std::abs(work[m]) > 1e-10 * scale ? work[m] : 0.;
         for (std::size_t p = 0; p < n_rows; ++p)
-          rows[n * p + m] = d.projections[p].direction() * values[p];
+          rows[n * p + m] = d.projections[own[p]].direction() *
+                            nodal_value(fields[m], unknowns.to_local(d.coupling.rows[own[p]]));
       }
-    const auto start = replicate_values(unknowns, v, d.coupling.rows);
     // What touches may hold the bodies where they are.
     std::vector<double> touching_rows, touching_gaps;
     for (std::size_t p = 0; p < n_rows; ++p)
       {
-        bounds[p] -= d.projections[p].direction() * start[p];
+        bounds[p] -=
+            d.projections[own[p]].direction() * nodal_value(v, unknowns.to_local(d.coupling.rows[own[p]]));
         if (bounds[p] > 0.)
           continue;
         touching_gaps.push_back(bounds[p]);
         touching_rows.insert(touching_rows.end(), rows.begin() + n * p, rows.begin() + n * (p + 1));
       }
+    for (std::vector<double> *const list : {&touching_rows, &touching_gaps, &rows, &bounds})
+      *list = gather_lists(std::move(*list), d.nodal().communicator(), Receivers::all);
     if (!v.all_zero() && balance_rigid_motions(touching_rows, touching_gaps, work).is_held)
       return;
     const RigidBalance balance = balance_rigid_motions(rows, bounds, work);

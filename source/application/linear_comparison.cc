@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include "nodal_contact_forces.h"
+
 #include <signorini/algebra/vector_span.h>
 #include <signorini/application/contact_solve.h>
 #include <signorini/application/free_bodies.h>
@@ -16,22 +18,13 @@ namespace Signorini
     /// The contact stresses as loads: -D λ n on the nonmortar side, +Mᵀ λ n on the mortar side.
     void add_contact_forces(Vector &rhs, const Discretization &d, const ContactStress &stress)
     {
-      const auto add = [&](const NodeIndex node, const Vector3 &force) {
-        if (!d.partition().owns(node))
-          return;
-        const unsigned int i = d.partition().to_local(node);
-        const Vector3      free =
+      for_contact_forces(d, stress, [&](const unsigned int i, const Vector3 &force) {
+        const NodeIndex node = d.partition().to_global(i);
+        const Vector3   free =
             project_free(d.dirichlet().fixed[d.nodal().relevant().index_within_set(node)], force);
         for (unsigned int c = 0; c < dim; ++c)
           rhs.local_element(dim * i + c) += free[c];
-      };
-      for (std::size_t p = 0; p < d.coupling.n_rows(); ++p)
-        {
-          const Vector3 force = d.coupling.weight[p] * stress.traction[p];
-          add(d.coupling.rows[p], -force);
-          for (const auto *entry = d.coupling.begin(p); entry != d.coupling.end(p); ++entry)
-            add(entry->node, entry->weight * force);
-        }
+      });
     }
 
     /// |solution - v| / |solution| in the energy norm, motions of free bodies aside.

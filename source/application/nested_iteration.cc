@@ -104,7 +104,7 @@ namespace Signorini
     {
       result.levels        = solution.n_levels;
       result.nonlinear     = solution.report;
-      result.contact_nodes = d.coupling.n_rows();
+      result.contact_nodes = d.n_contact_nodes;
       result.active_nodes  = solution.n_active;
       result.sweeps        = solution.sweeps;
       result.has_linear    = solution.linear.has_value();

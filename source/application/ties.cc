@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
-#include "replicated_field.h"
+#include "imported_field.h"
 
 #include <signorini/application/ties.h>
 
@@ -17,10 +17,10 @@ namespace Signorini
     std::vector<NodeIndex> columns;
     for (const auto &entry : coupling.entries)
       columns.push_back(entry.node);
-    const NodalSpace     &space = constrained.nodal();
-    const ReplicatedField lift(constrained.partition,
-                               prescribed_displacement(space, constrained.partition, dirichlet),
-                               std::move(columns));
+    const NodalSpace   &space = constrained.nodal();
+    const ImportedField lift(constrained.partition,
+                             prescribed_displacement(space, constrained.partition, dirichlet),
+                             std::move(columns));
     for (std::size_t p = 0; p < coupling.n_rows(); ++p)
       if (tied[p] && space.relevant().is_element(coupling.rows[p]))
         {
@@ -36,9 +36,14 @@ namespace Signorini
 
   void fix_tied_unknowns(LinearSystem &system, const Discretization &d)
   {
-    const NodePartition &partition = system.matrix.partition();
+    const NodePartition       &partition = system.matrix.partition();
+    std::vector<unsigned char> is_tied(partition.n_local(), 0);
+    for (std::size_t row = 0; row < d.coupling.n_rows(); ++row)
+      if (d.owns_row(row))
+        is_tied[partition.to_local(d.coupling.rows[row])] = d.tied[row];
+    import_ghost_flags(partition, is_tied);
     for (unsigned int i = 0; i < partition.n_local(); ++i)
-      if (const std::ptrdiff_t row = d.coupling.find(partition.to_global(i)); row >= 0 && d.tied[row])
+      if (is_tied[i])
         {
           system.fixed[i] = all_fixed;
           if (i < partition.n_owned())
@@ -56,7 +61,7 @@ namespace Signorini
       return;
     const Vector residual =
         physical_residual(model.bodies(), d.nodal(), d.partition(), model.loads(), displacement);
-    const auto forces = replicate_values(d.partition(), residual, d.coupling.rows);
+    const auto forces = import_values(d.partition(), residual, d.coupling.rows);
     for (std::size_t p = 0; p < d.coupling.n_rows(); ++p)
       if (d.tied[p])
         {

@@ -122,7 +122,7 @@ namespace Signorini
             project_free(dirichlet.fixed[r], w, i);
           }
       }
-    const std::vector<Vector3> columns = replicate_values(partition, w, column_nodes);
+    const std::vector<Vector3> columns = import_values(partition, w, column_nodes);
     for (const auto &[p, local] : owned_rows)
       {
         Vector3 shift;
@@ -269,8 +269,8 @@ namespace Signorini
   std::vector<double> BasisTransformation::reduce_gaps(const std::vector<double> &gaps) const
   {
     const Vector               u_D     = lift();
-    const std::vector<Vector3> own     = replicate_values(partition, u_D, coupling.rows);
-    const std::vector<Vector3> columns = replicate_values(partition, u_D, column_nodes);
+    const std::vector<Vector3> own     = import_values(partition, u_D, coupling.rows);
+    const std::vector<Vector3> columns = import_values(partition, u_D, column_nodes);
     std::vector<double>        reduced(gaps.size());
     for (std::size_t p = 0; p < coupling.n_rows(); ++p)
       {

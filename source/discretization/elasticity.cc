@@ -3,7 +3,7 @@
 
 #include "elasticity_pattern.h"
 
-#include <signorini/algebra/input_error.h>
+#include <signorini/algebra/common_error.h>
 #include <signorini/algebra/replicated_data.h>
 #include <signorini/discretization/elasticity.h>
 #include <signorini/discretization/element.h>
@@ -331,20 +331,6 @@ namespace Signorini
       std::vector<double>                                      product, result;
       std::vector<Vector3>                                     load;
     };
-
-
-
-    /// Raises an input error of any rank on all of them.
-    void throw_everywhere(const std::string &message, const MPI_Comm communicator)
-    {
-      std::string first = message;
-      if (Utilities::MPI::n_mpi_processes(communicator) > 1)
-        for (const std::string &text : Utilities::MPI::all_gather(communicator, message))
-          if (first.empty())
-            first = text;
-      if (!first.empty())
-        throw InputError(first);
-    }
 
 
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/algebra/gathered_lists.h>
+#include <signorini/algebra/interface_rows.h>
 #include <signorini/algebra/vector_span.h>
 #include <signorini/discretization/coarse_contact.h>
 #include <signorini/discretization/level_hierarchy.h>
@@ -9,48 +11,6 @@
 namespace Signorini
 {
   using namespace dealii;
-
-  InterfaceCoupling coarsen_coupling(const InterfaceCoupling &fine, const std::vector<NodeIndex> &nodes,
-                                     const NodeRows &rows)
-  {
-    const auto row_of = [&](const NodeIndex node) {
-      return std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin();
-    };
-    std::map<NodeIndex, std::map<NodeIndex, double>> sums;
-    std::map<NodeIndex, double>                      weights;
-    for (std::size_t p = 0; p < fine.n_rows(); ++p)
-      {
-        std::map<NodeIndex, double> mapped;
-        for (const auto *entry = fine.begin(p); entry != fine.end(p); ++entry)
-          {
-            const std::size_t q = row_of(entry->node);
-            for (std::size_t k = rows.start[q]; k < rows.start[q + 1]; ++k)
-              mapped[rows.columns[k]] += entry->weight * rows.weights[k];
-          }
-        const std::size_t i = row_of(fine.rows[p]);
-        for (std::size_t k = rows.start[i]; k < rows.start[i + 1]; ++k)
-          {
-            const double w = rows.weights[k] * fine.weight[p];
-            weights[rows.columns[k]] += w;
-            for (const auto &[column, value] : mapped)
-              sums[rows.columns[k]][column] += w * value;
-          }
-      }
-    InterfaceCoupling coarse;
-    for (const auto &[node, weight] : weights)
-      {
-        coarse.rows.push_back(node);
-        coarse.weight.push_back(weight);
-        // Only a choice of the basis: columns that are rows themselves are left out, so that S² = 0.
-        for (const auto &[column, value] : sums[node])
-          if (weights.count(column) == 0)
-            coarse.entries.push_back({column, value / weight});
-        coarse.row_start.push_back(coarse.entries.size());
-      }
-    return coarse;
-  }
-
-
 
   namespace
   {
@@ -98,18 +58,6 @@ namespace Signorini
 
   namespace
   {
-    std::vector<NodeIndex> interface_nodes(const InterfaceCoupling &coupling)
-    {
-      std::vector<NodeIndex> nodes(coupling.rows);
-      for (const auto &entry : coupling.entries)
-        nodes.push_back(entry.node);
-      std::sort(nodes.begin(), nodes.end());
-      nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-      return nodes;
-    }
-
-
-
     /// Fixed axes of coordinates are fixed on the coarser mesh too, but directions of rollers on a curved
     /// boundary are others there.
     std::vector<FixedDirections> only_oblique(std::vector<FixedDirections> fixed)
@@ -127,7 +75,7 @@ namespace Signorini
                        const InterfaceCoupling &coupling, const std::vector<RowProjection> &projections)
     {
       const std::vector<NodeIndex> nodes  = interface_nodes(coupling);
-      const std::vector<Vector3>   values = replicate_values(partition, u, nodes);
+      const std::vector<Vector3>   values = import_values(partition, u, nodes);
       for (unsigned int i = 0; i < partition.n_owned(); ++i)
         {
           Vector3 value;
@@ -202,26 +150,33 @@ namespace Signorini
     class LevelsOfMeshes : public LevelSource
     {
     public:
+      /// @param partition of the finest level
       LevelsOfMeshes(const LevelSpaces &spaces, const InterfaceCoupling &coupling,
-                     const std::vector<RowProjection> &projections, const HierarchyOptions &options)
+                     const std::vector<RowProjection> &projections, const HierarchyOptions &options,
+                     const NodePartition &partition)
         : spaces(spaces)
         , options(options)
         , level(spaces.n_levels() - 1)
-        , fine(coupling)
-        , fine_projections(projections)
       {
+        const auto rows  = owned_rows(coupling, partition);
+        fine             = select_rows(coupling, rows);
+        fine_projections = select_values(projections, rows);
+        tied             = options.tied.empty() ? std::vector<unsigned char>(rows.size(), 0)
+                                                : select_values(options.tied, rows);
       }
 
-      /// Contact nodes of the level that was described last.
-      LevelInterface interface() const
+      /// Collective. Contact nodes of the level that was described last.
+      LevelInterface interface(const MPI_Comm communicator) const
       {
-        return {interface_nodes(fine), options.has_stiff_nonmortar};
+        return {sorted_nodes(gather_lists(interface_nodes(fine), communicator, Receivers::all)),
+                options.has_stiff_nonmortar};
       }
 
       /// The levels get half-spaces that are injected from those of the finest one.
       void inject(const HalfSpaces &finest, const NodePartition &partition)
       {
-        half_spaces = replicate_half_spaces(finest, partition, fine.rows);
+        half_spaces     = half_spaces_of_rows(finest, partition, fine.rows);
+        has_half_spaces = true;
       }
 
       std::optional<CoarserLevel> next(const NodePartition &finer) override;
@@ -230,11 +185,22 @@ namespace Signorini
     private:
       const LevelSpaces      &spaces;
       const HierarchyOptions &options;
-      /// That was described last, its coupling S, A of its rows, and half-spaces.
+      /// What the rows of P̂ of the local nodes of a level refer to.
+      struct RowSurroundings;
+
+      RowSurroundings surroundings(const NodePartition &finer, const NodeRows &rows,
+                                   const InterfaceCoupling          &coarse,
+                                   const std::vector<RowProjection> &projections,
+                                   const NodePartition              &coarser) const;
+
+      /// That was described last; of the contact nodes that this rank owns its coupling S, A of its rows,
+      /// which of them are tied (on the finest level), and half-spaces.
       unsigned int               level;
       InterfaceCoupling          fine;
       std::vector<RowProjection> fine_projections;
+      std::vector<unsigned char> tied;
       RowHalfSpaces              half_spaces;
+      bool                       has_half_spaces = false;
     };
 
 
@@ -250,63 +216,108 @@ namespace Signorini
 
 
 
+    struct LevelsOfMeshes::RowSurroundings
+    {
+      /// Rows of the local nodes of the finer level.
+      InterfaceCoupling          fine;
+      std::vector<RowProjection> fine_projections;
+      std::vector<unsigned char> tied;
+      /// Nodes of their rows and columns, with their rows of P.
+      std::vector<NodeIndex> nodes;
+      NodeRows               node_rows;
+      /// Rows of the coarse nodes that all of these rows of P lead to.
+      InterfaceCoupling          coarse;
+      std::vector<RowProjection> coarse_projections;
+    };
+
+
+
+    /// @param rows of P, of the local nodes
+    LevelsOfMeshes::RowSurroundings LevelsOfMeshes::surroundings(
+        const NodePartition &finer, const NodeRows &rows, const InterfaceCoupling &coarse,
+        const std::vector<RowProjection> &projections, const NodePartition &coarser) const
+    {
+      RowSurroundings        result;
+      std::vector<NodeIndex> local(fine.rows);
+      local.insert(local.end(), finer.ghosts().begin(), finer.ghosts().end());
+      const NodeRequest request(finer, sorted_nodes(std::move(local)));
+      result.fine             = import_rows(fine, request);
+      result.fine_projections = import_row_values(fine, fine_projections, request);
+      if (level + 1 == spaces.n_levels())
+        result.tied = import_row_values(fine, tied, request);
+      result.nodes     = interface_nodes(result.fine);
+      result.node_rows = import_rows(finer, spaces.interpolation(level), result.nodes);
+
+      std::vector<NodeIndex> columns(coarse.rows);
+      for (const NodeRows *const list : {&rows, static_cast<const NodeRows *>(&result.node_rows)})
+        std::copy_if(list->columns.begin(), list->columns.end(), std::back_inserter(columns),
+                     [&](const NodeIndex node) { return !coarser.owns(node); });
+      const NodeRequest coarse_request(coarser, sorted_nodes(std::move(columns)));
+      result.coarse             = import_rows(coarse, coarse_request);
+      result.coarse_projections = import_row_values(coarse, projections, coarse_request);
+      return result;
+    }
+
+
+
     std::optional<CoarserLevel> LevelsOfMeshes::next(const NodePartition &finer)
     {
       if (level == 0)
         return {};
-      const std::vector<NodeIndex> nodes     = interface_nodes(fine);
-      NodeRows                     rows      = import_ghost_rows(finer, spaces.interpolation(level));
-      const NodeRows               node_rows = replicate_rows(finer, spaces.interpolation(level), nodes);
-      InterfaceCoupling            coarse    = coarsen_coupling(fine, nodes, node_rows);
-      // Coarse obstacles bound the relative displacements themselves, not just a basis. (Those for a start
-      // may be rough.)
-      if (!options.coarse_obstacles)
-        drop_small_weights(coarse);
       CoarserLevel result;
       result.owned = spaces.owned(level - 1);
       result.fixed = spaces.fixed(level - 1);
-      const NodePartition        partition(result.owned, IndexSet(result.owned.size()), finer.communicator());
-      std::vector<RowProjection> projections =
-          coarsen_projections(fine_projections, fine, nodes, node_rows, coarse,
-                              replicate_masks(partition, result.fixed, coarse.rows));
-      const std::vector<unsigned char> none_tied;
-      ContactOfLevels                  contact{fine,
-                              fine_projections,
-                              nodes,
-                              node_rows,
-                              coarse,
-                              projections,
+      const NodePartition partition(result.owned, IndexSet(result.owned.size()), finer.communicator());
+      const std::vector<NodeIndex> nodes     = interface_nodes(fine);
+      const NodeRows               node_rows = import_rows(finer, spaces.interpolation(level), nodes);
+      CoarseCoupling coarse = coarsen_coupling(fine, fine_projections, nodes, node_rows, partition);
+      // Coarse obstacles bound the relative displacements themselves, not just a basis. (Those for a start
+      // may be rough.)
+      if (!options.coarse_obstacles)
+        drop_small_weights(coarse.coupling);
+      std::vector<RowProjection> projections = coarse_projections(coarse, result.fixed, partition);
+
+      NodeRows              rows = import_ghost_rows(finer, spaces.interpolation(level));
+      const RowSurroundings here = surroundings(finer, rows, coarse.coupling, projections, partition);
+      ContactOfLevels       contact{here.fine,
+                              here.fine_projections,
+                              here.nodes,
+                              here.node_rows,
+                              here.coarse,
+                              here.coarse_projections,
                               options.coarse_obstacles,
-                              level + 1 == spaces.n_levels() ? options.tied : none_tied,
+                              here.tied,
                               {},
                               {}};
       if (!spaces.is_nested(level - 1))
         {
           contact.fixed      = import_ghost_masks(finer, spaces.fixed(level));
-          contact.node_fixed = replicate_masks(finer, spaces.fixed(level), nodes);
-          half_spaces        = RowHalfSpaces();
+          contact.node_fixed = import_masks(finer, spaces.fixed(level), here.nodes);
+          has_half_spaces    = false;
         }
       else if (spaces.has_rollers())
         {
           contact.fixed      = only_oblique(import_ghost_masks(finer, spaces.fixed(level)));
-          contact.node_fixed = only_oblique(replicate_masks(finer, spaces.fixed(level), nodes));
+          contact.node_fixed = only_oblique(import_masks(finer, spaces.fixed(level), here.nodes));
         }
       contact.fine_rigid    = spaces.rigid(level);
       contact.coarse_rigid  = spaces.rigid(level - 1);
       const auto block_rows = transformed_rows(finer, rows, contact);
       result.transfer.reinit(std::move(rows), block_rows, finer.n_owned());
       if (options.coarse_obstacles)
-        result.contact = contact_nodes(coarse, projections, partition);
+        result.contact = contact_nodes(coarse.coupling, projections, partition);
       // Background levels have no nodes in common with a mesh, of which they could take bounds.
-      if (!half_spaces.normals.empty())
+      if (has_half_spaces)
         {
-          half_spaces        = inject_half_spaces(half_spaces, fine, nodes, node_rows, coarse, projections);
-          result.half_spaces = own_half_spaces(half_spaces, coarse.rows, partition);
+          half_spaces = inject_half_spaces(half_spaces, fine, nodes, node_rows, coarse.coupling, projections,
+                                           partition);
+          result.half_spaces = own_half_spaces(half_spaces, coarse.coupling.rows, partition);
         }
-      fine             = std::move(coarse);
+      fine             = std::move(coarse.coupling);
       fine_projections = std::move(projections);
+      tied.clear();
       --level;
-      result.interface = interface();
+      result.interface = interface(finer.communicator());
       if (level <= spaces.n_background_levels() && spaces.n_background_levels() > 0)
         result.correction = {2, true};
       return result;
@@ -349,11 +360,11 @@ namespace Signorini
                                      const std::vector<RowProjection> &projections,
                                      const HierarchyOptions           &options)
   {
-    LevelsOfMeshes levels(spaces, coupling, projections, options);
+    LevelsOfMeshes levels(spaces, coupling, projections, options, system.matrix.partition());
     HierarchyParts parts;
     parts.matrix    = std::move(system.matrix);
     parts.fixed     = std::move(system.fixed);
-    parts.interface = levels.interface();
+    parts.interface = levels.interface(parts.matrix.partition().communicator());
     parts.levels    = &levels;
     parts.problem   = options.problem;
     parts.start     = options.start;

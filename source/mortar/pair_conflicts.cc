@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
-#include <signorini/algebra/gathered_lists.h>
-#include <signorini/algebra/input_error.h>
+#include <signorini/algebra/common_error.h>
+#include <signorini/algebra/interface_rows.h>
 #include <signorini/mortar/pair_coupling.h>
 
 #include <algorithm>
@@ -27,28 +27,49 @@ namespace Signorini
       return pair < names.size() ? "\"" + names[pair] + "\"" : "number " + std::to_string(pair + 1);
     }
 
-    std::string describe(const JoinedCouplings &joined, const std::size_t row)
+    std::string describe(const NodeIndex node, const Point<3> &position)
     {
       std::ostringstream text;
-      text << "node " << joined.coupling.rows[row] << " at (" << joined.positions[row] << ")";
+      text << "node " << node << " at (" << position << ")";
       return text.str();
     }
 
-    /// No column may be a row.
-    void check_columns(const JoinedCouplings &joined, const std::vector<std::string> &names)
+    /// Collective. No column may be a row. The message that one is, if this rank knows one.
+    std::string describe_chain(const JoinedCouplings &joined, const std::vector<std::string> &names,
+                               const NodePartition &partition)
     {
       const InterfaceCoupling &coupling = joined.coupling;
+      std::vector<NodeIndex>   columns;
+      for (const auto &entry : coupling.entries)
+        columns.push_back(entry.node);
+      const NodeRequest request(partition, sorted_nodes(std::move(columns)));
+      // The pair of the row that a column is, and where that is.
+      struct RowThere
+      {
+        bool         is_row;
+        unsigned int pair;
+        Point<3>     position;
+      };
+      const std::vector<RowThere> rows = request.fetch([&](const unsigned int local) {
+        const std::ptrdiff_t row = coupling.find(partition.to_global(local));
+        return row < 0 ? RowThere{false, 0, Point<3>()}
+                       : RowThere{true, joined.pairs[row], joined.positions[row]};
+      });
       for (std::size_t row = 0; row < coupling.n_rows(); ++row)
         for (const auto *entry = coupling.begin(row); entry != coupling.end(row); ++entry)
-          if (const std::ptrdiff_t other = coupling.find(entry->node); other >= 0)
+          if (const RowThere &other =
+                  rows[std::lower_bound(request.nodes().begin(), request.nodes().end(), entry->node) -
+                       request.nodes().begin()];
+              other.is_row)
             {
               const std::string here  = pair_name(names, joined.pairs[row]),
-                                there = pair_name(names, joined.pairs[other]);
-              throw InputError("Contact pairs " + here + " and " + there +
-                               " form a chain or a cycle: " + describe(joined, other) +
-                               " carries a contact stress in " + there + " and moves others in " + here +
-                               ". Swap the sides of one of the pairs, or take the common part out of one.");
+                                there = pair_name(names, other.pair);
+              return "Contact pairs " + here + " and " + there +
+                     " form a chain or a cycle: " + describe(entry->node, other.position) +
+                     " carries a contact stress in " + there + " and moves others in " + here +
+                     ". Swap the sides of one of the pairs, or take the common part out of one.";
             }
+      return "";
     }
   } // namespace
 
@@ -166,21 +187,43 @@ namespace Signorini
 
 
   JoinedCouplings join_couplings(const std::vector<PairCoupling> &pairs,
-                                 const std::vector<std::string> &names, const MPI_Comm communicator)
+                                 const std::vector<std::string> &names, const NodePartition &partition)
   {
-    std::vector<PackedRow>                rows;
-    std::vector<InterfaceCoupling::Entry> entries;
+    const MPI_Comm                        communicator = partition.communicator();
+    ListsByRank<PackedRow>                sent_rows;
+    ListsByRank<InterfaceCoupling::Entry> sent_entries;
     for (unsigned int p = 0; p < pairs.size(); ++p)
       {
         const PairCoupling      &pair = pairs[p];
         const InterfaceCoupling &c    = pair.coupling;
         for (std::size_t i = 0; i < c.n_rows(); ++i)
-          rows.push_back({c.rows[i], p, static_cast<unsigned int>(c.end(i) - c.begin(i)), c.weight[i],
-                          pair.gaps[i], pair.normals[i], pair.positions[i], pair.fixed[i], 0});
-        entries.insert(entries.end(), c.entries.begin(), c.entries.end());
+          {
+            const unsigned int owner = partition.owner(c.rows[i]);
+            sent_rows[owner].push_back({c.rows[i], p, static_cast<unsigned int>(c.end(i) - c.begin(i)),
+                                        c.weight[i], pair.gaps[i], pair.normals[i], pair.positions[i],
+                                        pair.fixed[i], 0});
+            std::vector<InterfaceCoupling::Entry> &list = sent_entries[owner];
+            list.insert(list.end(), c.begin(i), c.end(i));
+          }
       }
-    rows              = gather_lists(std::move(rows), communicator, Receivers::all);
-    entries           = gather_lists(std::move(entries), communicator, Receivers::all);
+    std::vector<PackedRow>                rows;
+    std::vector<InterfaceCoupling::Entry> entries;
+    ListsByRank<char>                     parcels;
+    for (const auto &[rank, list] : sent_rows)
+      {
+        Parcel parcel;
+        parcel.write(list);
+        parcel.write(sent_entries.at(rank));
+        parcels[rank] = parcel.bytes();
+      }
+    for (const auto &[rank, bytes] : send_lists(parcels, communicator))
+      {
+        Parcel     parcel(bytes);
+        const auto some_rows    = parcel.read<PackedRow>();
+        const auto some_entries = parcel.read<InterfaceCoupling::Entry>();
+        rows.insert(rows.end(), some_rows.begin(), some_rows.end());
+        entries.insert(entries.end(), some_entries.begin(), some_entries.end());
+      }
     std::size_t begin = 0;
     for (PackedRow &row : rows)
       {
@@ -190,12 +233,13 @@ namespace Signorini
     std::sort(rows.begin(), rows.end());
     JoinedCouplings    joined;
     InterfaceCoupling &coupling = joined.coupling;
+    std::string        error;
     for (const PackedRow &row : rows)
       {
-        if (!coupling.rows.empty() && coupling.rows.back() == row.node)
-          throw InputError("Contact pairs " + pair_name(names, joined.pairs.back()) + " and " +
-                           pair_name(names, row.pair) + " share " + describe(joined, coupling.n_rows() - 1) +
-                           ", which carries a contact stress in both. Take it out of one of the pairs.");
+        if (error.empty() && !coupling.rows.empty() && coupling.rows.back() == row.node)
+          error = "Contact pairs " + pair_name(names, joined.pairs.back()) + " and " +
+                  pair_name(names, row.pair) + " share " + describe(row.node, row.position) +
+                  ", which carries a contact stress in both. Take it out of one of the pairs.";
         coupling.rows.push_back(row.node);
         coupling.weight.push_back(row.weight);
         coupling.entries.insert(coupling.entries.end(), entries.begin() + row.begin,
@@ -207,7 +251,8 @@ namespace Signorini
         joined.fixed.push_back(row.fixed);
         joined.positions.push_back(row.position);
       }
-    check_columns(joined, names);
+    throw_everywhere(error, communicator);
+    throw_everywhere(describe_chain(joined, names, partition), communicator);
     return joined;
   }
 } // namespace Signorini

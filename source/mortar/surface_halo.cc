@@ -127,7 +127,7 @@ namespace Signorini
           wanted.face = f;
           pack(parcels[receiver], *std::lower_bound(moments.begin(), moments.end(), wanted, by_face));
         }
-    for (const auto &[sender, data] : send_lists(parcels, comm))
+    for (const auto &[sender, data] : answer_lists(parcels, ranks_of(faces->wanted_items()), comm))
       for (const double *next = data.data(); next != data.data() + data.size();)
         {
           moments.emplace_back();

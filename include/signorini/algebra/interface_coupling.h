@@ -16,8 +16,8 @@ namespace Signorini
   /// Row k is a node that carries a multiplier (the set K of the nonmortar nodes):
   ///   relative displacement  û_k = u_k - sum_q S_kq u_q .
   /// Columns q are mortar nodes and nonmortar nodes without multiplier (the set R). No column is a
-  /// row (S² = 0). All nodes are conforming: hanging nodes are resolved. The data is replicated on
-  /// all ranks (its size is that of a surface) and ordered the same way on all of them.
+  /// row (S² = 0). All nodes are conforming: hanging nodes are resolved. A rank has the rows of the nodes
+  /// that it owns and of others that it needs, with all of their entries.
   struct InterfaceCoupling
   {
     /// A node of the other side, or in R, with its weight (pure number).

@@ -60,6 +60,16 @@ namespace Signorini
   std::vector<Vector3> replicate_values(const NodePartition &partition, const Vector &field,
                                         const std::vector<NodeIndex> &nodes);
 
+  /// Collective. Values of a field, rows, and fixed masks at a list of nodes, sorted, of which every rank has
+  /// its own.
+  std::vector<Vector3>         import_values(const NodePartition &partition, const Vector &field,
+                                             const std::vector<NodeIndex> &nodes);
+  NodeRows                     import_rows(const NodePartition &partition, const NodeRows &owned_rows,
+                                           const std::vector<NodeIndex> &nodes);
+  std::vector<FixedDirections> import_masks(const NodePartition                &partition,
+                                            const std::vector<FixedDirections> &owned,
+                                            const std::vector<NodeIndex>       &nodes);
+
   /// Collective. Fixed masks of a list of nodes (sorted, the same on all ranks), on all ranks.
   /// `owned` holds the masks of the owned nodes.
   std::vector<FixedDirections> replicate_masks(const NodePartition                &partition,

@@ -44,6 +44,100 @@ namespace Signorini
 
 
 
+  /// Collective over the ranks concerned. The same where everybody knows who sends: one list to each rank in
+  /// `lists` (it may be empty), one from each of `senders`.
+  template <typename T>
+  ListsByRank<T> answer_lists(const ListsByRank<T> &lists, const std::vector<unsigned int> &senders,
+                              const MPI_Comm communicator)
+  {
+    static_assert(std::is_trivially_copyable<T>::value, "sent as bytes");
+    constexpr int            tag = 7316;
+    std::vector<MPI_Request> requests(lists.size());
+    std::size_t              n = 0;
+    for (const auto &[rank, list] : lists)
+      MPI_Isend(list.data(), static_cast<int>(list.size() * sizeof(T)), MPI_BYTE, static_cast<int>(rank), tag,
+                communicator, &requests[n++]);
+    ListsByRank<T> result;
+    for (const unsigned int rank : senders)
+      {
+        MPI_Status status;
+        int        n_bytes;
+        MPI_Probe(static_cast<int>(rank), tag, communicator, &status);
+        MPI_Get_count(&status, MPI_BYTE, &n_bytes);
+        std::vector<T> &list = result[rank];
+        list.resize(static_cast<std::size_t>(n_bytes) / sizeof(T));
+        MPI_Recv(list.data(), n_bytes, MPI_BYTE, static_cast<int>(rank), tag, communicator,
+                 MPI_STATUS_IGNORE);
+      }
+    MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+    return result;
+  }
+
+
+
+  /// Several lists of any kind as one message: read in the order in which they were written.
+  class Parcel
+  {
+  public:
+    Parcel() = default;
+
+    /// What has arrived.
+    explicit Parcel(std::vector<char> bytes)
+      : content(std::move(bytes))
+    {
+    }
+
+    /// Appends a list.
+    template <typename T>
+    void write(const std::vector<T> &list)
+    {
+      static_assert(std::is_trivially_copyable<T>::value, "sent as bytes");
+      const std::size_t n = list.size(), begin = content.size();
+      content.resize(begin + sizeof(n) + n * sizeof(T));
+      std::memcpy(content.data() + begin, &n, sizeof(n));
+      if (n > 0)
+        std::memcpy(content.data() + begin + sizeof(n), static_cast<const void *>(list.data()),
+                    n * sizeof(T));
+    }
+
+    /// The next list.
+    template <typename T>
+    std::vector<T> read()
+    {
+      std::size_t n;
+      std::memcpy(&n, content.data() + place, sizeof(n));
+      std::vector<T> list(n);
+      if (n > 0)
+        std::memcpy(static_cast<void *>(list.data()), content.data() + place + sizeof(n), n * sizeof(T));
+      place += sizeof(n) + n * sizeof(T);
+      return list;
+    }
+
+    /// All of it.
+    const std::vector<char> &bytes() const
+    {
+      return content;
+    }
+
+  private:
+    std::vector<char> content;
+    std::size_t       place = 0;
+  };
+
+
+
+  /// The ranks of some lists.
+  template <typename T>
+  std::vector<unsigned int> ranks_of(const ListsByRank<T> &lists)
+  {
+    std::vector<unsigned int> ranks;
+    for (const auto &entry : lists)
+      ranks.push_back(entry.first);
+    return ranks;
+  }
+
+
+
   /// Values of numbered items that ranks own, for others that want them: the lists are exchanged once.
   class ItemExchange
   {
@@ -63,18 +157,22 @@ namespace Signorini
       return asked;
     }
 
+    /// Items that this rank wants, by the rank that owns them.
+    const ListsByRank<unsigned int> &wanted_items() const
+    {
+      return wanted;
+    }
+
     /// Collective. Fetches the values of the wanted items into a list of the values of all items, of which
     /// those are given that this rank owns.
     template <typename T>
     void update(std::vector<T> &values) const
     {
-      if (dealii::Utilities::MPI::n_mpi_processes(communicator) == 1)
-        return;
       ListsByRank<T> answers;
       for (const auto &[rank, items] : asked)
         for (const unsigned int i : items)
           answers[rank].push_back(values[i]);
-      for (const auto &[rank, list] : send_lists(answers, communicator))
+      for (const auto &[rank, list] : answer_lists(answers, ranks_of(wanted), communicator))
         for (std::size_t k = 0; k < list.size(); ++k)
           values[wanted.at(rank)[k]] = list[k];
     }

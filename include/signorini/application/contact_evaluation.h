@@ -23,7 +23,7 @@ namespace Signorini
     dealii::Point<3> point;
   };
 
-  /// Multipliers of one pair, per row of its own coupling on this rank.
+  /// Collective. Multipliers of one pair, per row of its own coupling on this rank.
   ContactStress stress_of_pair(const Discretization &discretization, const ContactStress &stress,
                                const unsigned int pair);
 

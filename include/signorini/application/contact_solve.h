@@ -49,8 +49,8 @@ namespace Signorini
     bool needed_interface_sweeps = false, needed_patches = false;
   };
 
-  /// The multipliers, per row of the joined coupling: contact stress and its normal part, the pressure (force
-  /// per area); opening g - n·û (length); whether active.
+  /// The multipliers, per row of the joined coupling on this rank: contact stress and its normal part, the
+  /// pressure (force per area); opening g - n·û (length); whether active.
   struct ContactStress
   {
     /// Of the nonmortar surface on the mortar surface; along the normal, but in any direction at tied nodes.
@@ -64,7 +64,7 @@ namespace Signorini
   /// No stress, all gaps as they are, nothing active.
   ContactStress no_stress(const Discretization &discretization);
 
-  /// The solution of the contact problem of one mesh. The same on all ranks but for the displacement.
+  /// The solution of the contact problem of one mesh. The same on all ranks but for displacement and stress.
   struct ContactSolution
   {
     /// Of the solver.

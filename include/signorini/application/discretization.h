@@ -93,10 +93,16 @@ namespace Signorini
       return lifted ? *lifted : constrained->dirichlet;
     }
 
-    /// Whether there are tied nodes.
+    /// Whether there are tied nodes, on any rank.
     bool has_ties() const
     {
-      return std::find(tied.begin(), tied.end(), 1) != tied.end();
+      return has_tied_rows;
+    }
+
+    /// Whether this rank owns the node of a row.
+    bool owns_row(const std::size_t row) const
+    {
+      return partition().owns(coupling.rows[row]);
     }
 
     /// Errors: InputError for nodes of the mortar sides that belong to rigid faces.
@@ -111,11 +117,12 @@ namespace Signorini
     /// left contact without multipliers. What the next mesh begins with.
     std::vector<bool> turned;
 
-    /// Of all pairs, joined: rows by contact node, sorted, the same on all ranks.
+    /// Of all pairs, joined: rows by contact node, sorted, of the nodes that are relevant to this rank.
     InterfaceCoupling coupling;
-    /// Per pair and row of its coupling, of this rank, the row of the joined one; rows of a pair stay in
-    /// order.
-    std::vector<std::vector<std::size_t>> rows_of_pair;
+    /// Number of contact nodes of all ranks.
+    std::size_t n_contact_nodes = 0;
+    /// See has_ties().
+    bool has_tied_rows = false;
     /// Per row of the joined coupling: A_p with the normal, gap, whether the pair is tied (û_p = 0) instead
     /// of in contact.
     std::vector<RowProjection> projections;

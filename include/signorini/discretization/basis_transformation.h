@@ -41,7 +41,8 @@ namespace Signorini
     Vector lift() const;
 
     /// Collective. The bounds of the half-spaces for v, along RowProjection::direction():
-    /// (g_p - n_p·(u_D,p - (S u_D)_p)) / |m_p|. Both lists are ordered like the rows of the coupling.
+    /// (g_p - n_p·(u_D,p - (S u_D)_p)) / |m_p|. Both lists are ordered like the rows of the coupling, of
+    /// which each rank has its own.
     std::vector<double> reduce_gaps(const std::vector<double> &gaps) const;
 
     /// Sets hanging nodes to their interpolated values and updates the ghosts.
@@ -64,7 +65,7 @@ namespace Signorini
     const std::vector<RowProjection> &projections;
     /// Rows of the coupling that this rank owns: position, local node.
     std::vector<std::pair<std::size_t, unsigned int>> owned_rows;
-    /// Sorted nodes in the columns of the coupling.
+    /// Sorted nodes in the columns of the coupling, as this rank has it.
     std::vector<NodeIndex> column_nodes;
   };
 } // namespace Signorini

@@ -13,37 +13,55 @@
 
 namespace Signorini
 {
-  /// Projections of coarse contact nodes, one per row of the coarse coupling, for means of the fine normals.
-  /// They choose the basis of the coarse space only, but where they fit, motions of the mortar side alone
-  /// have no relative normal displacements on the finest level.
-  /// @param nodes sorted nodes of rows and columns of the fine coupling
-  /// @param node_rows their interpolation rows
-  /// @param coarse_masks one per row of the coarse coupling
-  std::vector<RowProjection> coarsen_projections(const std::vector<RowProjection> &projections,
-                                                 const InterfaceCoupling          &fine,
-                                                 const std::vector<NodeIndex>     &nodes,
-                                                 const NodeRows &node_rows, const InterfaceCoupling &coarse,
-                                                 const std::vector<FixedDirections> &coarse_masks);
+  /// The transfer operator on the next coarser level (doc/algorithm.md, (36)):
+  ///   S_{k-1} = diag(P_nonᵀ D_k 1)⁻¹ P_nonᵀ D_k S_k P_mor ,   D_{k-1} = diag(P_nonᵀ D_k 1),
+  /// in the rows of the coarse nodes that a rank owns.
+  struct CoarseCoupling
+  {
+    /// Rows and weights.
+    InterfaceCoupling coupling;
+    /// By row: the normals of the fine nodes, summed up with their weights.
+    std::vector<Vector3> normals;
+  };
 
-  /// A half-space for each row of a coupling, on all ranks; no half-space where the normal is zero.
+  /// Collective.
+  /// @param fine rows of the fine nodes that this rank owns; projections of these
+  /// @param nodes sorted nodes of their rows and columns
+  /// @param node_rows their interpolation rows
+  /// @param partition of the coarse nodes
+  CoarseCoupling coarsen_coupling(const InterfaceCoupling          &fine,
+                                  const std::vector<RowProjection> &projections,
+                                  const std::vector<NodeIndex> &nodes, const NodeRows &node_rows,
+                                  const NodePartition &partition);
+
+  /// Projections of coarse contact nodes, one per row, for means of the fine normals. They choose the basis
+  /// of the coarse space only, but where they fit, motions of the mortar side alone have no relative normal
+  /// displacements on the finest level.
+  /// @param fixed of the owned nodes of the coarse level
+  std::vector<RowProjection> coarse_projections(const CoarseCoupling               &coarse,
+                                                const std::vector<FixedDirections> &fixed,
+                                                const NodePartition                &partition);
+
+  /// A half-space for each row of a coupling; none where the normal is zero.
   struct RowHalfSpaces
   {
-    /// By row of the coarse problem: unit normals, and how far the node may move along them (length).
+    /// By row: unit normals, and how far the node may move along them (length).
     std::vector<Vector3> normals;
     std::vector<double>  bounds;
   };
 
-  /// Collective. `rows` are sorted, the same on all ranks.
-  RowHalfSpaces replicate_half_spaces(const HalfSpaces &owned, const NodePartition &partition,
-                                      const std::vector<NodeIndex> &rows);
+  /// `rows` are sorted, and owned by this rank.
+  RowHalfSpaces half_spaces_of_rows(const HalfSpaces &owned, const NodePartition &partition,
+                                    const std::vector<NodeIndex> &rows);
 
-  /// Those of the coarse contact nodes that are fine nodes too; parameters as in coarsen_projections().
-  /// Bounds are taken from the one node and not averaged: a mean of nodal gaps is wrong by the curvature of
-  /// the gap.
+  /// Collective. Those of the coarse contact nodes that are fine nodes too; parameters as in
+  /// coarsen_coupling(). Bounds are taken from the one node and not averaged: a mean of nodal gaps is wrong
+  /// by the curvature of the gap.
   RowHalfSpaces inject_half_spaces(const RowHalfSpaces &half_spaces, const InterfaceCoupling &fine,
                                    const std::vector<NodeIndex> &nodes, const NodeRows &node_rows,
                                    const InterfaceCoupling          &coarse,
-                                   const std::vector<RowProjection> &coarse_projections);
+                                   const std::vector<RowProjection> &coarse_projections,
+                                   const NodePartition              &partition);
 
   /// Those at nodes that this rank owns; `rows` are sorted.
   HalfSpaces own_half_spaces(const RowHalfSpaces &half_spaces, const std::vector<NodeIndex> &rows,

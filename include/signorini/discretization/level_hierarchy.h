@@ -18,12 +18,6 @@
 
 namespace Signorini
 {
-  /// The transfer operator on the next coarser level (doc/algorithm.md, (36)):
-  ///   S_{k-1} = diag(P_nonᵀ D_k 1)⁻¹ P_nonᵀ D_k S_k P_mor ,   D_{k-1} = diag(P_nonᵀ D_k 1).
-  /// `nodes` are the sorted nodes of rows and columns of S_k, `rows` their interpolation rows.
-  InterfaceCoupling coarsen_coupling(const InterfaceCoupling &fine, const std::vector<NodeIndex> &nodes,
-                                     const NodeRows &rows);
-
   /// Drops the weights below a tenth of the largest one of their row, and adds them to that one: translations
   /// still have no relative displacements. On coarse levels S is only a choice of the basis: their spaces
   /// stay the same, their matrices become sparser.
@@ -54,6 +48,7 @@ namespace Signorini
 
   /// Collective. Galerkin hierarchy with P̂_k = T_k⁻¹ P_k T_{k-1} on all levels. An empty coupling gives the
   /// hierarchy of the decoupled linear problem.
+  /// @param coupling has the rows of the nodes that this rank owns
   /// @param projections A_p of the rows of the coupling
   MultigridHierarchy build_hierarchy(LinearSystem &&system, const LevelSpaces &spaces,
                                      const InterfaceCoupling          &coupling,

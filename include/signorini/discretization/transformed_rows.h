@@ -13,16 +13,17 @@
 
 namespace Signorini
 {
-  /// What is known at the contact of two neighbouring levels, the same on all ranks.
+  /// What is known at the contact of two neighbouring levels, around the local nodes of a rank.
   struct ContactOfLevels
   {
-    /// The coupling of the finer level.
+    /// The coupling of the finer level, rows of its local nodes.
     const InterfaceCoupling &fine;
     /// One per row of the coupling.
     const std::vector<RowProjection> &fine_projections;
     /// Sorted nodes of rows and columns of the fine coupling, and their interpolation rows.
-    const std::vector<NodeIndex>     &nodes;
-    const NodeRows                   &node_rows;
+    const std::vector<NodeIndex> &nodes;
+    const NodeRows               &node_rows;
+    /// Rows of the coarse nodes that these rows and those of P lead to.
     const InterfaceCoupling          &coarse;
     const std::vector<RowProjection> &coarse_projections;
     /// Whether coarse obstacles are wanted: see transformed_rows().

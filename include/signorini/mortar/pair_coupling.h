@@ -5,6 +5,7 @@
 #define signorini_mortar_pair_coupling_h
 
 #include <signorini/algebra/interface_coupling.h>
+#include <signorini/algebra/node_partition.h>
 #include <signorini/algebra/row_projection.h>
 #include <signorini/mortar/face_moments.h>
 #include <signorini/mortar/surface_halo.h>
@@ -148,7 +149,7 @@ namespace Signorini
                                                   const std::vector<std::set<NodeIndex>> &touched_mortar,
                                                   const MPI_Comm                          communicator);
 
-  /// The rows of all pairs, sorted by node.
+  /// The rows of all pairs at the nodes that a rank owns, sorted by node.
   struct JoinedCouplings
   {
     /// S and D of all pairs.
@@ -161,12 +162,12 @@ namespace Signorini
     std::vector<dealii::Point<3>> positions;
   };
 
-  /// Collective. Joins the couplings of all pairs and ranks, on all ranks.
+  /// Collective. Joins the couplings of all pairs: rows go to the ranks that own their nodes.
   /// @param names of the pairs, for messages; numbers if left out
   /// Errors: InputError naming the pairs if a node is a row twice, or a row of one pair and a column of
   /// another (S² is not 0, the pairs form a chain or a cycle).
   JoinedCouplings join_couplings(const std::vector<PairCoupling> &pairs,
-                                 const std::vector<std::string> &names, const MPI_Comm communicator);
+                                 const std::vector<std::string> &names, const NodePartition &partition);
 } // namespace Signorini
 
 #endif

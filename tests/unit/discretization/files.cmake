@@ -1,5 +1,6 @@
 signorini_add_unit_tests(discretization RANKS "1;2;4"
   background_levels.cc
+  coarse_contact.cc
   elasticity.cc
   error_indicator.cc
   hexahedron.cc

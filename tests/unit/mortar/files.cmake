@@ -4,6 +4,7 @@ signorini_add_unit_tests(mortar RANKS "1;2;3;4;8"
   face_moments.cc
   interface_parts.cc
   pair_conflicts.cc
+  received_bytes.cc
   rigid_obstacle.cc
   two_step_rule.cc
 )

@@ -4,6 +4,7 @@
 // An interface that is shared by the ranks: every row as it is with all faces on one rank.
 
 #include "flat_surfaces.h"
+#include "received_bytes.h"
 #include "replicated_coupling.h"
 
 #include <signorini/algebra/gathered_lists.h>
@@ -194,5 +195,60 @@ TEST(InterfaceParts, SharesAreEven)
       EXPECT_GT(*std::min_element(faces.begin(), faces.end()), 0.);
       const double mean = static_cast<double>(overlay.size()) / n_ranks;
       EXPECT_LT(*std::max_element(work.begin(), work.end()), 1.3 * mean) << n_ranks;
+    }
+}
+
+
+
+// What a rank gets for its rows is what lies around its part of the interface: the border of one of P square
+// pieces of n faces crosses 4 sqrt(n / P) of them. Finished rows go to the owners of their nodes, n / P each.
+TEST(InterfaceParts, ReceivedBytesFollowTheBorder)
+{
+  const unsigned int n_all = n_mpi_processes(MPI_COMM_WORLD), n = 48;
+  for (unsigned int n_ranks = 1; n_ranks <= n_all; n_ranks *= 2)
+    {
+      MPI_Comm   comm;
+      const bool takes_part = this_mpi_process(MPI_COMM_WORLD) < n_ranks;
+      MPI_Comm_split(MPI_COMM_WORLD, takes_part ? 0 : 1, 0, &comm);
+      if (takes_part)
+        {
+          auto non = make_surface({n, n}),
+               mor = make_surface({n - 1, n - 1, 0., 1., 0., 1., {}, 0., 0., 10000, false});
+          share_faces(non, mor, n_ranks);
+          const auto moments = compute_face_moments(
+              non, mor, make_overlay(non, mor, static_cast<int>(this_mpi_process(comm))), {}, comm);
+          std::size_t bytes_of_faces = 0;
+          for (const FaceMoments &m : moments)
+            bytes_of_faces += sizeof(double) * (36 + 5 * m.coupling.size());
+          bytes_of_faces = dealii::Utilities::MPI::sum(bytes_of_faces, comm);
+
+          const std::size_t before = received_bytes();
+          const SurfaceHalo halo(non, comm);
+          const auto        part     = couple(non, mor, halo, halo.add_ghosts(moments), {}, false);
+          const std::size_t for_rows = received_bytes() - before;
+          const double      per_face = static_cast<double>(bytes_of_faces) / (n * n);
+          const double      n_border = n_ranks == 1 ? 0. : 4. * n / std::sqrt(n_ranks);
+          const double      largest  = static_cast<double>(dealii::Utilities::MPI::max(for_rows, comm));
+          // Messages that only say that there is nothing, and sums.
+          constexpr double few = 4096.;
+          EXPECT_LE(largest, 2. * n_border * per_face + few) << n_ranks << " ranks";
+
+          dealii::IndexSet owned(20000);
+          const NodeIndex  rank = this_mpi_process(comm), n_nodes = (n + 1) * (n + 1);
+          owned.add_range(rank == 0 ? 0 : rank * n_nodes / n_ranks,
+                          rank + 1 == n_ranks ? 20000 : (rank + 1) * n_nodes / n_ranks);
+          const NodePartition partition(owned, owned, comm);
+          const std::size_t   joining = received_bytes();
+          const auto          joined  = join_couplings({part}, {}, partition);
+          const double        rows    = static_cast<double>(received_bytes() - joining);
+          double              content = 0.;
+          for (std::size_t row = 0; row < joined.coupling.n_rows(); ++row)
+            content +=
+                200. + 16. * static_cast<double>(joined.coupling.end(row) - joined.coupling.begin(row));
+          EXPECT_LE(rows, (n_ranks == 1 ? 0. : 2. * content) + few);
+          EXPECT_LE(static_cast<double>(joined.coupling.n_rows()),
+                    2. * static_cast<double>(n_nodes) / n_ranks);
+        }
+      MPI_Comm_free(&comm);
     }
 }

@@ -50,6 +50,13 @@ namespace
     return make_surface(grid);
   }
 
+  /// All on this rank.
+  NodePartition all_nodes()
+  {
+    const dealii::IndexSet all = dealii::complete_index_set(10000);
+    return NodePartition(all, all, MPI_COMM_SELF);
+  }
+
   /// Two nonmortar surfaces of one body that share the nodes on x = 1.
   std::vector<Pair> neighbours()
   {
@@ -67,7 +74,7 @@ TEST(PairConflicts, SharedNodesLoseTheirMultiplier)
 {
   const auto  pairs     = neighbours();
   const auto  couplings = couple_all(pairs, true);
-  const auto  all       = join_couplings(couplings, {"left", "right"}, MPI_COMM_SELF);
+  const auto  all       = join_couplings(couplings, {"left", "right"}, all_nodes());
   const auto &joined    = all.coupling;
   ASSERT_EQ(joined.n_rows(), 24u);
   for (std::size_t row = 0; row < joined.n_rows(); ++row)
@@ -100,7 +107,7 @@ TEST(PairConflicts, SharedRowsAreAnError)
 {
   try
     {
-      join_couplings(couple_all(neighbours(), false), {"left", "right"}, MPI_COMM_SELF);
+      join_couplings(couple_all(neighbours(), false), {"left", "right"}, all_nodes());
       FAIL();
     }
   catch (const InputError &error)
@@ -117,7 +124,7 @@ TEST(PairConflicts, CyclesAreAnError)
   const auto couplings = couple_all({Pair(below, above), Pair(above, below)}, false);
   try
     {
-      join_couplings(couplings, {"up", "down"}, MPI_COMM_SELF);
+      join_couplings(couplings, {"up", "down"}, all_nodes());
       FAIL();
     }
   catch (const InputError &error)
@@ -135,7 +142,7 @@ TEST(PairConflicts, ChainOfBodiesWithoutCommonNodes)
   const auto couplings = couple_all({Pair(surface({3, 3}, 0, true), surface({2, 2}, 100, false)),
                                      Pair(surface({4, 4}, 200, true), surface({3, 3}, 300, false))},
                                     true);
-  EXPECT_EQ(join_couplings(couplings, {}, MPI_COMM_SELF).coupling.n_rows(), 16u + 25u);
+  EXPECT_EQ(join_couplings(couplings, {}, all_nodes()).coupling.n_rows(), 16u + 25u);
 }
 
 // A node that is mortar in another pair loses its multiplier.
@@ -145,7 +152,7 @@ TEST(PairConflicts, MortarElsewhere)
   const auto upper     = surface({2, 2}, 1000, false);
   const auto third     = surface({5, 5, .4, 1., .4, 1.}, 2000, false);
   const auto couplings = couple_all({Pair(lower, upper), Pair(third, lower)}, true);
-  join_couplings(couplings, {"a", "b"}, MPI_COMM_SELF);
+  join_couplings(couplings, {"a", "b"}, all_nodes());
   // 9 of the 16 nodes of `lower` are corners of faces under `third`.
   EXPECT_EQ(couplings[0].coupling.n_rows(), 7u);
   EXPECT_EQ(couplings[1].coupling.n_rows(), 36u);

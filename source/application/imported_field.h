@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
-#ifndef signorini_source_application_replicated_field_h
-#define signorini_source_application_replicated_field_h
+#ifndef signorini_source_application_imported_field_h
+#define signorini_source_application_imported_field_h
 
 #include <signorini/algebra/replicated_data.h>
 
@@ -11,17 +11,17 @@
 
 namespace Signorini
 {
-  /// The values of a nodal field at some nodes, on all ranks.
-  class ReplicatedField
+  /// The values of a nodal field at some nodes.
+  class ImportedField
   {
   public:
-    /// Collective. The nodes are the same on all ranks, in any order.
-    ReplicatedField(const NodePartition &partition, const Vector &field, std::vector<NodeIndex> some_nodes)
+    /// Collective. Every rank has nodes of its own, in any order.
+    ImportedField(const NodePartition &partition, const Vector &field, std::vector<NodeIndex> some_nodes)
       : nodes(std::move(some_nodes))
     {
       std::sort(nodes.begin(), nodes.end());
       nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-      values = replicate_values(partition, field, nodes);
+      values = import_values(partition, field, nodes);
     }
 
     const Vector3 &operator()(const NodeIndex node) const
