@@ -317,8 +317,8 @@ namespace Signorini
           others.local_element(dim * i + 2) = row.active;
         }
     ContactStress stress = no_stress(d);
-    stress.traction      = replicate_values(d.partition(), traction, d.coupling.rows);
-    const auto values    = replicate_values(d.partition(), others, d.coupling.rows);
+    stress.traction      = import_values(d.partition(), traction, d.coupling.rows);
+    const auto values    = import_values(d.partition(), others, d.coupling.rows);
     for (std::size_t p = 0; p < values.size(); ++p)
       {
         stress.pressure[p] = values[p][0];

@@ -4,6 +4,8 @@
 #ifndef signorini_algebra_sent_lists_h
 #define signorini_algebra_sent_lists_h
 
+#include <signorini/algebra/checked_count.h>
+
 #include <deal.II/base/mpi.h>
 
 #include <cstring>
@@ -55,8 +57,8 @@ namespace Signorini
     std::vector<MPI_Request> requests(lists.size());
     std::size_t              n = 0;
     for (const auto &[rank, list] : lists)
-      MPI_Isend(list.data(), static_cast<int>(list.size() * sizeof(T)), MPI_BYTE, static_cast<int>(rank), tag,
-                communicator, &requests[n++]);
+      MPI_Isend(list.data(), checked_count(list.size() * sizeof(T), "bytes of a message"), MPI_BYTE,
+                static_cast<int>(rank), tag, communicator, &requests[n++]);
     ListsByRank<T> result;
     for (const unsigned int rank : senders)
       {
