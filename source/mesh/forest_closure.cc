@@ -158,7 +158,7 @@ namespace Signorini
   bool ForestClosure::exchange()
   {
     bool       is_new   = false;
-    const auto received = exchange_lists(news, comm);
+    const auto received = send_lists(news, comm);
     news.clear();
     // Of each rank in the order in which it made them: the ends of an edge come before its middle.
     for (const auto &message : received)
@@ -209,13 +209,13 @@ namespace Signorini
     std::unordered_map<unsigned int, Ranks> result;
     if (Utilities::MPI::n_mpi_processes(comm) == 1)
       return result;
-    ListsOfRanks<Name> told;
+    ListsByRank<Name> told;
     for (unsigned int v = n_old; v < vertices.size(); ++v)
       if (is_used[v])
         if (const auto it = others.find(v); it != others.end())
           for (const unsigned int other : it->second)
             told[other].push_back(vertices[v].name);
-    for (const auto &[other, names] : exchange_lists(told, comm))
+    for (const auto &[other, names] : send_lists(told, comm))
       for (const Name name : names)
         result[known.at(name)].push_back(other);
     return result;
@@ -252,7 +252,7 @@ namespace Signorini
     for (const std::uint64_t n : Utilities::MPI::all_gather(comm, static_cast<std::uint64_t>(mine.size())))
       result.push_back(result.back() + n);
 
-    ListsOfRanks<std::array<Name, 2>> told;
+    ListsByRank<std::array<Name, 2>> told;
     for (std::size_t i = 0; i < mine.size(); ++i)
       {
         const Name name = result[rank] + i;
@@ -262,7 +262,7 @@ namespace Signorini
         vertices[mine[i]].name = name;
       }
     if (Utilities::MPI::n_mpi_processes(comm) > 1)
-      for (const auto &message : exchange_lists(told, comm))
+      for (const auto &message : send_lists(told, comm))
         for (const auto &[handle, name] : message.second)
           vertices[known.at(handle)].name = name;
     parents.clear();

@@ -75,7 +75,7 @@ namespace Signorini
     std::unordered_map<unsigned int, Ranks> others;
     /// Vertices that others have by names and handles.
     std::unordered_map<Name, unsigned int> known;
-    ListsOfRanks<SplitEdge>                news;
+    ListsByRank<SplitEdge>                 news;
   };
 } // namespace Signorini
 

@@ -90,15 +90,15 @@ namespace Signorini
     std::vector<std::vector<unsigned int>> other_ranks(const ForestPiece &piece, const MPI_Comm communicator)
     {
       const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
-      ListsOfRanks<Name> told;
+      ListsByRank<Name>  told;
       for (const unsigned int v : border_vertices(piece))
         told[piece.vertices[v].name % n_ranks].push_back(piece.vertices[v].name);
       std::vector<std::pair<Name, unsigned int>> entries;
-      for (const auto &[rank, names] : exchange_lists(told, communicator))
+      for (const auto &[rank, names] : send_lists(told, communicator))
         for (const Name name : names)
           entries.emplace_back(name, rank);
       std::sort(entries.begin(), entries.end());
-      ListsOfRanks<std::array<std::uint64_t, 2>> answers;
+      ListsByRank<std::array<std::uint64_t, 2>> answers;
       for (std::size_t i = 0, j; i < entries.size(); i = j)
         {
           for (j = i; j < entries.size() && entries[j].first == entries[i].first;)
@@ -109,7 +109,7 @@ namespace Signorini
                 answers[entries[a].second].push_back({{entries[b].first, entries[b].second}});
         }
       std::vector<std::vector<unsigned int>> ranks(piece.vertices.size());
-      for (const auto &answer : exchange_lists(answers, communicator))
+      for (const auto &answer : send_lists(answers, communicator))
         for (const auto &[name, rank] : answer.second)
           {
             const auto it = std::lower_bound(piece.vertices.begin(), piece.vertices.end(), name,
@@ -124,7 +124,7 @@ namespace Signorini
                                                                           const MPI_Comm     communicator)
     {
       const auto                ranks = other_ranks(piece, communicator);
-      ListsOfRanks<std::size_t> result;
+      ListsByRank<std::size_t>  result;
       std::vector<unsigned int> list;
       for (std::size_t c = 0; c < piece.cells.size(); ++c)
         {
@@ -176,7 +176,7 @@ namespace Signorini
           for (const unsigned int v : list)
             numbers[rank].push_back({{mesh.vertices[v], mesh.vertex_numbers[v]}});
         }
-      for (const auto &entry : exchange_lists(numbers, communicator))
+      for (const auto &entry : send_lists(numbers, communicator))
         for (const auto &[name, number] : entry.second)
           mesh.vertex_numbers[mesh.find(name)] = number;
     }
@@ -209,7 +209,7 @@ namespace Signorini
       if (mesh.first_vertex.size() == 2)
         return;
       // The owner of a vertex knows all of its cells; then every rank knows the vertices of its own cells.
-      ListsOfRanks<unsigned int> told;
+      ListsByRank<unsigned int> told;
       for (std::size_t c = mesh.first_owned + mesh.n_owned; c < mesh.cells.size(); ++c)
         for (const unsigned int v : mesh.cells[c].vertices)
           if (first_rank[v] == rank)
@@ -233,7 +233,7 @@ namespace Signorini
     const std::size_t  n_owned    = owned.cells.size();
     for (std::size_t c = 0; c < n_owned; ++c)
       owned.cells[c].place = first_cell[rank] + c;
-    ListsOfRanks<std::size_t> sent;
+    ListsByRank<std::size_t> sent;
     if (Utilities::MPI::n_mpi_processes(communicator) > 1)
       {
         sent = cells_seen_elsewhere(owned, communicator);

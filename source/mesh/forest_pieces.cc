@@ -125,8 +125,8 @@ namespace Signorini
   std::map<unsigned int, ForestPiece> exchange_pieces(std::map<unsigned int, ForestPiece> &&pieces,
                                                       const MPI_Comm                        communicator)
   {
-    ListsOfRanks<ForestPiece::Cell>   cells;
-    ListsOfRanks<ForestPiece::Vertex> vertices;
+    ListsByRank<ForestPiece::Cell>   cells;
+    ListsByRank<ForestPiece::Vertex> vertices;
     for (auto &[rank, piece] : pieces)
       {
         cells[rank]    = std::move(piece.cells);
@@ -134,9 +134,9 @@ namespace Signorini
       }
     pieces.clear();
     std::map<unsigned int, ForestPiece> result;
-    for (auto &[rank, list] : exchange_lists(cells, communicator))
+    for (auto &[rank, list] : send_lists(cells, communicator))
       result[rank].cells = list;
-    for (auto &[rank, list] : exchange_lists(vertices, communicator))
+    for (auto &[rank, list] : send_lists(vertices, communicator))
       result[rank].vertices = list;
     return result;
   }

@@ -4,7 +4,7 @@
 #ifndef signorini_mesh_forest_pieces_h
 #define signorini_mesh_forest_pieces_h
 
-#include <signorini/algebra/exchanged_lists.h>
+#include <signorini/algebra/sent_lists.h>
 #include <signorini/mesh/forest_mesh.h>
 
 #include <deal.II/base/mpi.h>

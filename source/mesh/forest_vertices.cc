@@ -3,8 +3,8 @@
 
 #include "late_vertices.h"
 
-#include <signorini/algebra/exchanged_lists.h>
 #include <signorini/algebra/gathered_lists.h>
+#include <signorini/algebra/sent_lists.h>
 #include <signorini/mesh/forest_vertices.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace Signorini
     , comm(communicator)
     , rank(Utilities::MPI::this_mpi_process(communicator))
   {
-    ListsOfRanks<Name> asked;
+    ListsByRank<Name> asked;
     for (unsigned int v = 0; v < mesh.vertices.size(); ++v)
       if (!owns(v))
         {
@@ -28,7 +28,7 @@ namespace Signorini
           asked[owner].push_back(mesh.vertices[v]);
           received[owner].push_back(v);
         }
-    for (const auto &[other, names] : exchange_lists(asked, comm))
+    for (const auto &[other, names] : send_lists(asked, comm))
       for (const Name name : names)
         sent[other].push_back(mesh.find(name));
   }

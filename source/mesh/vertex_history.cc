@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
-#include <signorini/algebra/exchanged_lists.h>
+#include <signorini/algebra/sent_lists.h>
 #include <signorini/mesh/vertex_history.h>
 
 #include <algorithm>
@@ -97,8 +97,8 @@ namespace Signorini
   {
     using Entry = std::array<std::uint64_t, 2>;
     std::vector<NodeIndex> at_home(parent_names.size(), invalid_node);
-    ListsOfRanks<Entry>    told;
-    ListsOfRanks<Name>     asked;
+    ListsByRank<Entry>     told;
+    ListsByRank<Name>      asked;
     for (std::size_t i = 0; i < names.size(); ++i)
       if (const unsigned int other = home(names[i]); other == rank)
         at_home[slot(names[i])] = values[i];
@@ -107,17 +107,17 @@ namespace Signorini
     std::unordered_map<Name, NodeIndex> fetched;
     if (Utilities::MPI::n_mpi_processes(comm) > 1)
       {
-        for (const auto &message : exchange_lists(told, comm))
+        for (const auto &message : send_lists(told, comm))
           for (const auto &[name, value] : message.second)
             at_home[slot(name)] = static_cast<NodeIndex>(value);
         for (const Name name : wanted)
           if (const unsigned int other = home(name); other != rank && fetched.insert({name, 0}).second)
             asked[other].push_back(name);
-        ListsOfRanks<Entry> answers;
-        for (const auto &[other, list] : exchange_lists(asked, comm))
+        ListsByRank<Entry> answers;
+        for (const auto &[other, list] : send_lists(asked, comm))
           for (const Name name : list)
             answers[other].push_back({{name, at_home[slot(name)]}});
-        for (const auto &message : exchange_lists(answers, comm))
+        for (const auto &message : send_lists(answers, comm))
           for (const auto &[name, value] : message.second)
             fetched[name] = static_cast<NodeIndex>(value);
       }
@@ -133,18 +133,18 @@ namespace Signorini
   std::unordered_map<VertexHistory::Name, VertexHistory::Parents>
   VertexHistory::fetch(const std::vector<Name> &vertices) const
   {
-    ListsOfRanks<Name> asked;
+    ListsByRank<Name> asked;
     for (const Name name : vertices)
       asked[home(name)].push_back(name);
-    ListsOfRanks<std::array<Name, 3>> answers;
-    for (const auto &[other, list] : exchange_lists(asked, comm))
+    ListsByRank<std::array<Name, 3>> answers;
+    for (const auto &[other, list] : send_lists(asked, comm))
       for (const Name name : list)
         {
           const Parents &ends = parent_names[slot(name)];
           answers[other].push_back({{name, ends[0], ends[1]}});
         }
     std::unordered_map<Name, Parents> result;
-    for (const auto &message : exchange_lists(answers, comm))
+    for (const auto &message : send_lists(answers, comm))
       for (const auto &[name, a, b] : message.second)
         result[name] = {{a, b}};
     return result;

@@ -76,13 +76,5 @@ main(int argc, char **argv)
   print("restriction", median_time([&] { restrict_defect(coarse, small, residual); }));
   print("prolongation", median_time([&] { coarse.to_finer.prolongate(residual, small); }));
   print("Galerkin product", median_time([&] { compute_galerkin(coarse.matrix, matrix, coarse.to_finer); }));
-  print("structure of the Galerkin product", median_time([&] {
-          NodeBlockMatrix  product;
-          NodalTransfer    transfer = coarse.to_finer;
-          dealii::IndexSet owned(coarse.matrix.partition().n_global());
-          owned.add_range(coarse.matrix.partition().first_owned(),
-                          coarse.matrix.partition().first_owned() + coarse.matrix.n_rows());
-          reinit_galerkin(product, matrix, transfer, owned);
-        }));
   print("smoother: setup", median_time([&] { ProjectedGaussSeidel again(matrix); }));
 }
