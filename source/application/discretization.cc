@@ -272,7 +272,7 @@ namespace Signorini
       const auto                excluded = excluded_nodes(nonmortar_nodes, mortar_nodes, comm);
       std::vector<PairCoupling> couplings;
       for (unsigned int p = 0; p < pairs.size(); ++p)
-        couplings.push_back(couple(pairs[p].nonmortar.surface, pairs[p].mortar.surface, *pairs[p].halo,
+        couplings.push_back(couple({pairs[p].nonmortar.surface, pairs[p].mortar.surface, *pairs[p].halo},
                                    pairs[p].moments, excluded[p],
                                    static_cast<bool>(pairs[p].prescribed_gap)));
       return couplings;

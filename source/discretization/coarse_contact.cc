@@ -192,9 +192,7 @@ namespace Signorini
 
   RowHalfSpaces inject_half_spaces(const RowHalfSpaces &half_spaces, const InterfaceCoupling &fine,
                                    const std::vector<NodeIndex> &nodes, const NodeRows &node_rows,
-                                   const InterfaceCoupling          &coarse,
-                                   const std::vector<RowProjection> &coarse_projections,
-                                   const NodePartition              &partition)
+                                   const CoarseRows &coarse, const NodePartition &partition)
   {
     struct Injected
     {
@@ -213,13 +211,13 @@ namespace Signorini
             {coarse_row, half_spaces.normals[p], half_spaces.bounds[p]});
       }
     RowHalfSpaces result;
-    result.normals.resize(coarse.n_rows());
-    result.bounds.resize(coarse.n_rows());
+    result.normals.resize(coarse.coupling.n_rows());
+    result.bounds.resize(coarse.coupling.n_rows());
     for (const auto &[rank, list] : send_lists(injected, partition.communicator()))
       for (const Injected &one : list)
         {
-          const std::size_t q      = coarse.find(one.coarse_row);
-          const Vector3     free   = project_free(coarse_projections[q].fixed(), one.normal);
+          const std::size_t q      = coarse.coupling.find(one.coarse_row);
+          const Vector3     free   = project_free(coarse.projections[q].fixed(), one.normal);
           const double      length = free.norm();
           if (length > 1e-6)
             {

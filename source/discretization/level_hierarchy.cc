@@ -309,8 +309,8 @@ namespace Signorini
       // Background levels have no nodes in common with a mesh, of which they could take bounds.
       if (has_half_spaces)
         {
-          half_spaces = inject_half_spaces(half_spaces, fine, nodes, node_rows, coarse.coupling, projections,
-                                           partition);
+          half_spaces        = inject_half_spaces(half_spaces, fine, nodes, node_rows,
+                                                  {coarse.coupling, projections}, partition);
           result.half_spaces = own_half_spaces(half_spaces, coarse.coupling.rows, partition);
         }
       fine             = std::move(coarse.coupling);

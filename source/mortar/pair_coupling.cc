@@ -292,12 +292,12 @@ namespace Signorini
 
 
 
-  PairCoupling couple(const ContactSurface &nonmortar, const ContactSurface &mortar, const SurfaceHalo &halo,
-                      const std::vector<FaceMoments> &moments, const std::set<NodeIndex> &excluded,
-                      const bool prescribed_gap, const DroppingRule &rule)
+  PairCoupling couple(const SharedPair &pair, const std::vector<FaceMoments> &moments,
+                      const std::set<NodeIndex> &excluded, const bool prescribed_gap,
+                      const DroppingRule &rule)
   {
-    MultiplierNodes   nodes(nonmortar, halo, moments, excluded, rule);
-    CouplingAssembler assembler(nonmortar, mortar, halo, moments, prescribed_gap);
+    MultiplierNodes   nodes(pair.nonmortar, pair.halo, moments, excluded, rule);
+    CouplingAssembler assembler(pair.nonmortar, pair.mortar, pair.halo, moments, prescribed_gap);
     nodes.complete();
     PairCoupling result = assembler.assemble(nodes);
     // Every round drops or keeps for good at least one node; a few rounds are the rule.
@@ -309,8 +309,8 @@ namespace Signorini
     result.dropped    = nodes.report();
     result.lost_faces = nodes.lost_faces();
     for (double *const area : {&result.area, &result.covered_area, &result.lost_area})
-      *area = Utilities::MPI::sum(*area, halo.communicator());
-    result.n_rows_of_all = Utilities::MPI::sum(result.coupling.n_rows(), halo.communicator());
+      *area = Utilities::MPI::sum(*area, pair.halo.communicator());
+    result.n_rows_of_all = Utilities::MPI::sum(result.coupling.n_rows(), pair.halo.communicator());
     return result;
   }
 
@@ -344,7 +344,7 @@ namespace Signorini
                       const std::vector<FaceMoments> &moments, const std::set<NodeIndex> &excluded,
                       const bool prescribed_gap, const DroppingRule &rule)
   {
-    return couple(nonmortar, mortar, SurfaceHalo(nonmortar, MPI_COMM_SELF), moments, excluded, prescribed_gap,
-                  rule);
+    return couple({nonmortar, mortar, SurfaceHalo(nonmortar, MPI_COMM_SELF)}, moments, excluded,
+                  prescribed_gap, rule);
   }
 } // namespace Signorini

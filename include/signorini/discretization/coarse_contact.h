@@ -54,14 +54,20 @@ namespace Signorini
   RowHalfSpaces half_spaces_of_rows(const HalfSpaces &owned, const NodePartition &partition,
                                     const std::vector<NodeIndex> &rows);
 
+  /// The coupling of a coarse level, and A of its rows.
+  struct CoarseRows
+  {
+    /// Both must outlive the object.
+    const InterfaceCoupling          &coupling;
+    const std::vector<RowProjection> &projections;
+  };
+
   /// Collective. Those of the coarse contact nodes that are fine nodes too; parameters as in
   /// coarsen_coupling(). Bounds are taken from the one node and not averaged: a mean of nodal gaps is wrong
   /// by the curvature of the gap.
   RowHalfSpaces inject_half_spaces(const RowHalfSpaces &half_spaces, const InterfaceCoupling &fine,
                                    const std::vector<NodeIndex> &nodes, const NodeRows &node_rows,
-                                   const InterfaceCoupling          &coarse,
-                                   const std::vector<RowProjection> &coarse_projections,
-                                   const NodePartition              &partition);
+                                   const CoarseRows &coarse, const NodePartition &partition);
 
   /// Those at nodes that this rank owns; `rows` are sorted.
   HalfSpaces own_half_spaces(const RowHalfSpaces &half_spaces, const std::vector<NodeIndex> &rows,

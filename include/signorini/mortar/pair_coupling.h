@@ -105,13 +105,21 @@ namespace Signorini
     std::size_t n_rows_of_all = 0;
   };
 
+  /// The surfaces of a pair, and what this rank does of the nonmortar one.
+  struct SharedPair
+  {
+    /// All must outlive the object.
+    const ContactSurface &nonmortar, &mortar;
+    const SurfaceHalo    &halo;
+  };
+
   /// Collective. The coupling of one pair from the moments of own and ghost faces
   /// (SurfaceHalo::add_ghosts()). A row is the same, bit by bit, on any number of ranks.
   /// @param excluded nodes that must not carry a multiplier because of another pair (excluded_nodes())
   /// @param prescribed_gap whether the moments hold gap values instead of vectors
-  PairCoupling couple(const ContactSurface &nonmortar, const ContactSurface &mortar, const SurfaceHalo &halo,
-                      const std::vector<FaceMoments> &moments, const std::set<NodeIndex> &excluded,
-                      const bool prescribed_gap, const DroppingRule &rule = {});
+  PairCoupling couple(const SharedPair &pair, const std::vector<FaceMoments> &moments,
+                      const std::set<NodeIndex> &excluded, const bool prescribed_gap,
+                      const DroppingRule &rule = {});
 
   /// Collective. Largest distance of a row's node from that of the first row of all ranks (length).
   double width_of_rows(const PairCoupling &pair, const MPI_Comm communicator);

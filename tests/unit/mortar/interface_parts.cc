@@ -126,7 +126,8 @@ TEST(InterfaceParts, RowsAreThoseOfTheWhole)
       const auto        own =
           compute_face_moments(interface.non, interface.mor, own_part(interface, rank), {}, comm);
       const auto ghosted = halo.add_ghosts(own);
-      const auto part = couple(interface.non, interface.mor, halo, ghosted, interface.excluded, false, rule);
+      const auto part =
+          couple({interface.non, interface.mor, halo}, ghosted, interface.excluded, false, rule);
 
       EXPECT_EQ(part.n_rows_of_all, whole.coupling.n_rows());
       EXPECT_EQ(dealii::Utilities::MPI::sum(part.coupling.n_rows(), comm), whole.coupling.n_rows());
@@ -224,7 +225,7 @@ TEST(InterfaceParts, ReceivedBytesFollowTheBorder)
 
           const std::size_t before = received_bytes();
           const SurfaceHalo halo(non, comm);
-          const auto        part     = couple(non, mor, halo, halo.add_ghosts(moments), {}, false);
+          const auto        part     = couple({non, mor, halo}, halo.add_ghosts(moments), {}, false);
           const std::size_t for_rows = received_bytes() - before;
           const double      per_face = static_cast<double>(bytes_of_faces) / (n * n);
           const double      n_border = n_ranks == 1 ? 0. : 4. * n / std::sqrt(n_ranks);
