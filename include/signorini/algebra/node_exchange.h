@@ -15,8 +15,8 @@ namespace Signorini
   class NodeExchange
   {
   public:
-    /// Not collective.
-    /// @param is_sent of each local node; the ranks agree on the nodes that they share
+    /// Not collective. `is_sent` says of each local node whether it is; the ranks agree on the nodes that
+    /// they share.
     NodeExchange(const NodePartition &partition, const std::vector<unsigned char> &is_sent);
     NodeExchange(const NodeExchange &)            = delete;
     NodeExchange &operator=(const NodeExchange &) = delete;

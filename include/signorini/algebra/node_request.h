@@ -46,6 +46,7 @@ namespace Signorini
     template <typename T>
     struct Lists
     {
+      /// As above.
       std::vector<std::size_t> start = {0};
       std::vector<T>           items;
     };

@@ -84,6 +84,7 @@ namespace Signorini
   /// All that determines the rest of a run, beside its input.
   struct RunState
   {
+    /// Of the meshes, and of the load steps, if those have begun.
     NestedState                nested;
     std::optional<SeriesState> series;
     /// Of the journal.

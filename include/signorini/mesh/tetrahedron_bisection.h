@@ -42,6 +42,7 @@ namespace Signorini
   /// A cell and how it will be bisected.
   struct MarkedTetrahedron
   {
+    /// Both.
     Tetrahedron      cell;
     BisectionMarking marking;
   };

@@ -20,6 +20,7 @@ namespace Signorini
   class VertexHistory
   {
   public:
+    /// A number that a vertex has on all meshes and ranks.
     using Name = ForestMesh::Name;
 
     /// Vertices of a start mesh, in equal parts on the ranks.
@@ -48,6 +49,7 @@ namespace Signorini
     /// ... start[i + 1] - 1.
     struct Rows
     {
+      /// As above; weights are pure numbers.
       std::vector<std::size_t> start = {0};
       std::vector<Name>        names;
       std::vector<double>      weights;

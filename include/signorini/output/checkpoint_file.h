@@ -24,6 +24,7 @@ namespace Signorini
     /// A list of `n` items of `item` bytes, `offset` bytes behind the begin of the file.
     struct Section
     {
+      /// What it is called, its sizes and place as above, and the sum over its bytes.
       std::string   name;
       std::uint64_t item = 1, n = 0, offset = 0, checksum = 0;
     };
