@@ -41,6 +41,36 @@ namespace Signorini
     };
     constexpr StrongBlocksRule rule;
 
+    /// Colours of ranks for the blocks at their borders: those of further colours share a phase with others.
+    constexpr unsigned int most_colours = 7;
+
+    /// Collective. Greedy colouring of the ranks; neighbours share ghost nodes.
+    std::vector<unsigned int> colour_ranks(const NodePartition &partition)
+    {
+      std::vector<unsigned int> owners;
+      for (const NodePartition::Neighbour &owner : partition.owners())
+        owners.push_back(owner.rank);
+      const auto neighbours = Utilities::MPI::all_gather(partition.communicator(), owners);
+      std::vector<std::set<unsigned int>> graph(neighbours.size());
+      for (unsigned int rank = 0; rank < neighbours.size(); ++rank)
+        for (const unsigned int other : neighbours[rank])
+          {
+            graph[rank].insert(other);
+            graph[other].insert(rank);
+          }
+      std::vector<unsigned int> colours(graph.size());
+      for (unsigned int rank = 0; rank < graph.size(); ++rank)
+        {
+          std::set<unsigned int> taken;
+          for (const unsigned int other : graph[rank])
+            if (other < rank)
+              taken.insert(colours[other]);
+          while (taken.count(colours[rank]) > 0)
+            ++colours[rank];
+        }
+      return colours;
+    }
+
     double trace_of(const double *const block)
     {
       return block[0] + block[4] + block[8];
@@ -264,11 +294,10 @@ namespace Signorini
 
   SweepSchedule::Item StrongBlocks::visit_of(const unsigned int block) const
   {
-    const NodePhases                &phases = sweeps.phases();
-    const std::vector<unsigned int> &rows   = blocks[block].rows;
-    const auto                       shared =
-        std::find_if(rows.begin(), rows.end(), [&](const unsigned int row) { return phases.is_shared(row); });
-    return {block, phases[shared == rows.end() ? rows.front() : *shared], shared != rows.end()};
+    const std::vector<unsigned int> &rows      = blocks[block].rows;
+    const bool                       is_border = std::any_of(
+                              rows.begin(), rows.end(), [&](const unsigned int row) { return sweeps.phases().is_shared(row); });
+    return {block, is_border ? border_phase : n_phases - 1, is_border};
   }
 
 
@@ -283,6 +312,13 @@ namespace Signorini
         Utilities::MPI::max(static_cast<int>(!block_rows.empty()), matrix.partition().communicator()) == 0;
     if (is_empty)
       return;
+    if (matrix.partition().n_ranks() > 1)
+      {
+        const std::vector<unsigned int> colours = colour_ranks(matrix.partition());
+        n_phases = std::min(most_colours, *std::max_element(colours.begin(), colours.end()) + 1) + 1;
+        border_phase =
+            colours[Utilities::MPI::this_mpi_process(matrix.partition().communicator())] % most_colours;
+      }
     std::vector<SweepSchedule::Item> items;
     phases_of_node.assign(matrix.partition().n_local(), 0);
     for (unsigned int b = 0; b < blocks.size(); ++b)
@@ -294,7 +330,7 @@ namespace Signorini
             phases_of_node[row] |= static_cast<unsigned char>(1u << items.back().phase);
         }
     import_ghost_flags(matrix.partition(), phases_of_node);
-    schedule = SweepSchedule(matrix.partition(), sweeps.phases().size(), items, phases_of_node);
+    schedule = SweepSchedule(matrix.partition(), n_phases, items, phases_of_node);
     damp();
   }
 
@@ -306,7 +342,6 @@ namespace Signorini
       return;
     // By row and phase: couplings to what other ranks change at that time; how many blocks have the row.
     std::map<unsigned int, std::vector<double>> sums;
-    const unsigned int                          n_phases = sweeps.phases().size();
     const RelativeCouplings                     couplings(matrix);
     for (unsigned int ghost = 0; ghost < matrix.partition().ghosts().size(); ++ghost)
       if (const unsigned int flags = phases_of_node[matrix.n_rows() + ghost]; flags != 0)
