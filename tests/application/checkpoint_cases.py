@@ -359,11 +359,10 @@ def checkpoint_and_signal(p):
     """SIGTERM: the last words say where the state is."""
     with tempfile.TemporaryDirectory() as folder:
         out = os.path.join(folder, 'out')
-        arguments = [PATCH_TEST, '--output', out, '--set', 'Refinement/Global cycles=3', '--set', 'Output/Checkpoint=always']
+        arguments = [PATCH_TEST, '--output', out, '--set', 'Refinement/Global cycles=4', '--set', 'Output/Checkpoint=always']
         run = subprocess.Popen(p.command + arguments, env=p.environment, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, universal_newlines=True,
                                preexec_fn=signals_as_usual)
         check(wait_until(lambda: os.path.exists(out + '.checkpoint/state'), 60), 'no checkpoint')
-        time.sleep(.1)
         run.send_signal(signal.SIGTERM)
         errors = run.communicate(timeout=60)[1]
         check(run.returncode != 0, f'exit code {run.returncode}')
