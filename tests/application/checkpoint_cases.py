@@ -40,6 +40,8 @@ CASES = [
 # What depends on the machine, the number of ranks or the order of sums.
 UNEQUAL = {'ranks', 'wall_time_s', 'peak_memory_bytes', 'times_s', 'idle_s', 'sweep_time_s', 'sweep_bytes_per_s', 'read_bytes_per_s', 'history', 'rate', 'difference',
            'time_s', 'worst_tiling_defect', 'hierarchy_updates'}
+# They depend on how fast the iteration was, and so a little on the number of ranks.
+LESSONS = ('needed_interface_sweeps', 'needed_patches')
 # Residuals, that consist of rounding.
 SMALL = {'penetration', 'tension', 'complementarity', 'equilibrium', 'force_balance', 'moment_balance', 'body_force_balance', 'body_moment_balance'}
 TOLERANCE = 1e-9
@@ -83,12 +85,21 @@ def compare_tables(a, b, name, keys):
             check(abs(x[column] - y[column]) <= TOLERANCE * max(largest, 1e-2), f'{name}, {column}: {x[column]!r} and {y[column]!r}')
 
 
+def solutions(folder):
+    """The nonlinear solutions of the cycles."""
+    with open(os.path.join(folder, 'summary.json')) as f:
+        return [c['nonlinear'] for c in json.load(f)['cycles']]
+
+
 def counts(folder):
     """Iterations of cycles and of steps."""
-    with open(os.path.join(folder, 'summary.json')) as f:
-        cycles = [c['nonlinear']['iterations'] for c in json.load(f)['cycles']]
     curve = os.path.join(folder, 'curve.csv')
-    return cycles, [int(row['iterations']) for row in table(curve)] if os.path.exists(curve) else []
+    return [s['iterations'] for s in solutions(folder)], [int(row['iterations']) for row in table(curve)] if os.path.exists(curve) else []
+
+
+def lessons(folder, cycle):
+    """What the solver has learnt until then, which goes on from mesh to mesh and into checkpoints: what was needed where it was slow."""
+    return [{key: s[key] for key in LESSONS} for s in solutions(folder)[:cycle + 1]][-1]
 
 
 def files(folder):
@@ -105,7 +116,8 @@ def compare_results(a, b):
             for solver in ('nonlinear', 'linear', 'linear_cg'):
                 if solver in cycle:
                     cycle[solver].pop('iterations')
-            cycle['nonlinear'].pop('start_iterations', None)
+            for key in ('start_iterations', *LESSONS):
+                cycle['nonlinear'].pop(key, None)
         for bolt in summaries[-1].get('pretension', []):
             bolt.pop('iterations')
     compare(*summaries, 'summary.json')
@@ -161,13 +173,6 @@ def state(process):
         return 'Z'
 
 
-def program(path, ranks):
-    """Ranks that wait leave the processor to others: there may be more of them than cores."""
-    p = Program(path, ranks)
-    p.environment['OMPI_MCA_mpi_yield_when_idle'] = '1'
-    return p
-
-
 class Case:
     """A problem with its results when nothing interrupts it, by number of ranks."""
 
@@ -188,7 +193,7 @@ class Case:
         if ranks not in self.references:
             out = os.path.join(self.folder, f'{self.name} {ranks}')
             begin = time.time()
-            run = program(self.program, ranks).call(*self.arguments(out))
+            run = Program(self.program, ranks).call(*self.arguments(out))
             self.times[ranks] = time.time() - begin
             if run.returncode != 0:
                 raise SystemExit(f'{self.name}, {ranks} ranks: exit code {run.returncode}: {run.stdout} {run.stderr}')
@@ -204,7 +209,7 @@ class Case:
         resume = False
         for attempt in range(20):
             self.reference(ranks)
-            p = program(self.program, ranks)
+            p = Program(self.program, ranks)
             run = subprocess.Popen(p.command + self.arguments(out, *(['--resume'] if resume else [])), env=p.environment, stdout=subprocess.PIPE,
                                    stderr=subprocess.PIPE, universal_newlines=True, preexec_fn=signals_as_usual)
             # The first one is killed for sure, the others half of the time.
@@ -250,10 +255,14 @@ class Case:
         ranks, place = last
         reference = self.reference(ranks)
         compare_results(reference, out)
-        # From where the last run went on its iterations are those of a run without an interruption.
+        # From where the last run went on its iterations are those of a run without an interruption, if the other number of
+        # ranks has taught the solver the same.
         (cycles, steps), (cycles_now, steps_now) = counts(reference), counts(out)
         first_cycle, first_step = (place[0] + 1, place[1]) if place else (0, 0)
-        check(cycles[first_cycle:] == cycles_now[first_cycle:], f'iterations from cycle {first_cycle}: {cycles} and {cycles_now}')
+        has_learnt_else = place and lessons(reference, place[0]) != lessons(out, place[0])
+        allowed = 2 if has_learnt_else else 0
+        check(all(abs(a - b) <= allowed for a, b in zip(cycles[first_cycle:], cycles_now[first_cycle:])),
+              f'iterations from cycle {first_cycle}: {cycles} and {cycles_now}, the solver has learnt {"other things" if has_learnt_else else "the same"}')
         check(steps[first_step:-1] == steps_now[first_step:-1], f'iterations from step {first_step}: {steps} and {steps_now}')
         FAILURES[before:] = [f'{self.name}, {story}: {text}' for text in FAILURES[before:]]
 
@@ -263,7 +272,10 @@ class Case:
         out = os.path.join(self.folder, 'out')
         for attempt in range(40):
             n = ranks[attempt % len(ranks)]
-            run = program(self.program, n).call(*self.arguments(out, *(['--resume'] if attempt else [])), '--set', 'Output/Wall time limit=0.01')
+            program = Program(self.program, n)
+            # The ranks are done when one of them ends with this code; mpirun would give the others a second.
+            program.environment['OMPI_MCA_odls_base_sigkill_timeout'] = '0'
+            run = program.call(*self.arguments(out, *(['--resume'] if attempt else [])), '--set', 'Output/Wall time limit=0.01')
             if run.returncode == 0:
                 break
             check(run.returncode == 4, f'{self.name}: exit code {run.returncode}: {run.stderr}')
@@ -282,9 +294,10 @@ def stopped_and_resumed(p):
     with tempfile.TemporaryDirectory() as folder:
         for case in CASES:
             one = Case(p.command[-1], folder, *case)
+            begin = time.time()
             n = one.stopped([1, 2])
             cycles, steps = counts(one.reference(1))
-            print(f'{case[0]}: {n} stops, {len(cycles)} cycles, {len(steps)} steps')
+            print(f'{case[0]}: {n} stops, {len(cycles)} cycles, {len(steps)} steps, {time.time() - begin:.1f} s')
             # But where only results are left to be written.
             check(n == len(cycles) - 1 + max(0, len(steps) - 1), f'{case[0]}: {n} stops, {len(cycles)} cycles, {len(steps)} steps')
 
