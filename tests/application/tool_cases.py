@@ -56,8 +56,8 @@ def signals_as_usual():
 
 
 def ended(p, folder, number, delay):
-    """Ends a run by a signal some time after it has begun; returns its exit code and what it said."""
-    command = p.command + [CUBES, '--output', os.path.join(folder, 'out'), '--set', 'Refinement/Global cycles=4', '--set', 'Output/Checkpoint=never']
+    """Ends a run by a signal some time after it has begun, long before it is done; returns its exit code and what it said."""
+    command = p.command + [CUBES, '--output', os.path.join(folder, 'out'), '--set', 'Refinement/Global cycles=5', '--set', 'Output/Checkpoint=never']
     run = subprocess.Popen(command, env=p.environment, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, universal_newlines=True,
                            preexec_fn=signals_as_usual)
     check(wait_until(lambda: begun(folder)), 'the run does not begin')
