@@ -29,7 +29,8 @@ class Program:
                                 OMPI_MCA_ess_singleton_isolated='1')
 
     def call(self, *arguments):
-        return subprocess.run(self.command + list(arguments), env=self.environment, stdout=subprocess.PIPE,
+        # Where one rank ends with an error all do: mpirun would give the others a second.
+        return subprocess.run(self.command + list(arguments), env=dict(self.environment, OMPI_MCA_odls_base_sigkill_timeout='0'), stdout=subprocess.PIPE,
                               stderr=subprocess.PIPE, universal_newlines=True, timeout=500)
 
     def solve(self, prm, *settings, keep=None):
