@@ -15,7 +15,8 @@ namespace Signorini
     /// How nodes get their phases: simulated for up to 256 ranks (doc/measurements.md, many ranks).
     struct NodePhasesRule
     {
-      /// With one or two phases far more nodes clash, and are damped: 14 to 23 iterations instead of 12.
+      /// With one phase far more nodes clash, and are damped: 15 to 18 iterations; with two 11 to 14, with
+      /// three 11 or 12.
       unsigned int n_phases = 3;
       /// Where ranks have fewer nodes than this on the mean almost all of them are shared, and three phases
       /// are not enough: 918 nodes on 16 ranks take 14 iterations on one rank, 17 with three phases.

@@ -10,7 +10,8 @@
 
 namespace Signorini
 {
-  /// In which of three phases of a sweep a node is visited (doc/algorithm.md, chapter 5, many ranks). All
+  /// In which phase of a sweep a node is visited (doc/algorithm.md, chapter 5, many ranks): one of three, of
+  /// six where ranks have few nodes. All
   /// ranks work in each phase. Nodes that ranks share get phases such that few and weak couplings between
   /// ranks join nodes of the same one; the inner nodes of a rank fill up the phases until all ranks take
   /// equally long. On one rank there is one phase.

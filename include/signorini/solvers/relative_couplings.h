@@ -14,9 +14,7 @@ namespace Signorini
   /// (pure numbers) for owned rows i and ghosts j.
   ///
   /// With Cholesky factors A_ii = C_i C_iᵀ these are the norms of C_i^-1 A_ij C_j^-ᵀ =: B, and
-  /// |B|² <= |B|_1 |B|_inf. Norms themselves need eigenvalues, which took a quarter of the time to set up a
-  /// hierarchy; the bound is larger by 8 % on the mean on hertz.prm, and the factors by which rows are damped
-  /// are smaller by less.
+  /// |B|² <= |B|_1 |B|_inf, at most three times too large (B is 3 x 3), without eigenvalues.
   class RelativeCouplings
   {
   public:

@@ -53,12 +53,6 @@ namespace Signorini
       return factors.empty() ? 1. : factors[row];
     }
 
-    /// Whether no row is damped.
-    bool empty() const
-    {
-      return factors.empty();
-    }
-
   private:
     const NodeBlockMatrix *matrix = nullptr;
     /// Pairs of a coupling and its ghost.

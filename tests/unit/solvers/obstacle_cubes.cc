@@ -46,9 +46,9 @@ TEST_P(PuncturedCube, ReachesTheKnownSolutionFromZero)
   EXPECT_LE(report.largest_violation, 1e-14);
   EXPECT_GE(report.checked_substeps, 2 * report.iterations);
   EXPECT_TRUE(report.converged);
-  // Several ranks sweep in another order; there are 45 nodes a rank on the smallest cube.
-  const bool is_alone = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1;
-  EXPECT_LE(report.iterations, expected.max_iterations + (is_alone ? 0 : 1));
+  // The smallest cube has 729 nodes: on several ranks a large part of them is at a border.
+  const bool is_tiny = expected.n == 8 && dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1;
+  EXPECT_LE(report.iterations, expected.max_iterations + (is_tiny ? 1 : 0));
   EXPECT_EQ(report.active_nodes.back(), expected.active);
   EXPECT_NEAR(report.energy / expected.energy, 1., 1e-11);
 
