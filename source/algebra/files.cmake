@@ -8,6 +8,7 @@ signorini_add_layer(algebra
   node_block_matrix.cc
   node_exchange.cc
   node_partition.cc
+  rank_colour.cc
   replicated_data.cc
   rounded_sweep.cc
   vector_span.cc

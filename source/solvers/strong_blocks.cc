@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/algebra/rank_colour.h>
 #include <signorini/algebra/replicated_data.h>
 #include <signorini/solvers/strong_blocks.h>
 #include <signorini/solvers/sweep_rate.h>
@@ -38,38 +39,11 @@ namespace Signorini
       /// iterations by node, 23 with patches of 24 that overlap, 179 where they do not; a random pair of
       /// 12,510 unknowns 216, 37, 86. Neighbours alone: 242 and 71.
       std::size_t patch_size = 24;
+      /// Colours of ranks for the blocks at their borders: those of further colours share a phase with
+      /// others.
+      unsigned int most_colours = 7;
     };
     constexpr StrongBlocksRule rule;
-
-    /// Colours of ranks for the blocks at their borders: those of further colours share a phase with others.
-    constexpr unsigned int most_colours = 7;
-
-    /// Collective. Greedy colouring of the ranks; neighbours share ghost nodes.
-    std::vector<unsigned int> colour_ranks(const NodePartition &partition)
-    {
-      std::vector<unsigned int> owners;
-      for (const NodePartition::Neighbour &owner : partition.owners())
-        owners.push_back(owner.rank);
-      const auto neighbours = Utilities::MPI::all_gather(partition.communicator(), owners);
-      std::vector<std::set<unsigned int>> graph(neighbours.size());
-      for (unsigned int rank = 0; rank < neighbours.size(); ++rank)
-        for (const unsigned int other : neighbours[rank])
-          {
-            graph[rank].insert(other);
-            graph[other].insert(rank);
-          }
-      std::vector<unsigned int> colours(graph.size());
-      for (unsigned int rank = 0; rank < graph.size(); ++rank)
-        {
-          std::set<unsigned int> taken;
-          for (const unsigned int other : graph[rank])
-            if (other < rank)
-              taken.insert(colours[other]);
-          while (taken.count(colours[rank]) > 0)
-            ++colours[rank];
-        }
-      return colours;
-    }
 
     double trace_of(const double *const block)
     {
@@ -314,10 +288,9 @@ namespace Signorini
       return;
     if (matrix.partition().n_ranks() > 1)
       {
-        const std::vector<unsigned int> colours = colour_ranks(matrix.partition());
-        n_phases = std::min(most_colours, *std::max_element(colours.begin(), colours.end()) + 1) + 1;
-        border_phase =
-            colours[Utilities::MPI::this_mpi_process(matrix.partition().communicator())] % most_colours;
+        const RankColour colour = colour_rank(matrix.partition());
+        n_phases                = std::min(rule.most_colours, colour.n_colours) + 1;
+        border_phase            = colour.own % rule.most_colours;
       }
     std::vector<SweepSchedule::Item> items;
     phases_of_node.assign(matrix.partition().n_local(), 0);
