@@ -97,7 +97,11 @@ TEST(ProblemDefinition, IsThatOfTheText)
   std::ifstream       in(file.path());
   std::ostringstream  lines, a, b;
   lines << in.rdbuf();
-  const ParameterFile text({lines.str(), "a dictionary", folder}, {"Solver/Tolerance=1e-10"});
+  ParameterText problem;
+  problem.text   = lines.str();
+  problem.name   = "a dictionary";
+  problem.folder = folder;
+  const ParameterFile text(problem, {"Solver/Tolerance=1e-10"});
   file.print(a, true);
   text.print(b, true);
   EXPECT_EQ(a.str(), b.str());
@@ -105,8 +109,8 @@ TEST(ProblemDefinition, IsThatOfTheText)
   EXPECT_EQ(text.problem(MPI_COMM_WORLD).bodies.size(), 2u);
   try
     {
-      const ParameterFile wrong(
-          {"set Bodies = a\nsubsection Body a\n  set Radius = wide\nend\n", "a dictionary", ""}, {});
+      problem.text = "set Bodies = a\nsubsection Body a\n  set Radius = wide\nend\n";
+      ParameterFile(problem, {});
       FAIL() << "a radius that is no number";
     }
   catch (const InputError &error)
