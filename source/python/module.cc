@@ -16,6 +16,8 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <mutex>
+
 namespace
 {
   namespace py = pybind11;
@@ -44,6 +46,32 @@ namespace
   {
     return std::vector<T>(array.data(), array.data() + array.size());
   }
+
+  /// While one lives no other thread computes here: MPI, meshers and std::cout are one for all.
+  class Turn
+  {
+  public:
+    /// Waits without Python's lock.
+    Turn()
+    {
+      const py::gil_scoped_release unlocked;
+      mutex().lock();
+    }
+
+    ~Turn()
+    {
+      mutex().unlock();
+    }
+
+    Turn(const Turn &) = delete;
+
+  private:
+    static std::recursive_mutex &mutex()
+    {
+      static std::recursive_mutex one_at_a_time;
+      return one_at_a_time;
+    }
+  };
 
   /// Lets Python look after signals (Ctrl-C) amid a computation without its lock.
   void check_signals()
@@ -141,6 +169,7 @@ namespace
     const MPI_Comm communicator = MpiSession::communicator(on_all_ranks);
     RunOutcome     outcome;
     {
+      const Turn                        turn;
       const py::scoped_ostream_redirect redirection;
       const py::gil_scoped_release      unlocked;
       outcome = run_problem(request, communicator, check_signals);
@@ -153,19 +182,20 @@ namespace
   SurfaceMesh to_surface(const Numbers &vertices, const Indices &triangles, const Numbers &normals)
   {
     SurfaceMesh surface;
-    for (py::ssize_t v = 0; v < vertices.shape(0); ++v)
-      surface.vertices.emplace_back(vertices.at(v, 0), vertices.at(v, 1), vertices.at(v, 2));
-    for (py::ssize_t t = 0; t < triangles.shape(0); ++t)
+    const auto  x = vertices.unchecked<2>(), n = normals.unchecked<2>();
+    const auto  corners = triangles.unchecked<2>();
+    for (py::ssize_t v = 0; v < x.shape(0); ++v)
+      surface.vertices.emplace_back(x(v, 0), x(v, 1), x(v, 2));
+    for (py::ssize_t v = 0; v < n.shape(0); ++v)
+      surface.vertex_normals.push_back(dealii::Point<3>(n(v, 0), n(v, 1), n(v, 2)));
+    for (py::ssize_t t = 0; t < corners.shape(0); ++t)
       {
         surface.triangles.emplace_back();
         for (py::ssize_t c = 0; c < 3; ++c)
           // Negative numbers become too large ones, which are refused.
           surface.triangles.back()[c] =
-              static_cast<unsigned int>(std::min<std::uint64_t>(triangles.at(t, c), SurfaceTopology::none));
+              static_cast<unsigned int>(std::min<std::uint64_t>(corners(t, c), SurfaceTopology::none));
       }
-    for (py::ssize_t v = 0; v < normals.shape(0); ++v)
-      surface.vertex_normals.push_back(
-          dealii::Point<3>(normals.at(v, 0), normals.at(v, 1), normals.at(v, 2)));
     return surface;
   }
 
@@ -176,6 +206,7 @@ namespace
     MpiSession::start();
     SurfaceMesh nonmortar = to_surface(vertices[0], triangles[0], normals[0]),
                 mortar    = to_surface(vertices[1], triangles[1], normals[1]);
+    const Turn                   turn;
     const py::gil_scoped_release unlocked;
     return std::make_unique<SurfaceOverlay>(std::move(nonmortar), std::move(mortar));
   }
@@ -259,6 +290,7 @@ namespace
     const MatrixProblem problem = to_problem(given);
     MatrixSolution      solution;
     {
+      const Turn                   turn;
       const py::gil_scoped_release unlocked;
       solution = solve(problem, check_signals);
     }

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Signorini authors
 """signorini.run(): the numbers of the program to the last digit, arrays that fit together, errors, interruption, ranks."""
+import concurrent.futures
 import importlib.util
 import json
 import os
@@ -131,6 +132,17 @@ class Arrays(unittest.TestCase):
         for body in result.bodies.values():
             a, b, c, d = (body.nodes[body.tetrahedra[:, k]] for k in range(4))
             self.assertTrue(len(a) > 0 and (np.einsum('ij,ij->i', np.cross(b - a, c - a), d - a) > 0).all())
+
+
+class Threads(unittest.TestCase):
+    def test_one_after_the_other(self):
+        problems = [patch_test(), HERTZ, patch_test(), HERTZ]
+        overrides = [{}, SMALL_HERTZ, {'Body upper': {'Young modulus': 2e3}}, SMALL_HERTZ]
+        with concurrent.futures.ThreadPoolExecutor(4) as pool:
+            results = list(pool.map(signorini.run, problems, overrides))
+        self.assertTrue(all(result.certified for result in results))
+        self.assertEqual(lasting(results[1].summary), lasting(results[3].summary))
+        self.assertNotEqual(results[0].summary['pairs'][0]['force'], results[2].summary['pairs'][0]['force'])
 
 
 class Errors(unittest.TestCase):
