@@ -132,8 +132,8 @@ class Result:
     summary         summary.json as a dictionary (doc/output.md)
     bodies, pairs   {name: Body}, {name: Pair}
     steps           list of Step, with load steps
-    curve           curve.csv as {column: array}, a number a step; empty without load steps
-    pressure_table  pressure.csv as {column: array}, a number for each node with a multiplier
+    curve           curve.csv as {column: array}, an entry a step; empty without load steps
+    pressure_table  pressure.csv as {column: array}, an entry a row (doc/output.md)
     converged       whether the iteration did; certified: whether the contact conditions hold; objections: why not
     notes           list of remarks and warnings
     parameters      all parameters, as text
