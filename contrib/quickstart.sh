@@ -39,7 +39,7 @@ case "${1:-}" in
     file=${1:-$top/prm/hertz/hertz.prm}
     [ $# -gt 0 ] && shift
     install_missing "${packages[@]}"
-    build -DSIGNORINI_TESTS=OFF
+    build -DSIGNORINI_TESTS=OFF -DSIGNORINI_PYTHON=OFF
     folder=${SIGNORINI_OUTPUT:-output}
     "$build/signorini" "$file" --output "$folder" "$@"
     hertz=$(dirname "$file")/hertz.json
@@ -49,8 +49,8 @@ case "${1:-}" in
     echo "quickstart: results in $folder (pressure.png, summary.json, bodies.pvd for ParaView)"
     ;;
   test)
-    install_missing "${packages[@]}" libgtest-dev libpsurface-dev doxygen universal-ctags
-    build -DSIGNORINI_TESTS=ON
+    install_missing "${packages[@]}" libgtest-dev libpsurface-dev doxygen universal-ctags pybind11-dev python3-dev python3-scipy
+    build -DSIGNORINI_TESTS=ON -DSIGNORINI_PYTHON=ON
     ctest --test-dir "$build" --output-on-failure --parallel "$(nproc)"
     ;;
   *) usage ;;
