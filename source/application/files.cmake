@@ -31,6 +31,7 @@ signorini_add_layer(application
   pretension.cc
   problem_description.cc
   problem_identity.cc
+  run_problem.cc
   run_state.cc
   ties.cc
   write_results.cc

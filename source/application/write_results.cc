@@ -96,50 +96,70 @@ namespace Signorini
                 }
       return images;
     }
+  } // namespace
 
-    /// Fields by vertex of the nonmortar surface of a pair.
-    std::vector<OutputField> surface_fields(const Discretization &d, const ContactSolution &solution,
+
+
+  std::vector<OutputField> body_fields(const ContactModel &model, const Discretization &d,
+                                       const ContactSolution &solution, const bool with_stress)
+  {
+    std::vector<OutputField> fields;
+    fields.push_back({"displacement", 3, relevant_values(d, solution.displacement)});
+    if (with_stress)
+      for (OutputField &field : nodal_stress(d.nodal(), fields[0].values, model.bodies(), model.loads()))
+        fields.push_back(std::move(field));
+    return fields;
+  }
+
+
+
+  std::vector<OutputField> nonmortar_fields(const Discretization &d, const ContactSolution &solution,
                                             const unsigned int p)
-    {
-      const ContactPair    &pair    = d.pairs[p];
-      const ContactSurface &surface = pair.nonmortar.surface;
-      const ContactStress   stress  = stress_of_pair(d, solution.stress, p);
-      std::vector<Vector3>  traction;
-      std::vector<double>   gap;
-      for (std::size_t i = 0; i < stress.pressure.size(); ++i)
-        {
-          traction.push_back(-stress.traction[i]);
-          gap.push_back(d.couplings[p].mean_gap(i, stress.opening[i]));
-        }
-      OutputField active{"active", 1,
-                         spread_rows(d.couplings[p], *pair.halo,
-                                     std::vector<double>(stress.active.begin(), stress.active.end()))};
-      return {field_of("displacement", vertex_values(surface, d.partition(), solution.displacement)),
-              {"pressure", 1, at_vertices(d, p, stress.pressure)},
-              {"recovered pressure", 1,
-               recover_pressure(surface, *pair.halo, pair.moments, d.couplings[p], stress.pressure)},
-              field_of("traction", at_vertices(d, p, traction)),
-              {"gap", 1, at_vertices(d, p, gap)},
-              active,
-              field_of("normal", surface.mesh.vertex_normals),
-              field_of("mortar_image", vertex_images(pair))};
-    }
+  {
+    const ContactPair    &pair    = d.pairs[p];
+    const ContactSurface &surface = pair.nonmortar.surface;
+    const ContactStress   stress  = stress_of_pair(d, solution.stress, p);
+    std::vector<Vector3>  traction;
+    std::vector<double>   gap;
+    for (std::size_t i = 0; i < stress.pressure.size(); ++i)
+      {
+        traction.push_back(-stress.traction[i]);
+        gap.push_back(d.couplings[p].mean_gap(i, stress.opening[i]));
+      }
+    OutputField active{"active", 1,
+                       spread_rows(d.couplings[p], *pair.halo,
+                                   std::vector<double>(stress.active.begin(), stress.active.end()))};
+    return {field_of("displacement", vertex_values(surface, d.partition(), solution.displacement)),
+            {"pressure", 1, at_vertices(d, p, stress.pressure)},
+            {"recovered pressure", 1,
+             recover_pressure(surface, *pair.halo, pair.moments, d.couplings[p], stress.pressure)},
+            field_of("traction", at_vertices(d, p, traction)),
+            {"gap", 1, at_vertices(d, p, gap)},
+            active,
+            field_of("normal", surface.mesh.vertex_normals),
+            field_of("mortar_image", vertex_images(pair))};
+  }
 
-    /// Fields by vertex of the mortar surface of a pair.
-    std::vector<OutputField> mortar_fields(const Discretization &d, const ContactSolution &solution,
-                                           const unsigned int p)
-    {
-      const ContactSurface &surface = d.pairs[p].mortar.surface;
-      const auto           &normals = surface.mesh.vertex_normals;
-      const auto            stress  = mortar_stress(
-                      surface, d.couplings[p], stress_of_pair(d, solution.stress, p).traction, d.nodal().communicator());
-      OutputField pressure{"pressure", 1, {}};
-      for (std::size_t v = 0; v < stress.size(); ++v)
-        pressure.values.push_back(-(stress[v] * normals[v]));
-      return {field_of("displacement", vertex_values(surface, d.partition(), solution.displacement)),
-              pressure, field_of("traction", stress), field_of("normal", normals)};
-    }
 
+
+  std::vector<OutputField> mortar_fields(const Discretization &d, const ContactSolution &solution,
+                                         const unsigned int p)
+  {
+    const ContactSurface &surface = d.pairs[p].mortar.surface;
+    const auto           &normals = surface.mesh.vertex_normals;
+    const auto stress = mortar_stress(surface, d.couplings[p], stress_of_pair(d, solution.stress, p).traction,
+                                      d.nodal().communicator());
+    OutputField pressure{"pressure", 1, {}};
+    for (std::size_t v = 0; v < stress.size(); ++v)
+      pressure.values.push_back(-(stress[v] * normals[v]));
+    return {field_of("displacement", vertex_values(surface, d.partition(), solution.displacement)), pressure,
+            field_of("traction", stress), field_of("normal", normals)};
+  }
+
+
+
+  namespace
+  {
     std::string file_name(const std::string &pair)
     {
       return Utilities::replace_in_string(pair, " ", "-");
@@ -248,13 +268,8 @@ namespace Signorini
   {
     if (output.bodies)
       {
-        std::vector<OutputField> fields;
-        fields.push_back({"displacement", 3, relevant_values(d, solution.displacement)});
-        if (output.stress)
-          for (OutputField &field : nodal_stress(d.nodal(), fields[0].values, model.bodies(), model.loads()))
-            fields.push_back(std::move(field));
         write_bodies(
-            folder.path(), "bodies" + suffix, d.nodal(), fields,
+            folder.path(), "bodies" + suffix, d.nodal(), body_fields(model, d, solution, output.stress),
             [&](const types::material_id id) {
               return static_cast<double>(model.bodies().body_of_material(id));
             },
@@ -265,7 +280,7 @@ namespace Signorini
         {
           const std::string name = "contact-" + file_name(d.pairs[p].name), mortar = name + "-mortar";
           write_surface(folder.path(), name + suffix, d.pairs[p].nonmortar.surface,
-                        surface_fields(d, solution, p), model.communicator(), output.most_files);
+                        nonmortar_fields(d, solution, p), model.communicator(), output.most_files);
           if (!d.pairs[p].obstacle)
             write_surface(folder.path(), mortar + suffix, d.pairs[p].mortar.surface,
                           mortar_fields(d, solution, p), model.communicator(), output.most_files);
@@ -322,6 +337,26 @@ namespace Signorini
 
 
 
+  void complete_results(NestedSolution &nested, const ContactModel &model, const ParameterFile &file,
+                        const bool mesh_only)
+  {
+    Results       &results = nested.results;
+    const MPI_Comm comm    = model.communicator();
+    if (!mesh_only)
+      evaluate(nested, model);
+    results.mappings = mapping_results(*nested.discretization);
+
+    Utilities::System::MemoryStats memory;
+    Utilities::System::get_memory_stats(memory);
+    results.peak_memory    = 1024. * Utilities::MPI::sum(static_cast<double>(memory.VmHWM), comm);
+    results.version        = version_text();
+    results.title          = file.title();
+    results.parameter_file = file.path();
+    results.ranks          = Utilities::MPI::n_mpi_processes(comm);
+  }
+
+
+
   void write_results(NestedSolution &nested, const ContactModel &model, const ParameterFile &file,
                      const OutputFolder &folder, const bool mesh_only)
   {
@@ -336,17 +371,7 @@ namespace Signorini
     write_fields(model, d, nested.solution, output, folder);
     if (file.deck() != nullptr && !mesh_only)
       write_deck_results(*file.deck(), model, d, nested.solution, folder.path());
-    if (!mesh_only)
-      evaluate(nested, model);
-    results.mappings = mapping_results(d);
-
-    Utilities::System::MemoryStats memory;
-    Utilities::System::get_memory_stats(memory);
-    results.peak_memory    = 1024. * Utilities::MPI::sum(static_cast<double>(memory.VmHWM), comm);
-    results.version        = version_text();
-    results.title          = file.title();
-    results.parameter_file = file.path();
-    results.ranks          = Utilities::MPI::n_mpi_processes(comm);
+    complete_results(nested, model, file, mesh_only);
     results.wall_time += time.stop();
     if (!results.cycles.empty())
       results.cycles.back().times.add(Phase::output, times[Phase::output]);
