@@ -175,9 +175,13 @@ def middle_profile(cylinder, angle, length, pressure):
 def draw_unrolled(folder, file, name, table, cylinder, summary, field):
     pressure, angle, length = table[field], cylinder.angle, cylinder.length
     if cylinder.closes:
-        # Once around and a little more, so that the seam is closed.
+        # Most of the pressure in the middle; once around and a little more, so that the seam is closed.
+        direction = (np.maximum(pressure, 0) * table['area'] * np.exp(1j * np.radians(angle))).sum()
+        middle = 90. * round(np.degrees(np.angle(direction)) / 90.) if abs(direction) > 1e-2 * (np.abs(pressure) * table['area']).sum() else 0.
+        middle += 360. * (middle < -90.)
+        angle = middle + (angle - middle + 180.) % 360. - 180.
         for shift in (360., -360.):
-            more = np.flatnonzero((np.abs(angle) <= 180.) & (np.abs(angle + shift) < 200.))
+            more = np.flatnonzero((np.abs(angle - middle) <= 180.) & (np.abs(angle + shift - middle) < 200.))
             angle, length, pressure = np.r_[angle, angle[more] + shift], np.r_[length, length[more]], np.r_[pressure, pressure[more]]
     figure, (plan, graph) = plt.subplots(2, 1, figsize=(8, 6.4), sharex=True, gridspec_kw={'height_ratios': [1.35, 1]}, constrained_layout=True)
     mesh = triangles_of(np.radians(angle) * cylinder.radius, length)
@@ -191,8 +195,8 @@ def draw_unrolled(folder, file, name, table, cylinder, summary, field):
     graph.set_ylabel('pressure in the middle\nof the length')
     graph.grid(alpha=.3)
     if cylinder.closes:
-        plan.set_xlim(-180, 180)
-        graph.set_xticks(range(-180, 181, 45))
+        plan.set_xlim(middle - 180, middle + 180)
+        graph.set_xticks(np.arange(middle - 180, middle + 181, 45))
     else:
         # Where there is pressure and as much again beside it.
         loaded = angle[pressure > 1e-6 * max(pressure.max(), 0)] if pressure.max() > 0 else angle

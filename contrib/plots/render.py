@@ -329,16 +329,23 @@ def deformed(factor):
     return 'deformed' if factor == 1 else 'not deformed' if factor == 0 else f'displacement times {factor:g}'
 
 
-def opened_at_largest(grid, field, arguments):
-    """What lies behind the largest value; None where that would leave (nearly) nothing or all of the bodies."""
-    place = grid.GetPoint(int(numpy.argmax(values_of(grid, field))))
-    # A cut along the direction that is up shows more than one across the line of sight.
-    up, normal = numpy.array(arguments.up) / numpy.linalg.norm(arguments.up), numpy.array(arguments.view)
-    flat = normal - (normal @ up) * up
-    if numpy.linalg.norm(flat) > .2 * numpy.linalg.norm(normal):
-        normal = flat
-    half = output_of(vtk.vtkTableBasedClipDataSet, grid, SetClipFunction=plane_of(normal, place))
-    return half if .1 * grid.GetNumberOfCells() < half.GetNumberOfCells() < .98 * grid.GetNumberOfCells() else None
+def cut_at_largest(grid, field, arguments):
+    """A plane through the largest value across the coordinate axis that looks most toward the eye; None where it would take away
+    (nearly) nothing, or all but nothing, of the bodies."""
+    place = numpy.array(grid.GetPoint(int(numpy.argmax(values_of(grid, field)))))
+    up, view = numpy.array(arguments.up), numpy.array(arguments.view)
+    flat = numpy.abs(view) * (numpy.abs(up) < .5 * numpy.abs(up).max())
+    k = int(numpy.argmax(flat if flat.max() > .2 * numpy.abs(view).max() else numpy.abs(view)))
+    normal = numpy.zeros(3)
+    normal[k] = numpy.sign(view[k])
+    share = numpy.mean((vtk_to_numpy(grid.GetPoints().GetData()) - place) @ normal > 1e-6 * grid.GetLength())
+    return plane_of(normal, place) if .02 < share < .9 else None
+
+
+def opened(grid, plane):
+    """The surfaces of the bodies behind a plane, and what it cuts."""
+    cut = [output_of(vtk.vtkClipPolyData, surface, SetClipFunction=plane) for surface in surfaces_of_bodies(grid)]
+    return cut, output_of(vtk.vtkCutter, grid, SetCutFunction=plane)
 
 
 def draw_bodies(arguments, grid, title):
@@ -356,26 +363,25 @@ def draw_bodies(arguments, grid, title):
     write(arguments.folder, 'mesh', scene.image(focus), how)
 
     surfaces = surfaces_of_bodies(shown)
-    for name, field, label, colours in (('displacement', 'size of displacement', 'displacement', None), ('von-mises', 'von_Mises', 'von Mises stress', None)):
+    for name, field, label in (('displacement', 'size of displacement', 'displacement'), ('von-mises', 'von_Mises', 'von Mises stress')):
         if not grid.GetPointData().HasArray(field):
             continue
-        opened = ''
-        if field == 'von_Mises' and not arguments.clip:
-            half = opened_at_largest(grid, field, arguments)
-            if half is not None:
-                surfaces, opened = surfaces_of_bodies(half), 'cut open where it is largest, '
-        norm, is_cut = limits(surfaces, field)
+        plane = cut_at_largest(grid, field, arguments) if field == 'von_Mises' and not arguments.clip else None
+        outside, inside = opened(grid, plane) if plane else (surfaces, None)
+        norm, is_cut = limits(outside + [inside] * bool(plane), field)
         look = norm, COOL if field != 'von_Mises' else plt.get_cmap('viridis')
         scene = Scene(arguments.view, arguments.up)
-        for surface in surfaces:
+        if plane:
+            scene.add(actor(inside, field=field, shown=look))
+        for surface in outside:
             scene.add(actor(surface, field=field, shown=look), edges_of(surface))
             if field != 'von_Mises':
                 # Every body has about the same number of lines.
                 lines = actor(contours(surface, field, levels(grid, field, 36)), colour=(.1, .1, .1))
                 lines.GetProperty().SetLineWidth(1.2)
                 scene.add(lines)
-        largest = max(values_of(s, field).max() for s in surfaces)
-        write(arguments.folder, name, scene.image(focus), f'{how}\n{opened}largest {label}: {picture.number(largest)}', look, label, is_cut)
+        largest, cut = values_of(grid, field).max(), 'cut open where it is largest, ' if plane else ''
+        write(arguments.folder, name, scene.image(focus), f'{how}\n{cut}largest {label}: {picture.number(largest)}', look, label, is_cut)
 
 
 def draw_isosurfaces(arguments, grid, title):
