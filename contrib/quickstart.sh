@@ -49,7 +49,7 @@ case "${1:-}" in
     echo "quickstart: results in $folder (pressure.png, summary.json, bodies.pvd for ParaView)"
     ;;
   test)
-    install_missing "${packages[@]}" libgtest-dev libpsurface-dev doxygen universal-ctags
+    install_missing "${packages[@]}" libgtest-dev libpsurface-dev doxygen universal-ctags python3-vtk9 xvfb xauth
     build -DSIGNORINI_TESTS=ON
     ctest --test-dir "$build" --output-on-failure --parallel "$(nproc)"
     ;;

@@ -4,6 +4,7 @@
 import csv
 import json
 import os
+import re
 import struct
 import sys
 
@@ -84,6 +85,17 @@ def read_pressure(folder, tool, side='nonmortar'):
         return {}
     return {name: np.array([row[name] for row in rows]) if name in ('side', 'pair') else np.array([float(row[name]) for row in rows])
             for name in rows[0]}
+
+
+def command_line():
+    """The arguments with those that are lists of numbers and begin with a minus sign joined to their options."""
+    words = []
+    for word in sys.argv[1:]:
+        if re.match(r'-[\d.]+(e[-+]?\d+)?,', word) and words and words[-1].startswith('--'):
+            words[-1] += '=' + word
+        else:
+            words.append(word)
+    return words
 
 
 def number(value):

@@ -223,7 +223,7 @@ def main():
     parser.add_argument('--hertz', metavar='FILE', help="JSON file with radius, centre (the origin if it is left out), E1, nu1, E2, nu2 and symmetry (the number "
                         "of copies of the model that make up the whole): draws Hertz' solution for the computed force as well")
     parser.add_argument('--no-unrolled', action='store_true', help='no pictures of cylinders unrolled')
-    arguments = parser.parse_args()
+    arguments = parser.parse_args(picture.command_line())
     summary = picture.read_summary(arguments.folder, TOOL)
     table = picture.read_pressure(arguments.folder, TOOL)
     if not table:

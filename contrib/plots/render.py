@@ -57,7 +57,7 @@ def arguments_of_line():
     parser.add_argument('--isosurfaces', metavar='FIELD', help='von_Mises, stress_XX to stress_XZ or displacement (its size): values are halved from surface to '
                         'surface, those of a displacement at equal distances in each body')
     parser.add_argument('--levels', type=int, default=7, metavar='N', help='number of isosurfaces (default 7)')
-    return parser.parse_args()
+    return parser.parse_args(picture.command_line())
 
 
 if __name__ == '__main__':

@@ -7,6 +7,9 @@
 
 #include <deal.II/base/utilities.h>
 
+#include <algorithm>
+#include <set>
+
 namespace Signorini
 {
   using namespace dealii;
@@ -60,7 +63,7 @@ namespace Signorini
 
   namespace
   {
-    OutputField numbers(const std::string &name, std::vector<double> values)
+    OutputField whole_numbers(const std::string &name, std::vector<double> values)
     {
       return {name, 1, std::move(values), true};
     }
@@ -73,12 +76,12 @@ namespace Signorini
     std::vector<double> here, in_file;
     for (const NodeIndex node : space.relevant())
       here.push_back(static_cast<double>(node));
-    std::vector<OutputField> fields = {numbers("node", std::move(here))};
+    std::vector<OutputField> fields = {whole_numbers("node", std::move(here))};
     if (!bodies.has_node_numbers())
       return fields;
     for (const unsigned int vertex : space.start_vertices())
       in_file.push_back(static_cast<double>(bodies.node_number(vertex)));
-    fields.push_back(numbers("mesh_node", std::move(in_file)));
+    fields.push_back(whole_numbers("mesh_node", std::move(in_file)));
     return fields;
   }
 
@@ -88,7 +91,7 @@ namespace Signorini
                                         const ContactSurface &surface)
   {
     std::vector<OutputField> fields = {
-        numbers("node", std::vector<double>(surface.vertex_node.begin(), surface.vertex_node.end()))};
+        whole_numbers("node", std::vector<double>(surface.vertex_node.begin(), surface.vertex_node.end()))};
     if (!bodies.has_node_numbers())
       return fields;
     const unsigned int  rank = Utilities::MPI::this_mpi_process(d.nodal().communicator());
@@ -110,7 +113,7 @@ namespace Signorini
         if (it != nodes.end() && *it == surface.vertex_node[v])
           in_file[v] = static_cast<double>(found[it - nodes.begin()]);
       }
-    fields.push_back(numbers("mesh_node", std::move(in_file)));
+    fields.push_back(whole_numbers("mesh_node", std::move(in_file)));
     return fields;
   }
 
@@ -127,7 +130,8 @@ namespace Signorini
         if (!indicator.empty())
           error.push_back(std::sqrt(std::max(0., indicator[c])));
       }
-    std::vector<OutputField> fields = {numbers("body", std::move(body)), numbers("level", std::move(level))};
+    std::vector<OutputField> fields = {whole_numbers("body", std::move(body)),
+                                       whole_numbers("level", std::move(level))};
     if (!indicator.empty())
       fields.push_back({"indicator", 1, std::move(error)});
     return fields;

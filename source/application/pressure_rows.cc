@@ -7,6 +7,7 @@
 #include <signorini/application/contact_evaluation.h>
 #include <signorini/mortar/contact_forces.h>
 
+#include <algorithm>
 #include <unordered_map>
 
 namespace Signorini

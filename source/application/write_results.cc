@@ -20,6 +20,8 @@
 #include <deal.II/base/utilities.h>
 
 #include <fstream>
+#include <functional>
+#include <map>
 
 namespace Signorini
 {

@@ -63,8 +63,8 @@ namespace Signorini
         if (const NodalSpace::Cell &cell = space.cells()[c];
             cell.is_owned && bodies.body(cell.material) == body)
           {
-            const auto                  nodes = space.nodes(cell);
-            std::array<std::int32_t, 8> corners;
+            const auto                  nodes   = space.nodes(cell);
+            std::array<std::int32_t, 8> corners = {};
             for (unsigned int v = 0; v < nodes.size(); ++v)
               {
                 const NodeIndex node = nodes[nodes.size() == CellShape::hexahedron ? around[v] : v];
@@ -150,7 +150,7 @@ namespace Signorini
     for (std::size_t f = 0; f < surface.faces.size(); ++f)
       if (const ContactSurface::Face &face = surface.faces[f]; face.worker == rank)
         {
-          std::array<std::int32_t, 8> corners;
+          std::array<std::int32_t, 8> corners = {};
           for (unsigned int v = 0; v < face.n_corners; ++v)
             corners[v] = numbers(piece, face.corners[v], surface.mesh.vertices[face.corners[v]]);
           piece.add_cell(corners, face.n_corners, true, f);

@@ -8,6 +8,7 @@
 #include <deal.II/base/mpi_large_count.h>
 #include <deal.II/base/utilities.h>
 
+#include <algorithm>
 #include <fstream>
 #include <iomanip>
 #include <limits>

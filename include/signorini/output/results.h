@@ -189,7 +189,7 @@ namespace Signorini
     NodeIndex    node      = 0;
     long         mesh_node = -1;
     /// Outward unit normal of the surface that the node lies on.
-    Vector3 normal;
+    Vector3 normal = Vector3();
   };
 
   /// The contact mapping of a pair, over all ranks.

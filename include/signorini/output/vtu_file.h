@@ -8,6 +8,7 @@
 #include <deal.II/base/point.h>
 
 #include <array>
+#include <cstdint>
 #include <ostream>
 #include <string>
 #include <vector>
