@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <fstream>
 #include <iomanip>
-#include <limits>
 #include <sstream>
 #include <type_traits>
 #include <zlib.h>
@@ -306,7 +305,7 @@ namespace Signorini
   {
     out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\""
         << byte_order() << "\">\n<Collection>\n"
-        << std::setprecision(std::numeric_limits<double>::max_digits10);
+        << std::setprecision(12);
     unsigned int part = 0;
     for (std::size_t i = 0; i < entries.size(); ++i)
       {
