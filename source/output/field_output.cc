@@ -124,7 +124,7 @@ namespace Signorini
     const bool         is_root = Utilities::MPI::this_mpi_process(comm) == 0;
     for (unsigned int b = 0; b < bodies.names.size(); ++b)
       {
-        good = write_vtu(folder + name, b * n, n, piece_of_body(space, bodies, b, numbers), fields, format,
+        good = write_vtu(folder + name, {b * n, n}, piece_of_body(space, bodies, b, numbers), fields, format,
                          comm) &&
                good;
         if (is_root)
@@ -158,7 +158,7 @@ namespace Signorini
     const std::vector<OutputField> none;
     const VtuFields                all{fields, none};
     const unsigned int             n    = n_files(format, Utilities::MPI::n_mpi_processes(communicator));
-    bool                           good = write_vtu(folder + name, 0, n, piece, all, format, communicator);
+    bool                           good = write_vtu(folder + name, {0, n}, piece, all, format, communicator);
     if (rank == 0)
       good = write_record(folder, name, piece_names(name, 0, n), all, format) &&
              write_short_collection(folder, name) && good;

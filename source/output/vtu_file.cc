@@ -241,16 +241,15 @@ namespace Signorini
 
 
 
-  bool write_vtu(const std::string &path, const unsigned int first, const unsigned int n,
-                 const VtuPiece &piece, const VtuFields &fields, const FileFormat &format,
-                 const MPI_Comm communicator)
+  bool write_vtu(const std::string &path, const FileNumbers &files, const VtuPiece &piece,
+                 const VtuFields &fields, const FileFormat &format, const MPI_Comm communicator)
   {
     const unsigned int rank    = Utilities::MPI::this_mpi_process(communicator),
                        n_ranks = Utilities::MPI::n_mpi_processes(communicator);
-    const auto        number   = static_cast<unsigned int>(static_cast<std::uint64_t>(rank) * n / n_ranks);
-    const std::string file     = path + "." + std::to_string(first + number) + ".vtu";
-    MPI_Comm          group    = MPI_COMM_SELF;
-    if (n < n_ranks)
+    const auto number       = static_cast<unsigned int>(static_cast<std::uint64_t>(rank) * files.n / n_ranks);
+    const std::string file  = path + "." + std::to_string(files.first + number) + ".vtu";
+    MPI_Comm          group = MPI_COMM_SELF;
+    if (files.n < n_ranks)
       MPI_Comm_split(communicator, static_cast<int>(number), 0, &group);
     const auto write = [&](std::ostream &out, const bool is_first, const bool is_last) {
       if (is_first)
@@ -262,7 +261,7 @@ namespace Signorini
       if (is_last)
         out << "</UnstructuredGrid>\n</VTKFile>\n";
     };
-    if (n == n_ranks)
+    if (files.n == n_ranks)
       {
         std::ofstream out(file);
         write(out, true, true);

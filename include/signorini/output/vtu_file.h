@@ -72,11 +72,17 @@ namespace Signorini
   /// In how many files so many ranks write one mesh, of which there are n_meshes.
   unsigned int n_files(const FileFormat &format, const unsigned int n_ranks, const unsigned int n_meshes = 1);
 
-  /// Collective. Writes NAME.NUMBER.vtu, compressed, n files with numbers from `first` on; ranks that share
-  /// one write a piece of it each. Returns whether this rank could.
-  bool write_vtu(const std::string &path, const unsigned int first, const unsigned int n,
-                 const VtuPiece &piece, const VtuFields &fields, const FileFormat &format,
-                 const MPI_Comm communicator);
+  /// Numbers of files: n from the first one on.
+  struct FileNumbers
+  {
+    /// As above.
+    unsigned int first, n;
+  };
+
+  /// Collective. Writes PATH.NUMBER.vtu, compressed; ranks that share a file write a piece of it each.
+  /// Returns whether this rank could.
+  bool write_vtu(const std::string &path, const FileNumbers &files, const VtuPiece &piece,
+                 const VtuFields &fields, const FileFormat &format, const MPI_Comm communicator);
 
   /// Writes a .pvtu file for pieces with such fields.
   void write_pvtu(std::ostream &out, const std::vector<std::string> &pieces, const VtuFields &fields,

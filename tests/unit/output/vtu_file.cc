@@ -68,7 +68,7 @@ TEST(VtuFile, RanksShareAFile)
                                  cells  = {{"level", 1, {0., 1.}, true}};
   for (const bool is_double : {false, true})
     {
-      EXPECT_TRUE(write_vtu(path, 5, 1, square(), {points, cells}, {is_double, 1}, comm));
+      EXPECT_TRUE(write_vtu(path, {5, 1}, square(), {points, cells}, {is_double, 1}, comm));
       MPI_Barrier(comm);
       const std::string text = read(path + ".5.vtu");
       EXPECT_EQ(count(text, "<Piece NumberOfPoints=\"4\" NumberOfCells=\"2\""), n);
@@ -89,12 +89,12 @@ TEST(VtuFile, NothingToWrite)
 {
   const std::vector<OutputField> none;
   EXPECT_TRUE(write_vtu("vtu-file-empty-" + std::to_string(Utilities::MPI::this_mpi_process(MPI_COMM_WORLD)),
-                        0, 1, VtuPiece(), {none, none}, {}, MPI_COMM_SELF));
+                        {0, 1}, VtuPiece(), {none, none}, {}, MPI_COMM_SELF));
   const std::string name =
       "vtu-file-empty-" + std::to_string(Utilities::MPI::this_mpi_process(MPI_COMM_WORLD)) + ".0.vtu";
   EXPECT_EQ(count(read(name), "NumberOfPoints=\"0\""), 1u);
   std::filesystem::remove(name);
-  EXPECT_FALSE(write_vtu("/no such folder/x", 0, 1, VtuPiece(), {none, none}, {}, MPI_COMM_SELF));
+  EXPECT_FALSE(write_vtu("/no such folder/x", {0, 1}, VtuPiece(), {none, none}, {}, MPI_COMM_SELF));
 }
 
 
