@@ -162,18 +162,18 @@ def triangles_of(arc, length):
     return mesh
 
 
-def middle_profile(cylinder, angle, length, pressure):
-    """The nodes in the slice of a tenth of the length around its middle, or in one that has some."""
+def middle_slice(cylinder, angle, length):
+    """The nodes, by angle, in the slice of a tenth of the length around its middle, or in one that has some."""
     low, high = cylinder.length.min(), cylinder.length.max()
     middle = .5 * (low + high)
     width = max(.05 * (high - low), 1.01 * np.abs(length - middle).min())
-    near = np.abs(length - middle) <= width
-    order = np.argsort(angle[near])
-    return angle[near][order], pressure[near][order]
+    near = np.flatnonzero(np.abs(length - middle) <= width)
+    return near[np.argsort(angle[near])]
 
 
 def draw_unrolled(folder, file, name, table, cylinder, summary, field):
     pressure, angle, length = table[field], cylinder.angle, cylinder.length
+    raw, smooth = table['pressure'], table['recovered_pressure']
     if cylinder.closes:
         # Most of the pressure in the middle; once around and a little more, so that the seam is closed.
         direction = (np.maximum(pressure, 0) * table['area'] * np.exp(1j * np.radians(angle))).sum()
@@ -182,7 +182,8 @@ def draw_unrolled(folder, file, name, table, cylinder, summary, field):
         angle = middle + (angle - middle + 180.) % 360. - 180.
         for shift in (360., -360.):
             more = np.flatnonzero((np.abs(angle - middle) <= 180.) & (np.abs(angle + shift - middle) < 200.))
-            angle, length, pressure = np.r_[angle, angle[more] + shift], np.r_[length, length[more]], np.r_[pressure, pressure[more]]
+            angle = np.r_[angle, angle[more] + shift]
+            length, pressure, raw, smooth = (np.r_[values, values[more]] for values in (length, pressure, raw, smooth))
     figure, (plan, graph) = plt.subplots(2, 1, figsize=(8, 6.4), sharex=True, gridspec_kw={'height_ratios': [1.35, 1]}, constrained_layout=True)
     mesh = triangles_of(np.radians(angle) * cylinder.radius, length)
     shown = plan.tripcolor(matplotlib.tri.Triangulation(angle, length, mesh.triangles, mesh.mask), pressure, shading='gouraud', cmap=COLOURS,
@@ -190,7 +191,11 @@ def draw_unrolled(folder, file, name, table, cylinder, summary, field):
     figure.colorbar(shown, ax=plan, label=label_of(field))
     plan.set_ylabel('length along the axis')
     plan.set_title(f'{summary.get("title", "")}\npair {name}: {cylinder.text()}'.strip(), fontsize=10)
-    graph.plot(*middle_profile(cylinder, angle, length, pressure), '.-', color='#c0392b', ms=4, lw=.8)
+    near = middle_slice(cylinder, angle, length)
+    graph.plot(angle[near], raw[near], '.', color='#e59866', ms=4, label='at the nodes')
+    graph.plot(angle[near], smooth[near], '-', color='#c0392b', lw=1.2, label='mean around each node')
+    graph.set_ylim(bottom=min(0., raw[near].min()))
+    graph.legend(fontsize=8)
     graph.set_xlabel(f'angle about the axis [degrees], 0 toward {cylinder.start}')
     graph.set_ylabel('pressure in the middle\nof the length')
     graph.grid(alpha=.3)
