@@ -49,7 +49,7 @@ case "${1:-}" in
     echo "quickstart: results in $folder (pressure.png, summary.json, bodies.pvd for ParaView)"
     ;;
   test)
-    install_missing "${packages[@]}" libgtest-dev libpsurface-dev doxygen universal-ctags pybind11-dev python3-dev python3-scipy
+    install_missing "${packages[@]}" libgtest-dev libpsurface-dev doxygen universal-ctags pybind11-dev python3-dev python3-scipy python3-vtk9 xvfb xauth
     build -DSIGNORINI_TESTS=ON -DSIGNORINI_PYTHON=ON
     ctest --test-dir "$build" --output-on-failure --parallel "$(nproc)"
     ;;

@@ -28,6 +28,8 @@ signorini_add_layer(application
   load_steps.cc
   nested_iteration.cc
   parameters.cc
+  paraview_files.cc
+  pressure_rows.cc
   pretension.cc
   problem_description.cc
   problem_identity.cc

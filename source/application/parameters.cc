@@ -133,6 +133,9 @@ namespace Signorini
                       "Write the overlay of each pair, the faces of the plane graph cut into triangles, for "
                       "ParaView (.vtu, one per rank).");
     prm.add_parameter("Stress", stress, "Nodal averaged stress, von Mises and principal stresses.");
+    add_choice(prm, "Precision", double_precision, {{false, "single"}, {true, "double"}},
+               "Of fields and positions in the files for ParaView. double: 16 digits, for programs that "
+               "compute with them; the files are about twice as large.");
     prm.add_parameter(
         "Measure sweeps", measure_sweeps,
         "Time Gauss-Seidel sweeps and a plain read of memory on the finest level (costs some ten sweeps).");

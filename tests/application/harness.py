@@ -1,4 +1,5 @@
 """Running the program and checking numbers: what all cases share."""
+import csv
 import json
 import os
 import re
@@ -56,6 +57,12 @@ class Program:
             if keep:
                 shutil.move(out, keep)
             return summary
+
+
+def read_pressure(path, side='nonmortar'):
+    """The rows of pressure.csv on one side, numbers by column."""
+    with open(path, newline='') as f:
+        return [{k: float(v) for k, v in row.items() if k not in ('side', 'pair')} for row in csv.DictReader(f) if row['side'] == side]
 
 
 def certificate(s, equilibrium=1e-8):

@@ -7,6 +7,7 @@
 #include <signorini/application/deck_problem.h>
 #include <signorini/application/load_steps.h>
 #include <signorini/mesh/body_parameters.h>
+#include <signorini/output/vtu_file.h>
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -51,10 +52,18 @@ namespace Signorini
     unsigned int verbosity = 1;
     /// Files of bodies, of contact surfaces, with stresses in them, of the mapping; times of sweeps.
     bool bodies = true, surfaces = true, stress = true, mapping = false, measure_sweeps = true;
+    /// Whether fields and positions keep all of their digits in the files for ParaView.
+    bool double_precision = false;
     /// Files in which all ranks together write a field; 0 for one a rank.
     unsigned int most_files = 64;
     /// When the state is saved, and how long the run may take.
     CheckpointParameters checkpoints;
+
+    /// Of the files for ParaView.
+    FileFormat format() const
+    {
+      return {double_precision, most_files};
+    }
 
     /// Declares the parameters in the current subsection.
     void add_parameters(dealii::ParameterHandler &prm);
