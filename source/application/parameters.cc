@@ -247,11 +247,21 @@ namespace Signorini
         prm.leave_subsection();
     }
 
-    void parse(ParameterHandler &prm, const std::string &file, const bool skip_undefined)
+    /// All that is in a file.
+    std::string content(const std::string &file)
     {
       std::ifstream in(file);
       if (!in)
         throw InputError("The parameter file \"" + file + "\" cannot be opened.");
+      std::ostringstream text;
+      text << in.rdbuf();
+      return text.str();
+    }
+
+    void parse(ParameterHandler &prm, const std::string &text, const std::string &file,
+               const bool skip_undefined)
+    {
+      std::istringstream in(text);
       try
         {
           prm.parse_input(in, file, "", skip_undefined);
@@ -358,23 +368,37 @@ namespace Signorini
     , base_folder(std::filesystem::path(file_name).parent_path().string())
   {
     if (is_deck(file_name))
-      {
-        read_deck(overrides);
-        return;
-      }
+      read_deck(overrides);
+    else
+      read_text(content(file), overrides);
+  }
+
+
+
+  ParameterFile::ParameterFile(const ParameterText &text, const std::vector<std::string> &overrides)
+    : file(text.name)
+    , base_folder(text.folder)
+  {
+    read_text(text.text, overrides);
+  }
+
+
+
+  void ParameterFile::read_text(const std::string &text, const std::vector<std::string> &overrides)
+  {
     TopLevel         top;
     ParameterHandler first_pass;
     top.add_parameters(first_pass);
-    parse(first_pass, file, true);
-    for (const std::string &text : overrides)
-      apply_override(first_pass, text, true);
+    parse(first_pass, text, file, true);
+    for (const std::string &one : overrides)
+      apply_override(first_pass, one, true);
     const std::vector<std::string> body_names = names(top.bodies, "Bodies");
     if (body_names.empty())
       throw InputError("Bodies: name at least one body, e.g. \"set Bodies = ball, block\".");
     declare(body_names, names(top.pairs, "Contact pairs"));
-    parse(prm, file, false);
-    for (const std::string &text : overrides)
-      apply_override(prm, text, false);
+    parse(prm, text, file, false);
+    for (const std::string &one : overrides)
+      apply_override(prm, one, false);
   }
 
 

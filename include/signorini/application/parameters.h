@@ -60,6 +60,17 @@ namespace Signorini
     void add_parameters(dealii::ParameterHandler &prm);
   };
 
+  /// What a parameter file would have in it, from a program.
+  struct ParameterText
+  {
+    /// What messages call it.
+    std::string name;
+    /// All lines.
+    std::string text;
+    /// Files that it names are relative to this folder; empty for where the program runs.
+    std::string folder;
+  };
+
   /// A parameter file: the front end of ProblemDefinition and NestedParameters.
   class ParameterFile
   {
@@ -67,6 +78,9 @@ namespace Signorini
     /// Reads a file. overrides: "Section/Name=value". Errors: InputError with one clear message. A deck
     /// (is_deck()) is the problem itself: parameters are then those of the overrides.
     ParameterFile(const std::string &file, const std::vector<std::string> &overrides);
+
+    /// The same for a text that is no file: path() is its name. Errors: as for files.
+    ParameterFile(const ParameterText &text, const std::vector<std::string> &overrides);
 
     /// The defaults of a problem with such bodies and pairs.
     ParameterFile(const std::vector<std::string> &body_names, const std::vector<std::string> &pair_names);
@@ -142,6 +156,7 @@ namespace Signorini
     void declare(const std::vector<std::string> &body_names, const std::vector<std::string> &pair_names);
 
     void read_deck(const std::vector<std::string> &overrides);
+    void read_text(const std::string &text, const std::vector<std::string> &overrides);
 
     std::string                  file, base_folder;
     std::unique_ptr<DeckProblem> deck_problem;

@@ -198,3 +198,29 @@ TEST(BodyDefinition, RefusesWhatItCannotUse)
   mesh.execute_coarsening_and_refinement();
   EXPECT_THROW(make_body("cube", mesh), InputError);
 }
+
+
+
+TEST(ParameterFile, FromATextIsThatFromTheFile)
+{
+  const std::string        name = std::string(SIGNORINI_SOURCE_DIR) + "/prm/patch_test/patch_test.prm";
+  std::ifstream            in(name);
+  std::ostringstream       text, from_text, from_file;
+  std::vector<std::string> settings = {"Body upper/Divisions=5, 4, 3"};
+  text << in.rdbuf();
+  const ParameterFile file(ParameterText{"a text", text.str(), ""}, settings);
+  file.print(from_text, false);
+  ParameterFile(name, settings).print(from_file, false);
+  EXPECT_EQ(from_text.str(), from_file.str());
+  EXPECT_NE(from_text.str().find("5, 4, 3"), std::string::npos);
+  EXPECT_EQ(file.path(), "a text");
+  try
+    {
+      ParameterFile(ParameterText{"a text", "set Bodies = a\nset Colour = red\n", ""}, {});
+      FAIL() << "Colour was taken";
+    }
+  catch (const InputError &e)
+    {
+      EXPECT_NE(std::string(e.what()).find("a text"), std::string::npos) << e.what();
+    }
+}
