@@ -19,6 +19,7 @@ ALLOWED = {
     'mortar': ['algebra', 'surface', 'solvers', 'mesh', 'discretization'],
     'output': ['algebra', 'surface', 'solvers', 'mesh', 'discretization', 'mortar'],
     'application': ['algebra', 'surface', 'solvers', 'mesh', 'discretization', 'mortar', 'output'],
+    'verification': ['algebra', 'surface', 'solvers', 'mesh', 'discretization', 'mortar', 'output', 'application'],
 }
 DEALII = {
     'algebra': ['base', 'lac'],
@@ -29,6 +30,7 @@ DEALII = {
     'mortar': ['base', 'lac'],
     'output': ['base', 'lac'],
     'application': ['base', 'lac'],
+    'verification': ['base', 'lac'],
 }
 
 # Foreign libraries: how their headers begin, and the files (without ending) or folders that may include them.
