@@ -206,7 +206,7 @@ namespace Signorini
       problem.name       = "hertz-cylinder";
       problem.what       = "A half cylinder on a block in plane strain: line contact.";
       problem.reference  = "Hertz' formulas for the computed force";
-      problem.quantities = {{"half width", "from the second moment of the pressure", {.02, .01}},
+      problem.quantities = {{"half width", "from the second moment of the pressure", {.025, .01}},
                             {"largest pressure", "at a node", {.02, .01}}};
       problem.meshes     = {"80 cells around the quarter, graded", "160 cells"};
       problem.n_quick    = 1;

@@ -243,7 +243,7 @@ namespace Signorini
     spheres.what      = "The contact mapping between two triangulated spheres inside of each other.";
     spheres.reference = "projection along the radius, which triangles keep; distance and area of the spheres";
     spheres.quantities = {{"direction", "largest distance from the radius", {1e-12}},
-                          {"gap", "mean distance", {.06, .015, .004}, 1.9},
+                          {"gap", "mean distance", {.006, .0014, .00033}, 1.9},
                           {"area", "of the overlay", {.01, .0025, .00065}, 1.9},
                           {"way back", "largest distance of Phi^-1(Phi(x)) from x", {1e-12}}};
     spheres.meshes     = {"84 in 144 triangles", "336 in 576", "1344 in 2304"};

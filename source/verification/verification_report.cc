@@ -165,8 +165,12 @@ namespace Signorini
             text += " " + order_text(order);
           text += ", at least " + order_text(quantity.least_order);
         }
-      if (!quantity.most.empty())
-        text += (text.empty() ? "at most " : "; at most ") + in_digits(most_on(quantity, n_meshes - 1), 2);
+      if (quantity.most.empty())
+        return text;
+      text += text.empty() ? "at most" : "; at most";
+      const std::size_t different = std::min(quantity.most.size(), n_meshes);
+      for (std::size_t mesh = 0; mesh < different; ++mesh)
+        text += " " + in_digits(quantity.most[mesh], 2);
       return text;
     }
   } // namespace
