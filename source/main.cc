@@ -7,6 +7,7 @@
 #include <signorini/application/run_problem.h>
 #include <signorini/application/write_results.h>
 #include <signorini/output/termination.h>
+#include <signorini/verification/verify_command.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -30,6 +31,8 @@ namespace
       "solve nothing\n"
       "       signorini --mesh-only FILE.prm  write meshes and the contact mapping, then stop\n"
       "       signorini --print-parameters [FILE.prm]   a complete, commented parameter file\n"
+      "       signorini verify [--quick] [--help] ...   solve problems with known solutions: does this "
+      "installation compute what it should?\n"
       "       signorini --help | --version\n"
       "Under MPI: mpirun -np N signorini FILE.prm\n";
 
@@ -184,6 +187,8 @@ main(int argc, char **argv)
   MPI_Comm_dup(MPI_COMM_WORLD, &for_errors);
   try
     {
+      if (argc > 1 && std::string(argv[1]) == "verify")
+        return verify_command({argv + 2, argv + argc}, MPI_COMM_WORLD);
       const CommandLine line = parse(argc, argv);
       if (line.help || line.version || (line.print && line.file.empty()))
         {

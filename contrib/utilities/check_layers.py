@@ -20,6 +20,7 @@ ALLOWED = {
     'output': ['algebra', 'surface', 'solvers', 'mesh', 'discretization', 'mortar'],
     'application': ['algebra', 'surface', 'solvers', 'mesh', 'discretization', 'mortar', 'output'],
     'python': ['algebra', 'surface', 'solvers', 'mesh', 'discretization', 'mortar', 'output', 'application'],
+    'verification': ['algebra', 'surface', 'solvers', 'mesh', 'discretization', 'mortar', 'output', 'application'],
 }
 DEALII = {
     'algebra': ['base', 'lac'],
@@ -31,6 +32,7 @@ DEALII = {
     'output': ['base', 'lac'],
     'application': ['base', 'lac'],
     'python': ['base', 'lac'],
+    'verification': ['base', 'lac'],
 }
 
 # Foreign libraries: how their headers begin, and the files (without ending) or folders that may include them.

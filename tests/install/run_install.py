@@ -103,6 +103,13 @@ def main():
     example = os.path.join(prefix, 'share', 'signorini', 'prm', 'patch_test', 'patch_test.prm')
     call(os.path.join(prefix, 'bin', 'signorini'), '--check', example, cwd=work)
     call(os.path.join(prefix, 'bin', 'signorini-map'), '--version')
+    # Problems with known solutions need no file beside the program, which may lie anywhere.
+    alone = os.path.join(work, 'alone')
+    os.makedirs(alone)
+    shutil.copy(os.path.join(prefix, 'bin', 'signorini'), alone)
+    print(call(os.path.join(alone, 'signorini'), 'verify', '--quick', 'patch', 'press-fit-rings', 'mapping', cwd=alone))
+    if os.listdir(alone) != ['signorini']:
+        sys.exit(f'FAILED: signorini verify left {os.listdir(alone)}')
     done('programs run')
     check_python(prefix, work)
     done('module for Python')
