@@ -3,8 +3,7 @@
 
 #include "measurement.h"
 
-#include <signorini/application/journal.h>
-#include <signorini/application/parameters.h>
+#include <signorini/application/run_problem.h>
 
 #include <deal.II/base/numbers.h>
 #include <deal.II/lac/full_matrix.h>
@@ -36,15 +35,12 @@ namespace Signorini
 
   Results solve(const MPI_Comm communicator, const std::string &text, const Settings &settings)
   {
-    const ParameterFile file(ParameterText{text, "verification problem", ""}, settings);
+    const ParameterFile file(ParameterText{text, "verification problem", ""},
+                             settings + Settings{"Output/Measure sweeps=false"});
     Journal             journal;
-    ContactModel        model(communicator, file.problem(communicator));
-    model.refine_globally(file.initial_levels());
-    NestedParameters parameters     = file.nested();
-    parameters.solve.measure_sweeps = false;
-    NestedSolution nested           = run_load_steps(
-                  model, parameters, file.load_steps(),
-                  [](const unsigned int, const Discretization &, const ContactSolution &) {}, journal);
+    ContactModel        model  = make_model(file, communicator, journal);
+    NestedSolution      nested = solve_problem(
+             model, file, [](const unsigned int, const Discretization &, const ContactSolution &) {}, journal);
     nested.results.notes = journal.notes();
     return std::move(nested.results);
   }

@@ -9,7 +9,7 @@ import tempfile
 
 TOP = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 FAILURES = []
-# Of MPI, for this test alone: where several tests share one, the end of one may take it away while another begins.
+# Folders of MPI: where runs share one, the end of one may take it away while another begins.
 SESSIONS = tempfile.TemporaryDirectory(prefix='mpi-')
 
 
@@ -25,11 +25,14 @@ def near(value, expected, tolerance, text):
 class Program:
     def __init__(self, program, ranks):
         self.command = [program] if ranks == 1 else ['mpirun', '-np', str(ranks), program]
-        # Memory alone, without a search for networks and a daemon at each start (0.3 s); ranks that wait leave the core to others.
-        self.environment = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT='1', OMPI_ALLOW_RUN_AS_ROOT_CONFIRM='1',
-                                OMPI_MCA_rmaps_base_oversubscribe='1', OMPI_MCA_btl_vader_single_copy_mechanism='none',
-                                OMPI_MCA_pml='ob1', OMPI_MCA_btl='self,vader', OMPI_MCA_mpi_yield_when_idle='1',
-                                OMPI_MCA_ess_singleton_isolated='1', OMPI_MCA_orte_tmpdir_base=SESSIONS.name)
+
+    @property
+    def environment(self):
+        """For one run: memory alone, without a search for networks and a daemon at each start (0.3 s); ranks that wait leave the core to others."""
+        return dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT='1', OMPI_ALLOW_RUN_AS_ROOT_CONFIRM='1',
+                    OMPI_MCA_rmaps_base_oversubscribe='1', OMPI_MCA_btl_vader_single_copy_mechanism='none',
+                    OMPI_MCA_pml='ob1', OMPI_MCA_btl='self,vader', OMPI_MCA_mpi_yield_when_idle='1',
+                    OMPI_MCA_ess_singleton_isolated='1', OMPI_MCA_orte_tmpdir_base=tempfile.mkdtemp(dir=SESSIONS.name))
 
     def call(self, *arguments):
         # Where one rank ends with an error all do: mpirun would give the others a second.
