@@ -45,7 +45,7 @@ case "${1:-}" in
     file=${1:-$top/prm/hertz/hertz.prm}
     [ $# -gt 0 ] && shift
     install_missing "${packages[@]}"
-    build signorini_program -DSIGNORINI_TESTS=OFF
+    build signorini_program -DSIGNORINI_TESTS=OFF -DSIGNORINI_PYTHON=OFF
     folder=${SIGNORINI_OUTPUT:-output}
     "$build/signorini" "$file" --output "$folder" "$@"
     hertz=$(dirname "$file")/hertz.json
@@ -56,8 +56,8 @@ case "${1:-}" in
     ;;
   test)
     shift
-    install_missing "${packages[@]}" libgtest-dev libpsurface-dev doxygen universal-ctags
-    build all -DSIGNORINI_TESTS=ON "$@"
+    install_missing "${packages[@]}" libgtest-dev libpsurface-dev doxygen universal-ctags pybind11-dev python3-dev python3-scipy python3-vtk9 xvfb xauth
+    build all -DSIGNORINI_TESTS=ON -DSIGNORINI_PYTHON=ON "$@"
     ctest --test-dir "$build" --output-on-failure --parallel "$(nproc)"
     ;;
   packages) install_missing "${packages[@]}" ;;

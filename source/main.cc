@@ -2,19 +2,17 @@
 // Copyright (C) 2026 by the Signorini authors
 
 #include <signorini/algebra/input_error.h>
-#include <signorini/application/deck_results.h>
-#include <signorini/application/journal.h>
 #include <signorini/application/problem_description.h>
 #include <signorini/application/problem_identity.h>
+#include <signorini/application/run_problem.h>
 #include <signorini/application/write_results.h>
 #include <signorini/output/termination.h>
+#include <signorini/verification/verify_command.h>
 
 #include <deal.II/base/mpi.h>
 
-#include <chrono>
 #include <iostream>
 #include <optional>
-#include <thread>
 
 #if defined(__GLIBC__)
 #  include <malloc.h>
@@ -33,6 +31,8 @@ namespace
       "solve nothing\n"
       "       signorini --mesh-only FILE.prm  write meshes and the contact mapping, then stop\n"
       "       signorini --print-parameters [FILE.prm]   a complete, commented parameter file\n"
+      "       signorini verify [--quick] [--help] ...   solve problems with known solutions: does this "
+      "installation compute what it should?\n"
       "       signorini --help | --version\n"
       "Under MPI: mpirun -np N signorini FILE.prm\n";
 
@@ -96,37 +96,6 @@ namespace
     ParameterFile(bodies, pairs).print(std::cout, true);
   }
 
-  /// Whether all ranks come here within two seconds: bad input is mostly found by all of them together, but
-  /// some of it (the value of an expression, say) by one rank while the others wait for it elsewhere.
-  bool all_ranks_come(const MPI_Comm communicator)
-  {
-    MPI_Request request;
-    MPI_Ibarrier(communicator, &request);
-    for (unsigned int i = 0; i < 200; ++i)
-      {
-        int done = 0;
-        MPI_Test(&request, &done, MPI_STATUS_IGNORE);
-        if (done)
-          return true;
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
-      }
-    return false;
-  }
-
-  /// The model of a parameter file on its first mesh.
-  ContactModel make_model(const ParameterFile &file, const MPI_Comm comm, Journal &journal)
-  {
-    ContactModel model(comm, file.problem(comm));
-    if (file.deck() != nullptr)
-      for (const std::string &text : file.deck()->remarks)
-        journal.note(text);
-    for (const std::string &text : model.bodies().notes())
-      journal.note(text);
-    model.note_movement(journal);
-    model.refine_globally(file.initial_levels());
-    return model;
-  }
-
   /// Returns the exit code.
   int run(const CommandLine &line)
   {
@@ -168,11 +137,9 @@ namespace
     const std::vector<double> times  = file.load_steps();
     const OutputParameters    output = file.output();
     NestedSolution            nested =
-        line.mesh_only ? build_meshes(model, parameters, journal)
-                                  : run_load_steps(model, parameters, times, StepWriter(model, output, *folder, times),
-                                                   journal, &*checkpoints);
-    if (file.deck() != nullptr && !line.mesh_only)
-      judge_linear_kinematics(*file.deck(), model, nested, journal);
+        line.mesh_only
+                       ? build_meshes(model, parameters, journal)
+                       : solve_problem(model, file, StepWriter(model, output, *folder, times), journal, &*checkpoints);
     nested.results.notes = journal.notes();
     if (!line.mesh_only)
       nested.results.wall_time = checkpoints->earlier_wall_time() + time.wall_time();
@@ -220,6 +187,8 @@ main(int argc, char **argv)
   MPI_Comm_dup(MPI_COMM_WORLD, &for_errors);
   try
     {
+      if (argc > 1 && std::string(argv[1]) == "verify")
+        return verify_command({argv + 2, argv + argc}, MPI_COMM_WORLD);
       const CommandLine line = parse(argc, argv);
       if (line.help || line.version || (line.print && line.file.empty()))
         {

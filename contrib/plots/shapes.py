@@ -54,7 +54,7 @@ def surface(program, kind, settings, levels):
     for c in range(mesh.GetNumberOfCells()):
         ids = mesh.GetCell(c).GetPointIds()
         face = points[[ids.GetId(i) for i in range(ids.GetNumberOfIds())]]
-        # Cells have points of their own: faces inside come twice.
+        # Across ranks cells have points of their own: faces inside may come twice.
         seen.setdefault(tuple(numpy.round(face.mean(axis=0), 5)), []).append(face)
     for same in seen.values():
         if len(same) == 1:

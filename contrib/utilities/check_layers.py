@@ -19,6 +19,8 @@ ALLOWED = {
     'mortar': ['algebra', 'surface', 'solvers', 'mesh', 'discretization'],
     'output': ['algebra', 'surface', 'solvers', 'mesh', 'discretization', 'mortar'],
     'application': ['algebra', 'surface', 'solvers', 'mesh', 'discretization', 'mortar', 'output'],
+    'python': ['algebra', 'surface', 'solvers', 'mesh', 'discretization', 'mortar', 'output', 'application'],
+    'verification': ['algebra', 'surface', 'solvers', 'mesh', 'discretization', 'mortar', 'output', 'application'],
 }
 DEALII = {
     'algebra': ['base', 'lac'],
@@ -29,6 +31,8 @@ DEALII = {
     'mortar': ['base', 'lac'],
     'output': ['base', 'lac'],
     'application': ['base', 'lac'],
+    'python': ['base', 'lac'],
+    'verification': ['base', 'lac'],
 }
 
 # Foreign libraries: how their headers begin, and the files (without ending) or folders that may include them.
@@ -37,6 +41,7 @@ AT_HOME = [
      ['algebra/algebraic_multigrid']),
     ('gmsh', r'gmsh', ['mesh/gmsh_file', 'mesh/gmsh_session']),
     ('CGAL', r'CGAL/', ['mesh/surface_file']),
+    ('pybind11', r'pybind11/', ['python/']),
     ('CHOLMOD', r'cholmod|Eigen/CholmodSupport', ['solvers/']),
 ]
 

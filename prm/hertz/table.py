@@ -23,7 +23,7 @@ def figures(folder):
         summary = json.load(f)
     force = summary['pairs'][0]['force'][2]
     with open(os.path.join(folder, 'pressure.csv')) as f:
-        rows = [{k: float(v) for k, v in row.items()} for row in csv.DictReader(f)]
+        rows = [{k: float(row[k]) for k in ('x', 'y', 'area', 'pressure')} for row in csv.DictReader(f) if row['side'] == 'nonmortar']
     weights = [row['pressure'] * row['area'] for row in rows]
     radius = 16 / (3 * math.pi) * sum(w * math.hypot(r['x'], r['y']) for w, r in zip(weights, rows)) / sum(weights)
     return summary, (force, radius, 3 * 4 * force / (2 * math.pi * radius ** 2))

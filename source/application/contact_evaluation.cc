@@ -222,44 +222,9 @@ namespace Signorini
     const auto penetration     = penetration_of(d, pair, solution.displacement);
     result.min_gap             = penetration.min_gap;
     result.max_penetration     = std::max(0., penetration.max_penetration());
+    result.mean_pressure       = result.contact_area > 0. ? result.load / result.contact_area : 0.;
     result.initial_penetration = std::max(0., -penetration.min_initial_gap);
     return result;
-  }
-
-
-
-  namespace
-  {
-    /// As it travels.
-    struct NumberedRow
-    {
-      NodeIndex   node;
-      PressureRow row;
-    };
-  } // namespace
-
-
-
-  std::vector<PressureRow> pressure_rows(const Discretization &d, const ContactStress &all,
-                                         const unsigned int p)
-  {
-    const PairCoupling      &coupling  = d.couplings[p];
-    const ContactStress      stress    = stress_of_pair(d, all, p);
-    const auto               recovered = recover_pressure(d.pairs[p].nonmortar.surface, *d.pairs[p].halo,
-                                                          d.pairs[p].moments, coupling, stress.pressure);
-    std::vector<NumberedRow> numbered;
-    for (std::size_t i = 0; i < stress.pressure.size(); ++i)
-      numbered.push_back(
-          {coupling.coupling.rows[i],
-           {coupling.positions[i], coupling.areas[i], stress.pressure[i], recovered[coupling.vertices[i]],
-            coupling.mean_gap(i, stress.opening[i]), stress.active[i] != 0}});
-    numbered = gather_lists(std::move(numbered), d.nodal().communicator(), Receivers::all);
-    std::sort(numbered.begin(), numbered.end(),
-              [](const NumberedRow &a, const NumberedRow &b) { return a.node < b.node; });
-    std::vector<PressureRow> rows;
-    for (const NumberedRow &one : numbered)
-      rows.push_back(one.row);
-    return rows;
   }
 
 
@@ -420,6 +385,21 @@ namespace Signorini
 
 
 
+  namespace
+  {
+    void find_largest_recovered(PairResult &pair, const std::vector<PressureRow> &rows)
+    {
+      for (const PressureRow &row : rows)
+        if (row.recovered_pressure > pair.max_recovered_pressure)
+          {
+            pair.max_recovered_pressure    = row.recovered_pressure;
+            pair.max_recovered_pressure_at = row.position;
+          }
+    }
+  } // namespace
+
+
+
   ContactEvaluation evaluate_contact(const ContactModel &model, const Discretization &d,
                                      const ContactSolution &solution)
   {
@@ -427,8 +407,11 @@ namespace Signorini
     for (unsigned int p = 0; p < d.pairs.size(); ++p)
       {
         result.pairs.push_back(evaluate_pair(d, solution, p));
-        const auto rows = pressure_rows(d, solution.stress, p);
+        const auto rows = pressure_rows(model.bodies(), d, solution.stress, p);
+        find_largest_recovered(result.pairs.back(), rows);
         result.pressure.insert(result.pressure.end(), rows.begin(), rows.end());
+        const auto mortar = mortar_pressure_rows(model.bodies(), d, solution.stress, p);
+        result.mortar_pressure.insert(result.mortar_pressure.end(), mortar.begin(), mortar.end());
       }
     result.equilibrium = evaluate_equilibrium(model, d, solution);
     return result;

@@ -28,9 +28,12 @@ signorini_add_layer(application
   load_steps.cc
   nested_iteration.cc
   parameters.cc
+  paraview_files.cc
+  pressure_rows.cc
   pretension.cc
   problem_description.cc
   problem_identity.cc
+  run_problem.cc
   run_state.cc
   ties.cc
   write_results.cc

@@ -145,6 +145,7 @@ namespace Signorini
         compare_cycles();
         journal.show("evaluating");
         evaluate();
+        last.indicator = std::move(indicator);
         journal.clear();
         return std::move(last);
       }
@@ -431,6 +432,7 @@ namespace Signorini
         results.pairs               = std::move(evaluation.pairs);
         results.pretensions         = last.solution.pretensions;
         results.pressure            = std::move(evaluation.pressure);
+        results.mortar_pressure     = std::move(evaluation.mortar_pressure);
       }
 
       ContactModel                           &model;
@@ -482,7 +484,7 @@ namespace Signorini
     for (unsigned int p = 0; p < d.pairs.size(); ++p)
       {
         result.results.pairs.push_back(evaluate_pair(d, result.solution, p));
-        const auto rows = pressure_rows(d, result.solution.stress, p);
+        const auto rows = pressure_rows(model.bodies(), d, result.solution.stress, p);
         result.results.pressure.insert(result.results.pressure.end(), rows.begin(), rows.end());
       }
     return result;

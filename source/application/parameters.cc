@@ -133,6 +133,9 @@ namespace Signorini
                       "Write the overlay of each pair, the faces of the plane graph cut into triangles, for "
                       "ParaView (.vtu, one per rank).");
     prm.add_parameter("Stress", stress, "Nodal averaged stress, von Mises and principal stresses.");
+    add_choice(prm, "Precision", double_precision, {{false, "single"}, {true, "double"}},
+               "Of fields and positions in the files for ParaView. double: 16 digits, for programs that "
+               "compute with them; the files are about twice as large.");
     prm.add_parameter(
         "Measure sweeps", measure_sweeps,
         "Time Gauss-Seidel sweeps and a plain read of memory on the finest level (costs some ten sweeps).");
@@ -247,14 +250,23 @@ namespace Signorini
         prm.leave_subsection();
     }
 
-    void parse(ParameterHandler &prm, const std::string &file, const bool skip_undefined)
+    std::string read_text(const std::string &file)
     {
       std::ifstream in(file);
       if (!in)
         throw InputError("The parameter file \"" + file + "\" cannot be opened.");
+      std::ostringstream text;
+      text << in.rdbuf();
+      return text.str();
+    }
+
+    void parse(ParameterHandler &prm, const std::string &text, const std::string &name,
+               const bool skip_undefined)
+    {
+      std::istringstream in(text);
       try
         {
-          prm.parse_input(in, file, "", skip_undefined);
+          prm.parse_input(in, name, "", skip_undefined);
         }
       catch (const std::exception &e)
         {
@@ -362,19 +374,35 @@ namespace Signorini
         read_deck(overrides);
         return;
       }
+    read(read_text(file_name), overrides);
+  }
+
+
+
+  ParameterFile::ParameterFile(const ParameterText &lines, const std::vector<std::string> &overrides)
+    : file(lines.name)
+    , base_folder(lines.folder)
+  {
+    read(lines.text, overrides);
+  }
+
+
+
+  void ParameterFile::read(const std::string &text, const std::vector<std::string> &overrides)
+  {
     TopLevel         top;
     ParameterHandler first_pass;
     top.add_parameters(first_pass);
-    parse(first_pass, file, true);
-    for (const std::string &text : overrides)
-      apply_override(first_pass, text, true);
+    parse(first_pass, text, file, true);
+    for (const std::string &change : overrides)
+      apply_override(first_pass, change, true);
     const std::vector<std::string> body_names = names(top.bodies, "Bodies");
     if (body_names.empty())
       throw InputError("Bodies: name at least one body, e.g. \"set Bodies = ball, block\".");
     declare(body_names, names(top.pairs, "Contact pairs"));
-    parse(prm, file, false);
-    for (const std::string &text : overrides)
-      apply_override(prm, text, false);
+    parse(prm, text, file, false);
+    for (const std::string &change : overrides)
+      apply_override(prm, change, false);
   }
 
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include "paraview_files.h"
+
 #include <signorini/algebra/input_error.h>
 #include <signorini/application/body_evaluation.h>
 #include <signorini/application/deck_results.h>
@@ -18,6 +20,8 @@
 #include <deal.II/base/utilities.h>
 
 #include <fstream>
+#include <functional>
+#include <map>
 
 namespace Signorini
 {
@@ -96,55 +100,70 @@ namespace Signorini
                 }
       return images;
     }
+  } // namespace
 
-    /// Fields by vertex of the nonmortar surface of a pair.
-    std::vector<OutputField> surface_fields(const Discretization &d, const ContactSolution &solution,
+
+
+  std::vector<OutputField> body_fields(const ContactModel &model, const Discretization &d,
+                                       const ContactSolution &solution, const bool with_stress)
+  {
+    std::vector<OutputField> fields;
+    fields.push_back({"displacement", 3, relevant_values(d, solution.displacement)});
+    if (with_stress)
+      for (OutputField &field : nodal_stress(d.nodal(), fields[0].values, model.bodies(), model.loads()))
+        fields.push_back(std::move(field));
+    return fields;
+  }
+
+
+
+  std::vector<OutputField> nonmortar_fields(const Discretization &d, const ContactSolution &solution,
                                             const unsigned int p)
-    {
-      const ContactPair    &pair    = d.pairs[p];
-      const ContactSurface &surface = pair.nonmortar.surface;
-      const ContactStress   stress  = stress_of_pair(d, solution.stress, p);
-      std::vector<Vector3>  traction;
-      std::vector<double>   gap;
-      for (std::size_t i = 0; i < stress.pressure.size(); ++i)
-        {
-          traction.push_back(-stress.traction[i]);
-          gap.push_back(d.couplings[p].mean_gap(i, stress.opening[i]));
-        }
-      OutputField active{"active", 1,
-                         spread_rows(d.couplings[p], *pair.halo,
-                                     std::vector<double>(stress.active.begin(), stress.active.end()))};
-      return {field_of("displacement", vertex_values(surface, d.partition(), solution.displacement)),
-              {"pressure", 1, at_vertices(d, p, stress.pressure)},
-              {"recovered pressure", 1,
-               recover_pressure(surface, *pair.halo, pair.moments, d.couplings[p], stress.pressure)},
-              field_of("traction", at_vertices(d, p, traction)),
-              {"gap", 1, at_vertices(d, p, gap)},
-              active,
-              field_of("normal", surface.mesh.vertex_normals),
-              field_of("mortar_image", vertex_images(pair))};
-    }
+  {
+    const ContactPair    &pair    = d.pairs[p];
+    const ContactSurface &surface = pair.nonmortar.surface;
+    const ContactStress   stress  = stress_of_pair(d, solution.stress, p);
+    std::vector<Vector3>  traction;
+    std::vector<double>   gap;
+    for (std::size_t i = 0; i < stress.pressure.size(); ++i)
+      {
+        traction.push_back(-stress.traction[i]);
+        gap.push_back(d.couplings[p].mean_gap(i, stress.opening[i]));
+      }
+    OutputField active{"active", 1,
+                       spread_rows(d.couplings[p], *pair.halo,
+                                   std::vector<double>(stress.active.begin(), stress.active.end()))};
+    return {field_of("displacement", vertex_values(surface, d.partition(), solution.displacement)),
+            {"pressure", 1, at_vertices(d, p, stress.pressure)},
+            {"recovered pressure", 1,
+             recover_pressure(surface, *pair.halo, pair.moments, d.couplings[p], stress.pressure)},
+            field_of("traction", at_vertices(d, p, traction)),
+            {"gap", 1, at_vertices(d, p, gap)},
+            active,
+            field_of("normal", surface.mesh.vertex_normals),
+            field_of("mortar_image", vertex_images(pair))};
+  }
 
-    /// Fields by vertex of the mortar surface of a pair.
-    std::vector<OutputField> mortar_fields(const Discretization &d, const ContactSolution &solution,
-                                           const unsigned int p)
-    {
-      const ContactSurface &surface = d.pairs[p].mortar.surface;
-      const auto           &normals = surface.mesh.vertex_normals;
-      const auto            stress  = mortar_stress(
-                      surface, d.couplings[p], stress_of_pair(d, solution.stress, p).traction, d.nodal().communicator());
-      OutputField pressure{"pressure", 1, {}};
-      for (std::size_t v = 0; v < stress.size(); ++v)
-        pressure.values.push_back(-(stress[v] * normals[v]));
-      return {field_of("displacement", vertex_values(surface, d.partition(), solution.displacement)),
-              pressure, field_of("traction", stress), field_of("normal", normals)};
-    }
 
-    std::string file_name(const std::string &pair)
-    {
-      return Utilities::replace_in_string(pair, " ", "-");
-    }
 
+  std::vector<OutputField> mortar_fields(const Discretization &d, const ContactSolution &solution,
+                                         const unsigned int p)
+  {
+    const ContactSurface &surface = d.pairs[p].mortar.surface;
+    const auto           &normals = surface.mesh.vertex_normals;
+    const auto stress = mortar_stress(surface, d.couplings[p], stress_of_pair(d, solution.stress, p).traction,
+                                      d.nodal().communicator());
+    OutputField pressure{"pressure", 1, {}};
+    for (std::size_t v = 0; v < stress.size(); ++v)
+      pressure.values.push_back(-(stress[v] * normals[v]));
+    return {field_of("displacement", vertex_values(surface, d.partition(), solution.displacement)), pressure,
+            field_of("traction", stress), field_of("normal", normals)};
+  }
+
+
+
+  namespace
+  {
     template <typename F>
     void write_file(const std::string &path, const F &writer)
     {
@@ -243,36 +262,107 @@ namespace Signorini
 
 
 
+  namespace
+  {
+    /// What is written. Indicators are empty where there are none.
+    struct WrittenState
+    {
+      const ContactModel        &model;
+      const Discretization      &d;
+      const ContactSolution     &solution;
+      const std::vector<double> &indicator;
+    };
+
+    void write_body_fields(const WrittenState &state, const OutputParameters &output,
+                           const std::string &folder, const std::string &suffix)
+    {
+      const Bodies            &bodies = state.model.bodies();
+      const NodalSpace        &space  = state.d.nodal();
+      std::vector<OutputField> fields = body_fields(state.model, state.d, state.solution, output.stress);
+      for (OutputField &field : node_numbers(bodies, space))
+        fields.push_back(std::move(field));
+      BodyFiles files{body_files(bodies),
+                      [&](const types::material_id id) { return bodies.body_of_material(id); }};
+      for (std::string &name : files.names)
+        name += suffix;
+      const auto cells = cell_fields(bodies, space, state.indicator);
+      write_bodies(folder, "bodies" + suffix, space, {fields, cells}, files, output.format());
+    }
+
+    void write_surfaces_of_pair(const WrittenState &state, const OutputParameters &output,
+                                const std::string &folder, const std::string &suffix, const unsigned int p)
+    {
+      const ContactPair &pair  = state.d.pairs[p];
+      const std::string  name  = "contact-" + file_name(pair.name);
+      const auto         write = [&](const std::string &file, const ContactSurface &surface,
+                             std::vector<OutputField> fields) {
+        for (OutputField &field : node_numbers(state.model.bodies(), state.d, surface))
+          fields.push_back(std::move(field));
+        write_surface(folder, file + suffix, surface, fields, state.model.communicator(), output.format());
+      };
+      write(name, pair.nonmortar.surface, nonmortar_fields(state.d, state.solution, p));
+      if (!pair.obstacle)
+        write(name + "-mortar", pair.mortar.surface, mortar_fields(state.d, state.solution, p));
+    }
+
+    void write_state(const WrittenState &state, const OutputParameters &output, const OutputFolder &folder,
+                     const std::string &suffix)
+    {
+      if (output.bodies)
+        write_body_fields(state, output, folder.path(), suffix);
+      if (output.surfaces)
+        for (unsigned int p = 0; p < state.d.pairs.size(); ++p)
+          write_surfaces_of_pair(state, output, folder.path(), suffix, p);
+      if (output.mapping)
+        write_mappings(state.d, folder);
+      if (suffix.empty() && Utilities::MPI::this_mpi_process(state.model.communicator()) == 0)
+        {
+          std::vector<CollectionEntry> entries;
+          for (const ParaviewBlock &block : paraview_blocks(state.model.bodies(), state.d, output))
+            entries.push_back({0., block.name, block.file + ".pvtu"});
+          write_file(folder.path() + "results.pvd", [&](std::ostream &o) { write_collection(o, entries); });
+        }
+    }
+  } // namespace
+
+
+
   void write_fields(const ContactModel &model, const Discretization &d, const ContactSolution &solution,
                     const OutputParameters &output, const OutputFolder &folder, const std::string &suffix)
   {
-    if (output.bodies)
-      {
-        std::vector<OutputField> fields;
-        fields.push_back({"displacement", 3, relevant_values(d, solution.displacement)});
-        if (output.stress)
-          for (OutputField &field : nodal_stress(d.nodal(), fields[0].values, model.bodies(), model.loads()))
-            fields.push_back(std::move(field));
-        write_bodies(
-            folder.path(), "bodies" + suffix, d.nodal(), fields,
-            [&](const types::material_id id) {
-              return static_cast<double>(model.bodies().body_of_material(id));
-            },
-            output.most_files);
-      }
-    if (output.surfaces)
-      for (unsigned int p = 0; p < d.pairs.size(); ++p)
-        {
-          const std::string name = "contact-" + file_name(d.pairs[p].name), mortar = name + "-mortar";
-          write_surface(folder.path(), name + suffix, d.pairs[p].nonmortar.surface,
-                        surface_fields(d, solution, p), model.communicator(), output.most_files);
-          if (!d.pairs[p].obstacle)
-            write_surface(folder.path(), mortar + suffix, d.pairs[p].mortar.surface,
-                          mortar_fields(d, solution, p), model.communicator(), output.most_files);
-        }
-    if (output.mapping)
-      write_mappings(d, folder);
+    const std::vector<double> none;
+    write_state({model, d, solution, none}, output, folder, suffix);
   }
+
+
+
+  namespace
+  {
+    /// Lists of the files of the first steps: of each block, of the bodies together, and of all.
+    /// @param state time and suffix of a step
+    void write_series(const std::string &folder, const std::vector<ParaviewBlock> &blocks,
+                      const std::size_t                                                       n_steps,
+                      const std::function<std::pair<double, std::string>(const std::size_t)> &state)
+    {
+      std::map<std::string, std::vector<CollectionEntry>> lists;
+      for (std::size_t k = 0; k < n_steps; ++k)
+        {
+          const auto [time, suffix] = state(k);
+          for (const ParaviewBlock &block : blocks)
+            {
+              const bool is_body = block.file.rfind("body-", 0) == 0;
+              lists["results"].push_back({time, block.name, block.file + suffix + ".pvtu"});
+              if (!is_body)
+                lists[block.file].push_back({time, "", block.file + suffix + ".pvtu"});
+              else if (lists["bodies"].size() == k)
+                lists["bodies"].push_back({time, "", "bodies" + suffix + ".pvtu"});
+            }
+        }
+      for (const auto &[name, entries] : lists)
+        write_file(folder + name + "-steps.pvd",
+                   [&, &list = entries](std::ostream &o) { write_collection(o, list); });
+    }
+  } // namespace
 
 
 
@@ -299,25 +389,29 @@ namespace Signorini
     };
     write_fields(model, d, solution, fields, folder, suffix(step));
 
-    std::vector<std::string> names;
-    if (output.bodies)
-      names.push_back("bodies");
-    if (output.surfaces)
-      for (const ContactPair &pair : d.pairs)
-        {
-          names.push_back("contact-" + file_name(pair.name));
-          if (!pair.obstacle)
-            names.push_back(names.back() + "-mortar");
-        }
-    for (const std::string &name : names)
-      {
-        std::vector<std::pair<double, std::string>> list;
-        for (std::size_t k = 0; k <= step; ++k)
-          list.emplace_back(times[k], name + suffix(k) + ".pvtu");
-        if (Utilities::MPI::this_mpi_process(model.communicator()) == 0)
-          write_file(folder.path() + name + "-steps.pvd",
-                     [&](std::ostream &o) { DataOutBase::write_pvd_record(o, list); });
-      }
+    if (Utilities::MPI::this_mpi_process(model.communicator()) == 0)
+      write_series(folder.path(), paraview_blocks(model.bodies(), d, output), step + 1,
+                   [&](const std::size_t k) { return std::make_pair(times[k], suffix(k)); });
+  }
+
+
+
+  void complete_results(NestedSolution &nested, const ContactModel &model, const ParameterFile &file,
+                        const bool mesh_only)
+  {
+    Results       &results = nested.results;
+    const MPI_Comm comm    = model.communicator();
+    if (!mesh_only)
+      evaluate(nested, model);
+    results.mappings = mapping_results(*nested.discretization);
+
+    Utilities::System::MemoryStats memory;
+    Utilities::System::get_memory_stats(memory);
+    results.peak_memory    = 1024. * Utilities::MPI::sum(static_cast<double>(memory.VmHWM), comm);
+    results.version        = version_text();
+    results.title          = file.title();
+    results.parameter_file = file.path();
+    results.ranks          = Utilities::MPI::n_mpi_processes(comm);
   }
 
 
@@ -333,20 +427,10 @@ namespace Signorini
     OutputParameters      output = file.output();
     output.surfaces              = output.surfaces || mesh_only;
     output.mapping               = output.mapping || mesh_only;
-    write_fields(model, d, nested.solution, output, folder);
+    write_state({model, d, nested.solution, nested.indicator}, output, folder, "");
     if (file.deck() != nullptr && !mesh_only)
       write_deck_results(*file.deck(), model, d, nested.solution, folder.path());
-    if (!mesh_only)
-      evaluate(nested, model);
-    results.mappings = mapping_results(d);
-
-    Utilities::System::MemoryStats memory;
-    Utilities::System::get_memory_stats(memory);
-    results.peak_memory    = 1024. * Utilities::MPI::sum(static_cast<double>(memory.VmHWM), comm);
-    results.version        = version_text();
-    results.title          = file.title();
-    results.parameter_file = file.path();
-    results.ranks          = Utilities::MPI::n_mpi_processes(comm);
+    complete_results(nested, model, file, mesh_only);
     results.wall_time += time.stop();
     if (!results.cycles.empty())
       results.cycles.back().times.add(Phase::output, times[Phase::output]);

@@ -446,6 +446,11 @@ namespace Signorini
     first_vertex.push_back(n_vertices_of_all);
     n_vertices_of_all += static_cast<unsigned int>(mesh.vertices.size());
     start->sets_of.resize(n_vertices_of_all);
+    if (!mesh.node_numbers.empty())
+      {
+        node_numbers.resize(first_vertex.back(), VolumeMesh::no_number);
+        node_numbers.insert(node_numbers.end(), mesh.node_numbers.begin(), mesh.node_numbers.end());
+      }
     node_sets.emplace_back();
     for (const auto &[name, vertices] : mesh.node_sets)
       {

@@ -110,6 +110,8 @@ namespace Signorini
                     n = static_cast<unsigned int>(part.vertices.size());
                     part.vertices.push_back(mesh.vertices[cell.vertices[v]]);
                     old.push_back(cell.vertices[v]);
+                    if (cell.vertices[v] < mesh.node_numbers.size())
+                      part.node_numbers.push_back(mesh.node_numbers[cell.vertices[v]]);
                   }
                 part.cells.back().vertices[v] = n;
               }

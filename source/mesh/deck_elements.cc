@@ -191,6 +191,7 @@ namespace Signorini
   unsigned int DeckCells::add_vertex(const Point<3> &position, const std::vector<unsigned int> &support)
   {
     mesh.vertices.push_back(position);
+    mesh.node_numbers.push_back(support.size() == 1 ? deck.node_labels()[support[0]] : VolumeMesh::no_number);
     vertex_support.push_back(support);
     if (support.size() > 1)
       centre_vertices.push_back(static_cast<unsigned int>(mesh.vertices.size() - 1));

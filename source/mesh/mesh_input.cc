@@ -127,8 +127,11 @@ namespace Signorini
                            "\": an element refers to a node that is missing. Is the file cut off?");
         const auto [it, is_new] = number.insert({tag, static_cast<unsigned int>(mesh.vertices.size())});
         if (is_new)
-          mesh.vertices.emplace_back(coordinates[3 * at->second], coordinates[3 * at->second + 1],
-                                     coordinates[3 * at->second + 2]);
+          {
+            mesh.vertices.emplace_back(coordinates[3 * at->second], coordinates[3 * at->second + 1],
+                                       coordinates[3 * at->second + 2]);
+            mesh.node_numbers.push_back(static_cast<long>(tag));
+          }
         return it->second;
       }
 

@@ -11,193 +11,158 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/symmetric_tensor.h>
 
+#include <fstream>
+
 namespace Signorini
 {
   using namespace dealii;
 
   namespace
   {
-    const char *const component_names[] = {"x", "y", "z", "xy", "yz", "zx"};
-
-    /// Patches of one cell each, with their data, as deal.II's writers want them.
-    template <int patch_dim>
-    class PatchOutput : public DataOutInterface<patch_dim, 3>
+    /// Points of a piece as they are met, each once.
+    class PointNumbers
     {
     public:
-      using Patch = DataOutBase::Patch<patch_dim, 3>;
-
-      explicit PatchOutput(const std::vector<OutputField> &fields)
+      /// @param n number of the items that points are of
+      explicit PointNumbers(const std::size_t n)
+        : number(n, -1)
       {
-        for (const OutputField &field : fields)
-          {
-            if (field.n_components == 3)
-              ranges.emplace_back(names.size(), names.size() + 2, field.name,
-                                  DataComponentInterpretation::component_is_part_of_vector);
-            for (unsigned int c = 0; c < field.n_components; ++c)
-              names.push_back(field.n_components == 1   ? field.name
-                              : field.n_components == 3 ? field.name
-                                                        : field.name + "_" + component_names[c]);
-          }
       }
 
-      std::vector<Patch>       patches;
-      std::vector<std::string> names;
-
-      Patch &add_patch(const ReferenceCell &shape)
+      /// The number of an item's point in a piece, which gets it if it is new.
+      std::int32_t operator()(VtuPiece &piece, const std::size_t item, const Point<3> &position)
       {
-        patches.emplace_back();
-        Patch &patch         = patches.back();
-        patch.patch_index    = static_cast<unsigned int>(patches.size() - 1);
-        patch.n_subdivisions = 1;
-        patch.reference_cell = shape;
-        patch.data.reinit(names.size(), shape.n_vertices());
-        return patch;
+        if (number[item] < 0)
+          {
+            number[item] = static_cast<std::int32_t>(piece.points.size());
+            piece.points.push_back(position);
+            piece.point_items.push_back(item);
+          }
+        return number[item];
       }
 
-      /// Neighbouring ranks write one file where there are more ranks than files.
-      void write(const std::string &folder, const std::string &name, const MPI_Comm comm,
-                 const unsigned int most_files)
+      /// As at the beginning, for the next piece.
+      void forget(const VtuPiece &piece)
       {
-        DataOutBase::VtkFlags flags;
-        flags.compression_level = DataOutBase::VtkFlags::best_speed;
-        this->set_flags(flags);
-        const unsigned int rank = Utilities::MPI::this_mpi_process(comm),
-                           n    = Utilities::MPI::n_mpi_processes(comm);
-        const auto piece = [&](const unsigned int r) { return name + "." + std::to_string(r) + ".vtu"; };
-        const unsigned int       n_files = most_files == 0 ? n : std::min(n, most_files);
-        std::vector<std::string> pieces;
-        for (unsigned int f = 0; f < n_files; ++f)
-          pieces.push_back(piece(f));
-        bool good = true;
-        try
-          {
-            good = write_piece(
-                folder, piece(static_cast<unsigned int>(static_cast<std::uint64_t>(rank) * n_files / n)),
-                n_files < n, comm);
-            if (rank == 0)
-              {
-                std::ofstream record(folder + name + ".pvtu"), pvd(folder + name + ".pvd");
-                this->write_pvtu_record(record, pieces);
-                DataOutBase::write_pvd_record(pvd, {{0., name + ".pvtu"}});
-                record.close();
-                pvd.close();
-                good = good && record && pvd;
-              }
-          }
-        catch (const ExceptionBase &)
-          {
-            // deal.II looks at the streams, too.
-            good = false;
-          }
-        if (Utilities::MPI::min(static_cast<int>(good), comm) == 0)
-          throw InputError("the results cannot be written to \"" + folder + "\": is the disk full?");
+        for (const std::size_t item : piece.point_items)
+          number[item] = -1;
       }
 
     private:
-      /// Collective.
-      bool write_piece(const std::string &folder, const std::string &piece, const bool is_shared,
-                       const MPI_Comm comm)
-      {
-        if (!is_shared)
-          {
-            std::ofstream out(folder + piece);
-            this->write_vtu(out);
-            out.close();
-            return static_cast<bool>(out);
-          }
-        // Ranks with the same file have the same piece.
-        const int number = std::stoi(piece.substr(piece.find_last_of('.', piece.size() - 5) + 1));
-        MPI_Comm  group;
-        MPI_Comm_split(comm, number, 0, &group);
-        this->write_vtu_in_parallel(folder + piece, group);
-        MPI_Comm_free(&group);
-        return true;
-      }
-
-    protected:
-      const std::vector<Patch> &get_patches() const override
-      {
-        return patches;
-      }
-
-      std::vector<std::string> get_dataset_names() const override
-      {
-        return names;
-      }
-
-      std::vector<std::tuple<unsigned int, unsigned int, std::string,
-                             DataComponentInterpretation::DataComponentInterpretation>>
-      get_nonscalar_data_ranges() const override
-      {
-        return ranges;
-      }
-
-    private:
-      std::vector<std::tuple<unsigned int, unsigned int, std::string,
-                             DataComponentInterpretation::DataComponentInterpretation>>
-          ranges;
+      std::vector<std::int32_t> number;
     };
 
-    /// Writes the values of one vertex into a column of a patch.
-    template <typename P>
-    void fill(P &patch, const unsigned int column, const std::vector<OutputField> &fields,
-              const std::size_t index)
+    /// VTK runs around quadrilaterals, deal.II goes row by row.
+    constexpr unsigned int around[8] = {0, 1, 3, 2, 4, 5, 7, 6};
+
+    VtuPiece piece_of_body(const NodalSpace &space, const BodyFiles &bodies, const unsigned int body,
+                           PointNumbers &numbers)
     {
-      unsigned int row = 0;
-      for (const OutputField &field : fields)
-        for (unsigned int c = 0; c < field.n_components; ++c)
-          patch.data(row++, column) = static_cast<float>(field.values[field.n_components * index + c]);
+      VtuPiece piece;
+      for (std::size_t c = 0; c < space.cells().size(); ++c)
+        if (const NodalSpace::Cell &cell = space.cells()[c];
+            cell.is_owned && bodies.body(cell.material) == body)
+          {
+            const auto                  nodes   = space.nodes(cell);
+            std::array<std::int32_t, 8> corners = {};
+            for (unsigned int v = 0; v < nodes.size(); ++v)
+              {
+                const NodeIndex node = nodes[nodes.size() == CellShape::hexahedron ? around[v] : v];
+                corners[v] = numbers(piece, space.relevant().index_within_set(node), space.position(node));
+              }
+            piece.add_cell(corners, cell.n_vertices, false, c);
+          }
+      numbers.forget(piece);
+      return piece;
+    }
+
+    std::vector<std::string> piece_names(const std::string &name, const unsigned int first,
+                                         const unsigned int n)
+    {
+      std::vector<std::string> names;
+      for (unsigned int i = first; i < first + n; ++i)
+        names.push_back(name + "." + std::to_string(i) + ".vtu");
+      return names;
+    }
+
+    /// On rank 0; returns whether that could be done.
+    bool write_record(const std::string &folder, const std::string &name,
+                      const std::vector<std::string> &pieces, const VtuFields &fields,
+                      const FileFormat &format)
+    {
+      std::ofstream out(folder + name + ".pvtu");
+      write_pvtu(out, pieces, fields, format);
+      out.close();
+      return static_cast<bool>(out);
+    }
+
+    bool write_short_collection(const std::string &folder, const std::string &name)
+    {
+      std::ofstream out(folder + name + ".pvd");
+      write_collection(out, {{0., "", name + ".pvtu"}});
+      out.close();
+      return static_cast<bool>(out);
+    }
+
+    void check_written(const bool good, const std::string &folder, const MPI_Comm communicator)
+    {
+      if (Utilities::MPI::min(static_cast<int>(good), communicator) == 0)
+        throw InputError("the results cannot be written to \"" + folder + "\": is the disk full?");
     }
   } // namespace
 
 
 
   void write_bodies(const std::string &folder, const std::string &name, const NodalSpace &space,
-                    const std::vector<OutputField>                                 &fields,
-                    const std::function<double(const types::material_id material)> &body,
-                    const unsigned int                                              most_files)
+                    const VtuFields &fields, const BodyFiles &bodies, const FileFormat &format)
   {
-    PatchOutput<3> output(fields);
-    output.names.push_back("body");
-    for (const NodalSpace::Cell &cell : space.cells())
-      if (cell.is_owned)
-        {
-          const auto nodes = space.nodes(cell);
-          auto      &patch =
-              output.add_patch(cell.n_vertices == CellShape::hexahedron ? ReferenceCells::Hexahedron
-                                                                        : ReferenceCells::Tetrahedron);
-          for (unsigned int v = 0; v < nodes.size(); ++v)
-            {
-              patch.vertices[v] = space.position(nodes[v]);
-              fill(patch, v, fields, space.relevant().index_within_set(nodes[v]));
-              patch.data(output.names.size() - 1, v) = static_cast<float>(body(cell.material));
-            }
-        }
-    output.write(folder, name, space.communicator(), most_files);
+    const MPI_Comm     comm = space.communicator();
+    const unsigned int n    = n_files(format, Utilities::MPI::n_mpi_processes(comm),
+                                      static_cast<unsigned int>(bodies.names.size()));
+    PointNumbers       numbers(space.relevant().n_elements());
+    bool               good    = true;
+    const bool         is_root = Utilities::MPI::this_mpi_process(comm) == 0;
+    for (unsigned int b = 0; b < bodies.names.size(); ++b)
+      {
+        good = write_vtu(folder + name, {b * n, n}, piece_of_body(space, bodies, b, numbers), fields, format,
+                         comm) &&
+               good;
+        if (is_root)
+          good = write_record(folder, bodies.names[b], piece_names(name, b * n, n), fields, format) && good;
+      }
+    if (is_root)
+      good =
+          write_record(folder, name, piece_names(name, 0, static_cast<unsigned int>(bodies.names.size()) * n),
+                       fields, format) &&
+          write_short_collection(folder, name) && good;
+    check_written(good, folder, comm);
   }
 
 
 
   void write_surface(const std::string &folder, const std::string &name, const ContactSurface &surface,
                      const std::vector<OutputField> &fields, const MPI_Comm communicator,
-                     const unsigned int most_files)
+                     const FileFormat &format)
   {
-    const unsigned int        rank = Utilities::MPI::this_mpi_process(communicator);
-    PatchOutput<2>            output(fields);
-    static const unsigned int lexicographic[4] = {0, 1, 3, 2};
-    for (const auto &face : surface.faces)
-      if (face.worker == rank)
+    const unsigned int rank = Utilities::MPI::this_mpi_process(communicator);
+    PointNumbers       numbers(surface.mesh.vertices.size());
+    VtuPiece           piece;
+    for (std::size_t f = 0; f < surface.faces.size(); ++f)
+      if (const ContactSurface::Face &face = surface.faces[f]; face.worker == rank)
         {
-          auto &patch = output.add_patch(face.n_corners == 4 ? ReferenceCells::Quadrilateral
-                                                             : ReferenceCells::Triangle);
+          std::array<std::int32_t, 8> corners = {};
           for (unsigned int v = 0; v < face.n_corners; ++v)
-            {
-              const unsigned int vertex = face.corners[face.n_corners == 4 ? lexicographic[v] : v];
-              patch.vertices[v]         = surface.mesh.vertices[vertex];
-              fill(patch, v, fields, vertex);
-            }
+            corners[v] = numbers(piece, face.corners[v], surface.mesh.vertices[face.corners[v]]);
+          piece.add_cell(corners, face.n_corners, true, f);
         }
-    output.write(folder, name, communicator, most_files);
+    const std::vector<OutputField> none;
+    const VtuFields                all{fields, none};
+    const unsigned int             n    = n_files(format, Utilities::MPI::n_mpi_processes(communicator));
+    bool                           good = write_vtu(folder + name, {0, n}, piece, all, format, communicator);
+    if (rank == 0)
+      good = write_record(folder, name, piece_names(name, 0, n), all, format) &&
+             write_short_collection(folder, name) && good;
+    check_written(good, folder, communicator);
   }
 
 
@@ -342,10 +307,11 @@ namespace Signorini
     means.finish();
 
     const std::size_t        n      = space.relevant().n_elements();
-    std::vector<OutputField> fields = {{"stress", 6, std::vector<double>(6 * n, 0.)},
-                                       {"von_Mises", 1, std::vector<double>(n, 0.)},
-                                       {"principal_stress", 3, std::vector<double>(3 * n, 0.)}};
-    Stress                   s;
+    std::vector<OutputField> fields = {
+        {"stress", 6, std::vector<double>(6 * n, 0.)},
+        {"von_Mises", 1, std::vector<double>(n, 0.)},
+        {"principal_stress", 3, std::vector<double>(3 * n, 0.), false, {"largest", "middle", "smallest"}}};
+    Stress s;
     for (std::size_t r = 0; r < n; ++r)
       if (means.get(s, r))
         {

@@ -8,4 +8,5 @@ signorini_add_layer(output
   progress.cc
   summary.cc
   termination.cc
+  vtu_file.cc
 )

@@ -29,6 +29,8 @@ namespace Signorini
           f(pair.name + ": approach", pair.approach);
           f(pair.name + ": contact area", pair.contact_area);
           f(pair.name + ": largest pressure", pair.max_pressure);
+          f(pair.name + ": mean pressure", pair.mean_pressure);
+          f(pair.name + ": largest recovered pressure", pair.max_recovered_pressure);
           f(pair.name + ": smallest gap", pair.min_gap);
         }
       for (const BoundaryResult &boundary : step.boundaries)

@@ -152,6 +152,9 @@ namespace Signorini
       json.number("moment_balance", pair.moment_balance);
       json.number("min_pressure", pair.min_pressure);
       json.number("max_pressure", pair.max_pressure);
+      json.number("mean_pressure", pair.mean_pressure);
+      json.number("max_recovered_pressure", pair.max_recovered_pressure);
+      json.vector("max_recovered_pressure_at", Vector3(pair.max_recovered_pressure_at));
       json.number("contact_area", pair.contact_area);
       json.number("coverage", pair.coverage);
       json.number("min_gap", pair.min_gap);
@@ -368,12 +371,28 @@ namespace Signorini
 
 
 
+  namespace
+  {
+    /// A text in a table with commas.
+    std::string quoted(const std::string &text)
+    {
+      return text.find(',') == std::string::npos ? text : "\"" + text + "\"";
+    }
+  } // namespace
+
+
+
   void write_pressure(std::ostream &out, const Results &results)
   {
-    out << "x,y,z,area,pressure,recovered_pressure,gap,active\n" << std::setprecision(17);
-    for (const PressureRow &row : results.pressure)
-      out << row.position[0] << ',' << row.position[1] << ',' << row.position[2] << ',' << row.area << ','
-          << row.pressure << ',' << row.recovered_pressure << ',' << row.gap << ',' << row.active << '\n';
+    out << "x,y,z,area,pressure,recovered_pressure,gap,active,nx,ny,nz,node,mesh_node,side,pair\n"
+        << std::setprecision(17);
+    for (const auto &[rows, side] :
+         {std::make_pair(&results.pressure, "nonmortar"), {&results.mortar_pressure, "mortar"}})
+      for (const PressureRow &row : *rows)
+        out << row.position[0] << ',' << row.position[1] << ',' << row.position[2] << ',' << row.area << ','
+            << row.pressure << ',' << row.recovered_pressure << ',' << row.gap << ',' << row.active << ','
+            << row.normal[0] << ',' << row.normal[1] << ',' << row.normal[2] << ',' << row.node << ','
+            << row.mesh_node << ',' << side << ',' << quoted(results.pairs[row.pair].name) << '\n';
   }
 
 

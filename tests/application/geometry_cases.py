@@ -6,7 +6,7 @@ import random
 import struct
 import tempfile
 
-from harness import TOP, certificate, check, constant_pressure, iterations, near
+from harness import TOP, certificate, check, constant_pressure, iterations, near, read_pressure
 from input_cases import dense_coupling, held_surfaces, overlaps, parts, shared_surfaces  # noqa: F401
 
 PATCH_TEST = 'patch_test/patch_test.prm'
@@ -358,9 +358,7 @@ def hertz_tetrahedra(p):
                         'Refinement/Regions=', 'Refinement/Final global cycles=0', 'Refinement/Adaptive cycles=12',
                         f'Refinement/Marking fraction={fraction}', f'Refinement/Max dofs={dofs}',
                         'Solver/Compare linear multigrid=false', keep=out)
-            with open(os.path.join(out, 'pressure.csv')) as f:
-                names = f.readline().strip().split(',')
-                rows = [dict(zip(names, map(float, line.split(',')))) for line in f]
+            rows = read_pressure(os.path.join(out, 'pressure.csv'))
         force = s['pairs'][0]['force'][2]
         weights = [r['pressure'] * r['area'] for r in rows]
         radius = 16 / (3 * math.pi) * sum(w * math.hypot(r['x'], r['y']) for w, r in zip(weights, rows)) / sum(weights)

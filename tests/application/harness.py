@@ -1,4 +1,5 @@
 """Running the program and checking numbers: what all cases share."""
+import csv
 import json
 import os
 import re
@@ -8,6 +9,8 @@ import tempfile
 
 TOP = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 FAILURES = []
+# Of MPI, for this test alone: where several tests share one, the end of one may take it away while another begins.
+SESSIONS = tempfile.TemporaryDirectory(prefix='mpi-')
 
 
 def check(condition, text):
@@ -26,7 +29,7 @@ class Program:
         self.environment = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT='1', OMPI_ALLOW_RUN_AS_ROOT_CONFIRM='1',
                                 OMPI_MCA_rmaps_base_oversubscribe='1', OMPI_MCA_btl_vader_single_copy_mechanism='none',
                                 OMPI_MCA_pml='ob1', OMPI_MCA_btl='self,vader', OMPI_MCA_mpi_yield_when_idle='1',
-                                OMPI_MCA_ess_singleton_isolated='1')
+                                OMPI_MCA_ess_singleton_isolated='1', OMPI_MCA_orte_tmpdir_base=SESSIONS.name)
 
     def call(self, *arguments):
         # Where one rank ends with an error all do: mpirun would give the others a second.
@@ -54,6 +57,12 @@ class Program:
             if keep:
                 shutil.move(out, keep)
             return summary
+
+
+def read_pressure(path, side='nonmortar'):
+    """The rows of pressure.csv on one side, numbers by column."""
+    with open(path, newline='') as f:
+        return [{k: float(v) for k, v in row.items() if k not in ('side', 'pair')} for row in csv.DictReader(f) if row['side'] == side]
 
 
 def certificate(s, equilibrium=1e-8):

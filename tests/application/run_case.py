@@ -3,7 +3,6 @@
 
 usage: run_case.py PROGRAM CASE RANKS
 """
-import csv
 import json
 import math
 import os
@@ -17,12 +16,14 @@ import finished_mesh_cases
 import geometry_cases
 import heat_cases
 import load_cases
+import output_cases
 import random_pair_cases
 import shape_cases
 import tool_cases
 import true_gap_cases
 import verification_cases
-from harness import FAILURES, TOP, Program, certificate, check, constant_pressure, iterations, near
+import verify_cases
+from harness import FAILURES, TOP, Program, certificate, check, constant_pressure, iterations, near, read_pressure
 
 
 def patch_test(p):
@@ -157,9 +158,8 @@ def ranks(p):
         results = []
         for name, program in (('one', Program(p.command[-1], 1)), ('many', p)):
             s = program.solve(*settings, keep=os.path.join(folder, name))
-            with open(os.path.join(folder, name, 'pressure.csv')) as f:
-                rows = sorted(([float(row[k]) for k in ('x', 'y', 'z', 'pressure', 'active')] for row in csv.DictReader(f)),
-                              key=lambda row: [round(c, 9) for c in row[:3]])
+            rows = sorted(([row[k] for k in ('x', 'y', 'z', 'pressure', 'active')] for side in ('nonmortar', 'mortar')
+                           for row in read_pressure(os.path.join(folder, name, 'pressure.csv'), side)), key=lambda row: [round(c, 9) for c in row[:3]])
             results.append((s, rows))
     (one, rows_one), (many, rows_many) = results
     scale = max(row[3] for row in rows_one)
@@ -529,8 +529,7 @@ def hertz_errors(p, material, final_cycles, comparison):
         s = p.solve('hertz/hertz.prm', f'Body block/Young modulus={young}', f'Body block/Poisson ratio={poisson}',
                     f'Refinement/Final global cycles={final_cycles}', f'Solver/Compare linear multigrid={comparison}',
                     keep=os.path.join(folder, 'out'))
-        with open(os.path.join(folder, 'out', 'pressure.csv')) as f:
-            rows = [{k: float(v) for k, v in row.items()} for row in csv.DictReader(f)]
+        rows = read_pressure(os.path.join(folder, 'out', 'pressure.csv'))
     certificate(s)
     for cycle in s['cycles']:
         # While a single node is in contact the meshes are too coarse for the ball between their nodes: a solution is a poor start for the next mesh
@@ -695,8 +694,8 @@ def surface_map(p):
 
 
 if __name__ == '__main__':
-    modules = (sys.modules[__name__], checkpoint_cases, deck_cases, geometry_cases, heat_cases, finished_mesh_cases, load_cases, random_pair_cases, shape_cases, tool_cases, true_gap_cases,
-               verification_cases)
+    modules = (sys.modules[__name__], checkpoint_cases, deck_cases, geometry_cases, heat_cases, finished_mesh_cases, load_cases, output_cases, random_pair_cases, shape_cases, tool_cases, true_gap_cases,
+               verification_cases, verify_cases)
     case = next(getattr(m, sys.argv[2]) for m in modules if hasattr(m, sys.argv[2]))
     case(Program(sys.argv[1], int(sys.argv[3])))
     for failure in FAILURES:

@@ -1,10 +1,9 @@
 """Problems with known answers whose bodies are all generated: prm/shapes."""
-import csv
 import math
 import os
 import tempfile
 
-from harness import certificate, check
+from harness import certificate, check, read_pressure
 
 
 def line_contact(p):
@@ -12,8 +11,7 @@ def line_contact(p):
     with tempfile.TemporaryDirectory() as folder:
         out = os.path.join(folder, 'results')
         s = p.solve('shapes/line-contact.prm', keep=out)
-        with open(os.path.join(out, 'pressure.csv')) as f:
-            rows = [{k: float(v) for k, v in row.items()} for row in csv.DictReader(f)]
+        rows = read_pressure(os.path.join(out, 'pressure.csv'))
     certificate(s, 1e-7)
     radius, modulus, depth = 10., 1000. / (1 - .3 ** 2) / 2, .2
     forces = [row['area'] * row['pressure'] for row in rows]

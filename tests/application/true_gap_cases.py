@@ -1,12 +1,11 @@
 """Surfaces that fit into each other: the gap is that of the true bodies. The meshes come from files, do not match, and no option says what they stand
 for unless a case gives shapes."""
-import csv
 import json
 import os
 import tempfile
 
 import verification_cases as v
-from harness import TOP, check, near
+from harness import TOP, check, near, read_pressure
 from verification_cases import PRESCRIBED_GAP, PRESCRIBED_INTERFERENCE, INTERFERENCE, tetrahedra_in
 
 GEOMETRIC = ['Pair contact/Initial gap=geometry']
@@ -67,8 +66,7 @@ def wrong_gap(p):
             if code:
                 check(any('pair contact' in text and 'Surface' in text for text in c['objections']), f'{surface}: {c["objections"]}')
             # The recovered pressure beside the raw one: the same force.
-            with open(os.path.join(out, 'pressure.csv')) as f:
-                rows = [{k: float(x) for k, x in row.items()} for row in csv.DictReader(f)]
+            rows = read_pressure(os.path.join(out, 'pressure.csv'))
             raw, smooth = ([r['area'] * r[k] for r in rows] for k in ('pressure', 'recovered_pressure'))
             near(sum(smooth), sum(raw), 2e-2 if code else 1e-3, f'{surface}: force of the recovered pressure')
             check(min(r['recovered_pressure'] for r in rows) >= -1e-9 * max(r['pressure'] for r in rows), f'{surface}: recovered tension')

@@ -1,6 +1,5 @@
 """Problems with closed solutions: orders of convergence in displacement, energy, pressure, contact radius and force."""
 import base64
-import csv
 import math
 import os
 import re
@@ -9,7 +8,7 @@ import tempfile
 import zlib
 
 from geometry_cases import solve_dense
-from harness import TOP, certificate, check, near
+from harness import TOP, certificate, check, near, read_pressure
 
 
 SHELLS, CORNER = (os.path.join(TOP, 'tests', 'application', name) for name in ('shells.prm', 'corner.prm'))
@@ -20,25 +19,25 @@ def solve_with_pressure(p, prm, *settings, keep=None):
     with tempfile.TemporaryDirectory() as folder:
         out = keep or os.path.join(folder, 'out')
         s = p.solve(prm, 'Solver/Compare linear multigrid=false', *settings, keep=out)
-        with open(os.path.join(out, 'pressure.csv')) as f:
-            rows = [{k: float(v) for k, v in row.items()} for row in csv.DictReader(f)]
+        rows = read_pressure(os.path.join(out, 'pressure.csv'))
     return s, rows
 
 
 def read_points(path, names):
-    """Points and point data of one component from a .vtu file as deal.II writes it (blocks of zlib in base64)."""
+    """Points and point data from a .vtu file (blocks of zlib in base64); several components one after the other."""
     with open(path) as f:
         text = f.read()
 
     def numbers(pattern):
-        encoded = re.search(r'<DataArray[^>]*' + pattern + r'[^>]*>\s*([A-Za-z0-9+/=\s]*?)\s*</DataArray>', text).group(1)
+        kind, encoded = re.search(r'<DataArray type="(\w+)"[^>]*' + pattern + r'[^>]*>\s*([A-Za-z0-9+/=\s]*?)\s*</DataArray>', text).groups()
+        letter, size = {'Float32': ('f', 4), 'Float64': ('d', 8), 'Int64': ('q', 8)}[kind]
         n_blocks = struct.unpack('<I', base64.b64decode(encoded[:8])[:4])[0]
         head = 4 * ((4 * (3 + n_blocks) + 2) // 3)
         sizes = struct.unpack(f'<{n_blocks}I', base64.b64decode(encoded[:head])[12:12 + 4 * n_blocks])
         packed, data = base64.b64decode(encoded[head:]), b''
         for i in range(n_blocks):
             data += zlib.decompress(packed[sum(sizes[:i]):sum(sizes[:i + 1])])
-        return struct.unpack(f'<{len(data) // 4}f', data)
+        return struct.unpack(f'<{len(data) // size}{letter}', data)
     points = numbers('NumberOfComponents="3"')
     return list(zip(points[::3], points[1::3], points[2::3])), [numbers(f'Name="{name}"') for name in names]
 
@@ -389,7 +388,8 @@ def indentation_settings(indenter, size, refined):
 
 def stress_below(folder, indenter):
     """On the axis, from the recovered stress: rows of depth / a, sigma_z and the largest shear stress over the pressure in the centre."""
-    points, fields = read_points(os.path.join(folder, 'bodies.0.vtu'), ('stress_x', 'stress_z'))
+    points, (stress,) = read_points(os.path.join(folder, 'bodies.0.vtu'), ('stress',))
+    fields = stress[0::6], stress[2::6]
     scale = indenter.pressure(0.)
     axis = {round(-z / indenter.a, 6): (z_stress / scale, (x_stress - z_stress) / 2 / scale)
             for (x, y, z), x_stress, z_stress in zip(points, *fields) if math.hypot(x, y) < 1e-9}

@@ -62,6 +62,17 @@ def check_closed(folder, *names):
         sys.exit(f'FAILED: {archives} are not closed; among what they lack:\n{missing}')
 
 
+def check_python(prefix, work):
+    """The module for Python, if it was built, from the installed folder."""
+    library = os.path.join(prefix, 'lib')
+    folders = [os.path.join(library, name, 'dist-packages') for name in os.listdir(library) if name.startswith('python')]
+    if folders:
+        script = 'import signorini as s; t = [[0, 1, 2]]; print(s.__file__, s.map_surfaces(([[0, 0, 0], [1, 0, 0], [0, 1, 0]], t), ([[0, 0, 1], [0, 1, 1], [1, 0, 1]], t)))'
+        said = call('/usr/bin/python3', '-c', script, cwd=work, env=dict(os.environ, PYTHONPATH=folders[0], OMPI_MCA_ess_singleton_isolated='1'))
+        if prefix not in said or '100.0%' not in said:
+            sys.exit(f'FAILED: the installed module says {said}')
+
+
 def main():
     build_folder, work = sys.argv[1], os.path.realpath(sys.argv[2])
     prefix = os.path.join(work, 'prefix')
@@ -92,7 +103,16 @@ def main():
     example = os.path.join(prefix, 'share', 'signorini', 'prm', 'patch_test', 'patch_test.prm')
     call(os.path.join(prefix, 'bin', 'signorini'), '--check', example, cwd=work)
     call(os.path.join(prefix, 'bin', 'signorini-map'), '--version')
+    # Problems with known solutions need no file beside the program, which may lie anywhere.
+    alone = os.path.join(work, 'alone')
+    os.makedirs(alone)
+    shutil.copy(os.path.join(prefix, 'bin', 'signorini'), alone)
+    print(call(os.path.join(alone, 'signorini'), 'verify', '--quick', 'patch', 'press-fit-rings', 'mapping', cwd=alone))
+    if os.listdir(alone) != ['signorini']:
+        sys.exit(f'FAILED: signorini verify left {os.listdir(alone)}')
     done('programs run')
+    check_python(prefix, work)
+    done('module for Python')
 
 
 if __name__ == '__main__':

@@ -16,3 +16,9 @@ if(CTAGS_PROGRAM)
   add_test(NAME utilities/function_lines.cases
            COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/utilities/function_lines_cases.py)
 endif()
+# The pictures of contrib/plots; those by VTK where it is installed.
+foreach(kind matplotlib vtk)
+  add_test(NAME utilities/plots_${kind}
+           COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/utilities/plots.py $<TARGET_FILE:signorini_program> ${kind})
+  set_tests_properties(utilities/plots_${kind} PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 600)
+endforeach()

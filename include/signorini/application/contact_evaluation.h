@@ -43,9 +43,15 @@ namespace Signorini
                            const unsigned int pair);
 
   /// Collective. Pressures at the contact nodes of one pair, in the order of the nodes; the same on all
-  /// ranks.
-  std::vector<PressureRow> pressure_rows(const Discretization &discretization, const ContactStress &stress,
-                                         const unsigned int pair);
+  /// ranks. Numbers of the mesh file are those of `bodies`.
+  std::vector<PressureRow> pressure_rows(const Bodies &bodies, const Discretization &discretization,
+                                         const ContactStress &stress, const unsigned int pair);
+
+  /// Collective. What arrives at the nodes of the mortar surface of one pair, in the same way: sums over the
+  /// rows p of the pair, the area sum_p M_pq, and means with the weights M_pq of traction, recovered pressure
+  /// and gap. None with an obstacle.
+  std::vector<PressureRow> mortar_pressure_rows(const Bodies &bodies, const Discretization &discretization,
+                                                const ContactStress &stress, const unsigned int pair);
 
   /// Collective. Reactions, and what is left of the forces on every body.
   Equilibrium evaluate_equilibrium(const ContactModel &model, const Discretization &discretization,
@@ -57,7 +63,7 @@ namespace Signorini
     /// By pair; the same on all ranks.
     std::vector<PairResult> pairs;
     /// By contact node, pair after pair; the same on all ranks.
-    std::vector<PressureRow> pressure;
+    std::vector<PressureRow> pressure, mortar_pressure;
     /// Reactions, and what is left of the forces.
     Equilibrium equilibrium;
   };

@@ -7,6 +7,7 @@
 #include <signorini/output/phase_times.h>
 #include <signorini/output/progress.h>
 
+#include <functional>
 #include <iostream>
 #include <string>
 #include <utility>
@@ -31,6 +32,12 @@ namespace Signorini
       , prints_iterations(verbosity > 1)
       , progress(std::cout, Progress::wanted(is_root, verbosity))
     {
+    }
+
+    /// What is called whenever show() is, in each iteration at least; what it throws ends the run.
+    void interrupt_by(std::function<void()> check)
+    {
+      interruption = std::move(check);
     }
 
     /// A remark for the results; the same one is kept once.
@@ -60,12 +67,16 @@ namespace Signorini
     /// What is going on, on the terminal.
     void show(const std::string &phase)
     {
+      if (interruption)
+        interruption();
       progress.show(phase);
     }
 
     /// The same with the share of it that is done, in [0,1].
     void show(const std::string &phase, const double fraction)
     {
+      if (interruption)
+        interruption();
       progress.show(phase, fraction);
     }
 
@@ -96,6 +107,7 @@ namespace Signorini
   private:
     const bool               prints, prints_iterations;
     Progress                 progress;
+    std::function<void()>    interruption;
     std::vector<std::string> remarks;
     PhaseTimes               times;
   };

@@ -32,6 +32,8 @@ namespace Signorini
     /// Of the last mesh.
     std::unique_ptr<const Discretization> discretization;
     ContactSolution                       solution;
+    /// Squared error indicators (energy) of its cells; empty where they were not computed.
+    std::vector<double> indicator;
     /// Of all meshes; the same on all ranks.
     Results results;
   };

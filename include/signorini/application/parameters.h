@@ -7,6 +7,7 @@
 #include <signorini/application/deck_problem.h>
 #include <signorini/application/load_steps.h>
 #include <signorini/mesh/body_parameters.h>
+#include <signorini/output/vtu_file.h>
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -51,13 +52,30 @@ namespace Signorini
     unsigned int verbosity = 1;
     /// Files of bodies, of contact surfaces, with stresses in them, of the mapping; times of sweeps.
     bool bodies = true, surfaces = true, stress = true, mapping = false, measure_sweeps = true;
+    /// Whether fields and positions keep all of their digits in the files for ParaView.
+    bool double_precision = false;
     /// Files in which all ranks together write a field; 0 for one a rank.
     unsigned int most_files = 64;
     /// When the state is saved, and how long the run may take.
     CheckpointParameters checkpoints;
 
+    /// Of the files for ParaView.
+    FileFormat format() const
+    {
+      return {double_precision, most_files};
+    }
+
     /// Declares the parameters in the current subsection.
     void add_parameters(dealii::ParameterHandler &prm);
+  };
+
+  /// What stands in a parameter file, from a program.
+  struct ParameterText
+  {
+    /// The lines, and what messages call them in place of the name of a file.
+    std::string text, name;
+    /// Where the files are that they name.
+    std::string folder;
   };
 
   /// A parameter file: the front end of ProblemDefinition and NestedParameters.
@@ -67,6 +85,9 @@ namespace Signorini
     /// Reads a file. overrides: "Section/Name=value". Errors: InputError with one clear message. A deck
     /// (is_deck()) is the problem itself: parameters are then those of the overrides.
     ParameterFile(const std::string &file, const std::vector<std::string> &overrides);
+
+    /// The same without a file. Errors: InputError with one clear message.
+    ParameterFile(const ParameterText &lines, const std::vector<std::string> &overrides);
 
     /// The defaults of a problem with such bodies and pairs.
     ParameterFile(const std::vector<std::string> &body_names, const std::vector<std::string> &pair_names);
@@ -79,7 +100,7 @@ namespace Signorini
       return deck_problem.get();
     }
 
-    /// The name of the file, or empty.
+    /// The name of the file or of the text, or empty.
     const std::string &path() const
     {
       return file;
@@ -141,6 +162,8 @@ namespace Signorini
     /// The names of bodies and pairs decide which subsections exist.
     void declare(const std::vector<std::string> &body_names, const std::vector<std::string> &pair_names);
 
+    /// Parameters from lines of a file.
+    void read(const std::string &text, const std::vector<std::string> &overrides);
     void read_deck(const std::vector<std::string> &overrides);
 
     std::string                  file, base_folder;

@@ -5,12 +5,27 @@
 #define signorini_application_write_results_h
 
 #include <signorini/application/parameters.h>
+#include <signorini/output/field_output.h>
 #include <signorini/output/output_folder.h>
 
 namespace Signorini
 {
   /// "signorini 0.1.0 (deal.II 9.4.1, ...)".
   std::string version_text();
+
+  /// Collective. What bodies.pvtu has at the relevant nodes of the space, in their order: displacement, and
+  /// the fields of nodal_stress() if they are wanted.
+  std::vector<OutputField> body_fields(const ContactModel &model, const Discretization &discretization,
+                                       const ContactSolution &solution, const bool with_stress);
+
+  /// Collective. What contact-PAIR.pvtu has at the vertices of the nonmortar surface of a pair; right at the
+  /// corners of the faces that this rank works on.
+  std::vector<OutputField> nonmortar_fields(const Discretization  &discretization,
+                                            const ContactSolution &solution, const unsigned int pair);
+
+  /// Collective. The same for contact-PAIR-mortar.pvtu and the mortar surface; the pair has no obstacle.
+  std::vector<OutputField> mortar_fields(const Discretization  &discretization,
+                                         const ContactSolution &solution, const unsigned int pair);
 
   /// Collective. Writes bodies, contact surfaces and mappings for ParaView into a folder, as far as `output`
   /// wants them.
@@ -37,8 +52,13 @@ namespace Signorini
     const std::vector<double> &times;
   };
 
-  /// Collective. Writes everything of a solved problem (or its meshes and mapping only) into a folder, and
-  /// prints the certificate.
+  /// Collective. Adds to the results what the iteration does not know: what happens to the bodies, the
+  /// mappings, version, title and name of the file, ranks, memory.
+  void complete_results(NestedSolution &nested, const ContactModel &model, const ParameterFile &file,
+                        const bool mesh_only);
+
+  /// Collective. Completes the results and writes everything of a solved problem (or its meshes and mapping
+  /// only) into a folder, and prints the certificate.
   void write_results(NestedSolution &nested, const ContactModel &model, const ParameterFile &file,
                      const OutputFolder &folder, const bool mesh_only);
 } // namespace Signorini

@@ -192,6 +192,19 @@ namespace Signorini
       return first_vertex[body] + vertex;
     }
 
+    /// Whether the mesh of a body is from a file, which has numbers of nodes.
+    bool has_node_numbers() const
+    {
+      return !node_numbers.empty();
+    }
+
+    /// The number in its file of a vertex of the start meshes (NodalSpace::start_vertices(), which may be
+    /// StartNodes::none), or VolumeMesh::no_number.
+    long node_number(const unsigned int start_vertex) const
+    {
+      return start_vertex < node_numbers.size() ? node_numbers[start_vertex] : VolumeMesh::no_number;
+    }
+
     /// The true shapes of boundaries: those that a user gave or that belong to a generated mesh; for the
     /// others what the start mesh shows (SmoothShape), or null where that is flat.
     /// @param everywhere whether the start mesh stands for a smooth surface whatever it looks like
@@ -279,7 +292,9 @@ namespace Signorini
     std::vector<std::vector<std::pair<std::string, unsigned int>>> node_sets;
     std::shared_ptr<StartNodes>                                    start;
     unsigned int                                                   n_vertices_of_all = 0;
-    std::vector<std::string>                                       remarks;
+    /// By vertex of the start meshes; may be shorter, or empty.
+    std::vector<long>        node_numbers;
+    std::vector<std::string> remarks;
     /// By boundary id; null where a boundary has no shape of its own.
     std::vector<BoundaryShapePointer> shapes;
     std::vector<StartSurface>         start_surfaces;

@@ -65,6 +65,10 @@ namespace Signorini
     std::vector<std::pair<std::string, std::vector<unsigned int>>> boundary_groups;
     /// Named sets of vertices, which may overlap.
     std::vector<std::pair<std::string, std::vector<unsigned int>>> node_sets;
+    /// What the file calls the vertices, as far as they are nodes of it: the first ones; empty if the mesh is
+    /// from no file.
+    std::vector<long>     node_numbers;
+    static constexpr long no_number = -1;
     /// Remarks for the user, e.g. on mended cells.
     std::vector<std::string> notes;
 
@@ -72,7 +76,8 @@ namespace Signorini
     /// For messages between ranks.
     void serialize(Archive &archive, const unsigned int)
     {
-      archive &vertices &cells &faces &boundary_names &volume_names &boundary_groups &node_sets &notes;
+      archive &vertices &cells &faces &boundary_names &volume_names &boundary_groups &node_sets &node_numbers
+          &notes;
     }
 
     /// Positions of the vertices of a cell; the rest is zero.

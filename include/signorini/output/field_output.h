@@ -8,6 +8,7 @@
 #include <signorini/mesh/bodies.h>
 #include <signorini/mesh/contact_surface.h>
 #include <signorini/mesh/nodal_space.h>
+#include <signorini/output/vtu_file.h>
 #include <signorini/surface/overlay.h>
 
 #include <functional>
@@ -16,29 +17,27 @@
 
 namespace Signorini
 {
-  /// Values at nodes or vertices: n_components numbers each, in the order of the list they belong to.
-  struct OutputField
+  /// How the files of bodies are divided.
+  struct BodyFiles
   {
-    /// As ParaView shows it, and 1 or 3.
-    std::string  name;
-    unsigned int n_components;
-    /// Fields of three components become vectors for ParaView, others single scalars.
-    std::vector<double> values;
+    /// By body: the name of the .pvtu file for it alone, without that ending.
+    std::vector<std::string> names;
+    /// The number of the body that cells with a material belong to.
+    std::function<unsigned int(const dealii::types::material_id material)> body;
   };
 
-  /// Collective. Writes the owned cells as NAME.NUMBER.vtu with NAME.pvtu and NAME.pvd (on rank 0).
-  /// Fields are indexed like NodalSpace::relevant(); cell_value gives the cell field "body".
-  /// @param most_files of which neighbouring ranks share one where there are more ranks; 0 for one a rank
+  /// Collective. Writes the owned cells as NAME.NUMBER.vtu, the files of one body after those of the other,
+  /// with NAME.pvtu and NAME.pvd for all and one .pvtu for each body (on rank 0). Cells of a body share
+  /// points. Errors: InputError for a disk that is full.
+  /// @param fields indexed like NodalSpace::relevant() and NodalSpace::cells()
   void write_bodies(const std::string &folder, const std::string &name, const NodalSpace &space,
-                    const std::vector<OutputField>                                         &fields,
-                    const std::function<double(const dealii::types::material_id material)> &body,
-                    const unsigned int                                                      most_files);
+                    const VtuFields &fields, const BodyFiles &bodies, const FileFormat &format);
 
-  /// Collective. Writes the faces of a contact surface that this rank owns, in the same way. Fields are
+  /// Collective. Writes the faces of a contact surface that this rank works on, in the same way. Fields are
   /// indexed by vertex.
   void write_surface(const std::string &folder, const std::string &name, const ContactSurface &surface,
                      const std::vector<OutputField> &fields, const MPI_Comm communicator,
-                     const unsigned int most_files);
+                     const FileFormat &format);
 
   /// Writes the overlay of two surfaces as one .vtu stream: its triangles on the nonmortar side with the
   /// number of both triangles and, at the corners, the way to the image ("image") and its part along the

@@ -11,7 +11,7 @@
 namespace Signorini
 {
   /// A table of the load steps, with commas: t, iterations and active nodes; of each pair ("contact: ...")
-  /// force on the nonmortar side, load, approach, contact area, largest pressure and smallest gap; the
+  /// force on the nonmortar side, load, approach, contact area, largest and mean pressure, smallest gap; the
   /// reaction of each held boundary ("block: bottom: ...") and the displacement of each probe.
   void write_load_curve(std::ostream &out, const Results &results);
 } // namespace Signorini

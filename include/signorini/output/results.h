@@ -75,6 +75,10 @@ namespace Signorini
     std::size_t dropped_nodes = 0;
     /// Where the pressure is largest.
     dealii::Point<3> max_pressure_at;
+    /// load / contact_area; the largest recovered pressure, which does not scatter from node to node
+    /// (recover_pressure()), and where it is.
+    double           mean_pressure = 0., max_recovered_pressure = 0.;
+    dealii::Point<3> max_recovered_pressure_at;
     /// How far the surfaces slide on each other where they touch (length), and in multiples of the width of
     /// the faces there.
     double slip = 0., slip_in_faces = 0.;
@@ -179,6 +183,13 @@ namespace Signorini
     /// area: integral of the node's dual function; area times pressure sums up to the force.
     double area, pressure, recovered_pressure, gap;
     bool   active;
+    /// Number of the pair, and of the node in the mesh of this run and in the mesh file
+    /// (VolumeMesh::no_number where there is none).
+    unsigned int pair      = 0;
+    NodeIndex    node      = 0;
+    long         mesh_node = -1;
+    /// Outward unit normal of the surface that the node lies on.
+    Vector3 normal = Vector3();
   };
 
   /// The contact mapping of a pair, over all ranks.
@@ -241,8 +252,10 @@ namespace Signorini
     /// Load steps, if there were any; the last is what is in the rest of the results.
     std::vector<StepResult> steps;
     /// Norm of the nodal forces before reactions and contact forces are taken off (force).
-    double                   largest_nodal_force = 0.;
-    std::vector<PressureRow> pressure;
+    double largest_nodal_force = 0.;
+    /// At the nodes with a multiplier, which lie on the nonmortar surfaces; what arrives at the nodes of the
+    /// mortar surfaces.
+    std::vector<PressureRow> pressure, mortar_pressure;
     /// Remarks and warnings for the user.
     std::vector<std::string> notes;
   };

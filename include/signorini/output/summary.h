@@ -25,7 +25,7 @@ namespace Signorini
   /// convergence.csv: cycle, iteration, correction (energy norm), relative, active nodes.
   void write_convergence(std::ostream &out, const Results &results);
 
-  /// pressure.csv: x, y, z, area, pressure, gap, active.
+  /// pressure.csv: a row for each contact node, those of the nonmortar sides first.
   void write_pressure(std::ostream &out, const Results &results);
 
   /// The certificate in words.

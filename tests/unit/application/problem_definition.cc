@@ -17,6 +17,9 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <sstream>
+
 using namespace Signorini;
 using dealii::Point;
 using dealii::Triangulation;
@@ -82,6 +85,39 @@ TEST(ProblemDefinition, IsThatOfTheParameterFile)
   EXPECT_NEAR(b.results.pairs[0].min_pressure, 5., 1e-9);
   EXPECT_NEAR(b.results.pairs[0].max_pressure, 5., 1e-9);
   EXPECT_TRUE(b.results.certificate.objections.empty());
+}
+
+
+
+// Parameters from text are those of the file; messages name the text and the line.
+TEST(ProblemDefinition, IsThatOfTheText)
+{
+  const std::string   folder = std::string(SIGNORINI_SOURCE_DIR) + "/prm/hertz";
+  const ParameterFile file(folder + "/hertz.prm", {"Solver/Tolerance=1e-10"});
+  std::ifstream       in(file.path());
+  std::ostringstream  lines, a, b;
+  lines << in.rdbuf();
+  ParameterText problem;
+  problem.text   = lines.str();
+  problem.name   = "a dictionary";
+  problem.folder = folder;
+  const ParameterFile text(problem, {"Solver/Tolerance=1e-10"});
+  file.print(a, true);
+  text.print(b, true);
+  EXPECT_EQ(a.str(), b.str());
+  EXPECT_EQ(text.path(), "a dictionary");
+  EXPECT_EQ(text.problem(MPI_COMM_WORLD).bodies.size(), 2u);
+  try
+    {
+      problem.text = "set Bodies = a\nsubsection Body a\n  set Radius = wide\nend\n";
+      ParameterFile(problem, {});
+      FAIL() << "a radius that is no number";
+    }
+  catch (const InputError &error)
+    {
+      EXPECT_NE(std::string(error.what()).find("Line <3> of file <a dictionary>"), std::string::npos)
+          << error.what();
+    }
 }
 
 

@@ -1,0 +1,1 @@
+signorini_add_unit_tests(verification verification_report.cc)
