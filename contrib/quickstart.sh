@@ -1,14 +1,15 @@
 #!/usr/bin/env bash
 # Sets up a fresh Debian machine, builds Signorini, and runs an example or the tests. Safe to call again.
 #   contrib/quickstart.sh run [FILE.prm] [more options of signorini]
-#   contrib/quickstart.sh test
+#   contrib/quickstart.sh test [options of cmake]
+#   contrib/quickstart.sh packages     (only installs what a build needs)
 set -euo pipefail
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=$top/build/release
 packages=(g++ cmake ninja-build ccache libdeal.ii-dev libgmsh-dev libcgal-dev libeigen3-dev libsuitesparse-dev libopenblas0-serial python3 python3-numpy python3-matplotlib)
 # Debian's deal.II from version 13 on links with mold.
 [ "$(. /etc/os-release; echo "${VERSION_ID:-0}" | cut -d. -f1)" -ge 13 ] && [ "$(. /etc/os-release; echo "${ID:-}")" = debian ] && packages+=(mold)
-usage() { sed -n '3,4s/^# *//p' "${BASH_SOURCE[0]}"; exit 2; }
+usage() { sed -n '3,5s/^# *//p' "${BASH_SOURCE[0]}"; exit 2; }
 
 install_missing() {
   local missing=() p
@@ -28,9 +29,14 @@ install_missing() {
   rm -f /tmp/signorini-apt.$$.log
 }
 
+# build TARGET [options of cmake]
 build() {
+  local target=$1
+  shift
+  # Several sources at a time are half the work. A folder that is there keeps its way: who changes single sources builds without.
+  [ -f "$build/CMakeCache.txt" ] || set -- -DSIGNORINI_UNITY=ON "$@"
   cmake -G Ninja -S "$top" -B "$build" -DCMAKE_BUILD_TYPE=Release "$@"
-  ninja -C "$build"
+  ninja -C "$build" "$target"
 }
 
 case "${1:-}" in
@@ -39,7 +45,7 @@ case "${1:-}" in
     file=${1:-$top/prm/hertz/hertz.prm}
     [ $# -gt 0 ] && shift
     install_missing "${packages[@]}"
-    build -DSIGNORINI_TESTS=OFF -DSIGNORINI_PYTHON=OFF
+    build signorini_program -DSIGNORINI_TESTS=OFF -DSIGNORINI_PYTHON=OFF
     folder=${SIGNORINI_OUTPUT:-output}
     "$build/signorini" "$file" --output "$folder" "$@"
     hertz=$(dirname "$file")/hertz.json
@@ -49,9 +55,11 @@ case "${1:-}" in
     echo "quickstart: results in $folder (pressure.png, summary.json, bodies.pvd for ParaView)"
     ;;
   test)
+    shift
     install_missing "${packages[@]}" libgtest-dev libpsurface-dev doxygen universal-ctags pybind11-dev python3-dev python3-scipy python3-vtk9 xvfb xauth
-    build -DSIGNORINI_TESTS=ON -DSIGNORINI_PYTHON=ON
+    build all -DSIGNORINI_TESTS=ON -DSIGNORINI_PYTHON=ON "$@"
     ctest --test-dir "$build" --output-on-failure --parallel "$(nproc)"
     ;;
+  packages) install_missing "${packages[@]}" ;;
   *) usage ;;
 esac

@@ -13,3 +13,5 @@ signorini_add_layer(algebra
   rounded_sweep.cc
   vector_span.cc
 )
+# Kernels that exist once for each kind of processor compile alone.
+set_source_files_properties(algebra/block_row.cc algebra/rounded_sweep.cc PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)

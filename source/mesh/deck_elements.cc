@@ -261,7 +261,7 @@ namespace Signorini
   namespace
   {
     /// The triangles of a quadrilateral that is run through in a circle, cut from its smallest vertex.
-    std::array<std::array<unsigned int, 3>, 2> halves(std::vector<unsigned int> loop)
+    std::array<std::array<unsigned int, 3>, 2> halves_of_loop(std::vector<unsigned int> loop)
     {
       std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
       return {{{{loop[0], loop[1], loop[2]}}, {{loop[0], loop[2], loop[3]}}}};
@@ -306,7 +306,7 @@ namespace Signorini
       }
     const unsigned int centre = add_vertex(middle, {nodes.begin(), nodes.end()});
     for (const auto &side : hexahedron8.sides())
-      for (const auto &[a, b, c] : halves({n[side[0]], n[side[1]], n[side[2]], n[side[3]]}))
+      for (const auto &[a, b, c] : halves_of_loop({n[side[0]], n[side[1]], n[side[2]], n[side[3]]}))
         // Sides are run through clockwise, seen from outside: the centre lies in front.
         add_tetrahedron(a, b, c, centre);
   }

@@ -11,21 +11,32 @@ namespace Signorini
 {
   using namespace dealii;
 
+  bool kind_has(const GeneratedMeshParameters &p, const char *word)
+  {
+    return p.kind.find(word) != std::string::npos;
+  }
+
+
+
+  std::function<double(const Point<3> &)> coordinate_plane(const unsigned int axis, const double value)
+  {
+    return [axis, value](const Point<3> &p) { return p[axis] - value; };
+  }
+
+
+
+  void require_positive(const double value, const std::string &name)
+  {
+    if (!(value > 0.) || !std::isfinite(value))
+      throw InputError(name + " must be positive.");
+  }
+
+
+
   namespace
   {
     using Quadrilateral = std::array<Point<2>, 4>;
     using Places        = std::vector<double>;
-
-    bool has(const GeneratedMeshParameters &p, const char *word)
-    {
-      return p.kind.find(word) != std::string::npos;
-    }
-
-    void require_positive(const double value, const std::string &name)
-    {
-      if (!(value > 0.) || !std::isfinite(value))
-        throw InputError(name + " must be positive.");
-    }
 
     unsigned int cells_of_width(const double length, const double width)
     {
@@ -85,11 +96,6 @@ namespace Signorini
 
     constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
 
-    std::function<double(const Point<3> &)> plane(const unsigned int axis, const double value)
-    {
-      return [axis, value](const Point<3> &p) { return p[axis] - value; };
-    }
-
     std::function<double(const Point<3> &)> cylinder(const double radius)
     {
       return [radius](const Point<3> &p) { return std::hypot(p[0], p[1]) - radius; };
@@ -109,14 +115,14 @@ namespace Signorini
             for (unsigned int v = 0; v < 8; ++v)
               result.cells.back()[v] = Point<3>(q[v % 4][0], q[v % 4][1], p.height * z[k + v / 4]);
           }
-      result.boundaries = {{"start", plane(2, 0.)}, {"end", plane(2, p.height)}};
+      result.boundaries = {{"start", coordinate_plane(2, 0.)}, {"end", coordinate_plane(2, p.height)}};
       return result;
     }
 
     /// What a tube is cut off by: whole, y >= 0, or x, y >= 0.
     double angle_of_tube(const GeneratedMeshParameters &p)
     {
-      return numbers::PI * (has(p, "quarter") ? .5 : has(p, "half") ? 1. : 2.);
+      return numbers::PI * (kind_has(p, "quarter") ? .5 : kind_has(p, "half") ? 1. : 2.);
     }
 
     ShapedCells tube(const GeneratedMeshParameters &p)
@@ -135,7 +141,7 @@ namespace Signorini
       if (radial == 0)
         radial = cells_of_width(wall, width);
       if (along == 0)
-        along = has(p, "annulus") ? 1 : cells_of_width(p.height, width);
+        along = kind_has(p, "annulus") ? 1 : cells_of_width(p.height, width);
       const Grading   grading(p);
       const Point<3> &x   = grading.point();
       double          phi = std::atan2(x[1], x[0]);
@@ -157,8 +163,8 @@ namespace Signorini
       result.curved      = {{"outer", CurvedBoundary::cylinder}, {"inner", CurvedBoundary::cylinder}};
       result.boundaries.emplace_back("outer", cylinder(p.radius));
       result.boundaries.emplace_back("inner", cylinder(p.inner_radius));
-      result.boundaries.emplace_back("symmetry y", plane(1, 0.));
-      result.boundaries.emplace_back("symmetry x", plane(0, 0.));
+      result.boundaries.emplace_back("symmetry y", coordinate_plane(1, 0.));
+      result.boundaries.emplace_back("symmetry x", coordinate_plane(0, 0.));
       return result;
     }
 
@@ -202,7 +208,7 @@ namespace Signorini
     {
       require_positive(p.radius, "Radius");
       require_positive(p.height, "Height");
-      const unsigned int quarters  = has(p, "half of") ? 1 : 2;
+      const unsigned int quarters  = kind_has(p, "half of") ? 1 : 2;
       auto [radial, around, along] = p.round_divisions;
       if (around % (2 * quarters) != 0)
         throw InputError("Round divisions: the arc of a " + p.kind + " has two parts for each right angle: " +
@@ -224,8 +230,8 @@ namespace Signorini
       result.size        = p.radius;
       result.curved      = {{"outer", CurvedBoundary::cylinder}};
       result.boundaries.emplace_back("outer", cylinder(p.radius));
-      result.boundaries.emplace_back("flat", plane(1, 0.));
-      result.boundaries.emplace_back("symmetry x", plane(0, 0.));
+      result.boundaries.emplace_back("flat", coordinate_plane(1, 0.));
+      result.boundaries.emplace_back("symmetry x", coordinate_plane(0, 0.));
       return result;
     }
 
@@ -333,6 +339,6 @@ namespace Signorini
 
   ShapedCells extruded_cells(const GeneratedMeshParameters &p)
   {
-    return has(p, "prism") ? prism(p) : has(p, "cylinder") ? half_cylinder(p) : tube(p);
+    return kind_has(p, "prism") ? prism(p) : kind_has(p, "cylinder") ? half_cylinder(p) : tube(p);
   }
 } // namespace Signorini

@@ -25,6 +25,15 @@ namespace Signorini
     std::vector<CurvedBoundary>                                                          curved;
   };
 
+  /// Whether the word is part of the kind's name.
+  bool kind_has(const GeneratedMeshParameters &p, const char *word);
+
+  /// Vanishes where the coordinate has this value.
+  std::function<double(const dealii::Point<3> &)> coordinate_plane(unsigned int axis, double value);
+
+  /// Errors: InputError that calls the value by this name.
+  void require_positive(double value, const std::string &name);
+
   /// Whether a kind is one of those.
   bool is_extruded(const std::string &kind);
 

@@ -12,7 +12,7 @@ namespace Signorini
 
   namespace
   {
-    using Cells = std::vector<std::array<Point<3>, 8>>;
+    using Hexahedra = std::vector<std::array<Point<3>, 8>>;
 
     /// Corner (i, j, k) of the inner cube of an octant of the unit ball.
     Point<3> cube_corner(const unsigned int v)
@@ -30,9 +30,9 @@ namespace Signorini
     }
 
     /// Cells of the octant x, y, z >= 0 of the ball.
-    Cells ball_octant(const double radius)
+    Hexahedra ball_octant(const double radius)
     {
-      Cells cells(4);
+      Hexahedra cells(4);
       for (unsigned int v = 0; v < 8; ++v)
         {
           cells[0][v] = Point<3>(radius * cube_corner(v));
@@ -47,12 +47,12 @@ namespace Signorini
     }
 
     /// Cells of the octant of a shell: three patches, layers of near-cubic cells.
-    Cells shell_octant(const double inner, const double outer)
+    Hexahedra shell_octant(const double inner, const double outer)
     {
       const double       width = .7 * (inner + outer) / 2.;
       const unsigned int layers =
           std::max(1u, static_cast<unsigned int>(std::round((outer - inner) / width)));
-      Cells cells;
+      Hexahedra cells;
       for (unsigned int axis = 0; axis < 3; ++axis)
         for (unsigned int layer = 0; layer < layers; ++layer)
           {
@@ -67,7 +67,7 @@ namespace Signorini
     }
 
     /// Cells of the quarter x, y >= 0 of a cylinder below z = 0.
-    Cells cylinder_quarter(const double radius, const double height)
+    Hexahedra cylinder_quarter(const double radius, const double height)
     {
       const auto disk = [&](const unsigned int v, const bool outside) {
         static const double scale[] = {0., .5, .42};
@@ -75,7 +75,7 @@ namespace Signorini
         return Point<3>((outside ? 1. / p.norm() : scale[(v & 1) + (v >> 1 & 1)]) * radius * p);
       };
       const unsigned int layers = std::max(1u, static_cast<unsigned int>(std::round(height / (.5 * radius))));
-      Cells              cells;
+      Hexahedra          cells;
       for (unsigned int layer = 0; layer < layers; ++layer)
         for (int patch = -1; patch < 2; ++patch)
           {
@@ -91,7 +91,7 @@ namespace Signorini
     }
 
     /// Adds the mirror image of all cells in the plane through the origin normal to an axis.
-    void mirror(Cells &cells, const unsigned int axis)
+    void mirror(Hexahedra &cells, const unsigned int axis)
     {
       const std::size_t n = cells.size();
       for (std::size_t cell = 0; cell < n; ++cell)
@@ -106,7 +106,7 @@ namespace Signorini
     }
 
     /// Turns the octant z >= 0 into z <= 0 (a half turn that swaps x and y: cells stay right-handed).
-    void turn_down(Cells &cells)
+    void turn_down(Hexahedra &cells)
     {
       for (auto &cell : cells)
         for (Point<3> &p : cell)
@@ -138,13 +138,13 @@ namespace Signorini
                        "\"; it has left, right, front, back, bottom, top.");
     }
 
-    Cells block(const GeneratedMeshParameters &p)
+    Hexahedra block(const GeneratedMeshParameters &p)
     {
       check_grading_of_block(p.grading);
       std::array<std::vector<double>, 3> places;
       for (unsigned int c = 0; c < 3; ++c)
         places[c] = block_places(p, c);
-      Cells cells;
+      Hexahedra cells;
       for (unsigned int k = 0; k < p.divisions[2]; ++k)
         for (unsigned int j = 0; j < p.divisions[1]; ++j)
           for (unsigned int i = 0; i < p.divisions[0]; ++i)
@@ -162,7 +162,7 @@ namespace Signorini
     }
 
     /// Joins cells at coinciding corners.
-    VolumeMesh join(const Cells &cells, const double size)
+    VolumeMesh join(const Hexahedra &cells, const double size)
     {
       VolumeMesh                                  mesh;
       std::map<std::array<long, 3>, unsigned int> numbers;
@@ -222,17 +222,6 @@ namespace Signorini
       };
     }
 
-    std::function<double(const Point<3> &)> plane(const unsigned int axis, const double value)
-    {
-      return [axis, value](const Point<3> &p) { return p[axis] - value; };
-    }
-
-    void require_positive(const double value, const std::string &name)
-    {
-      if (!(value > 0.) || !std::isfinite(value))
-        throw InputError(name + " must be positive.");
-    }
-
     GeneratedMesh generate_block(const GeneratedMeshParameters &p)
     {
       for (unsigned int c = 0; c < 3; ++c)
@@ -242,46 +231,41 @@ namespace Signorini
         }
       const double size = p.lower_corner.distance(p.upper_corner);
       // Relative to the lower corner, so that joining and naming do not suffer from an offset.
-      Cells cells = block(p);
+      Hexahedra cells = block(p);
       for (auto &cell : cells)
         for (Point<3> &v : cell)
           v = Point<3>(v - p.lower_corner);
       VolumeMesh     mesh = join(cells, size);
       const Point<3> up   = Point<3>(p.upper_corner - p.lower_corner);
-      name_boundaries(mesh, first_match({{"left", plane(0, 0.)},
-                                         {"right", plane(0, up[0])},
-                                         {"front", plane(1, 0.)},
-                                         {"back", plane(1, up[1])},
-                                         {"bottom", plane(2, 0.)},
-                                         {"top", plane(2, up[2])}},
+      name_boundaries(mesh, first_match({{"left", coordinate_plane(0, 0.)},
+                                         {"right", coordinate_plane(0, up[0])},
+                                         {"front", coordinate_plane(1, 0.)},
+                                         {"back", coordinate_plane(1, up[1])},
+                                         {"bottom", coordinate_plane(2, 0.)},
+                                         {"top", coordinate_plane(2, up[2])}},
                                         size));
       for (Point<3> &v : mesh.vertices)
         v += p.lower_corner;
       return {mesh, {}};
     }
 
-    bool has(const GeneratedMeshParameters &p, const char *word)
-    {
-      return p.kind.find(word) != std::string::npos;
-    }
-
     GeneratedMesh generate_cylinder(const GeneratedMeshParameters &p)
     {
       require_positive(p.radius, "Radius");
       require_positive(p.height, "Height");
-      Cells cells = cylinder_quarter(p.radius, p.height);
-      if (!has(p, "quarter"))
+      Hexahedra cells = cylinder_quarter(p.radius, p.height);
+      if (!kind_has(p, "quarter"))
         {
           mirror(cells, 0);
           mirror(cells, 1);
         }
       VolumeMesh mesh = join(cells, p.radius);
       name_boundaries(
-          mesh, first_match({{"top", plane(2, 0.)},
-                             {"bottom", plane(2, -p.height)},
+          mesh, first_match({{"top", coordinate_plane(2, 0.)},
+                             {"bottom", coordinate_plane(2, -p.height)},
                              {"side", [&](const Point<3> &v) { return std::hypot(v[0], v[1]) - p.radius; }},
-                             {"symmetry x", plane(0, 0.)},
-                             {"symmetry y", plane(1, 0.)}},
+                             {"symmetry x", coordinate_plane(0, 0.)},
+                             {"symmetry y", coordinate_plane(1, 0.)}},
                             p.radius));
       return {mesh, {{"side", CurvedBoundary::cylinder}}};
     }
@@ -290,16 +274,16 @@ namespace Signorini
     GeneratedMesh generate_ball(const GeneratedMeshParameters &p)
     {
       require_positive(p.radius, "Radius");
-      const bool shell = has(p, "shell"), half = has(p, "half"), eighth = has(p, "eighth");
+      const bool shell = kind_has(p, "shell"), half = kind_has(p, "half"), eighth = kind_has(p, "eighth");
       if (shell)
         {
           require_positive(p.inner_radius, "Inner radius");
           require_positive(p.radius - p.inner_radius, "Radius minus Inner radius");
         }
-      Cells cells = shell ? shell_octant(p.inner_radius, p.radius) : ball_octant(p.radius);
+      Hexahedra cells = shell ? shell_octant(p.inner_radius, p.radius) : ball_octant(p.radius);
       if (half)
         turn_down(cells);
-      if (!has(p, "quarter") && !eighth)
+      if (!kind_has(p, "quarter") && !eighth)
         {
           mirror(cells, 0);
           mirror(cells, 1);
@@ -311,9 +295,9 @@ namespace Signorini
       name_boundaries(mesh,
                       first_match({{outer, [&](const Point<3> &v) { return v.norm() - p.radius; }},
                                    {"inner", [&](const Point<3> &v) { return v.norm() - p.inner_radius; }},
-                                   {flat, plane(2, 0.)},
-                                   {"symmetry x", plane(0, 0.)},
-                                   {"symmetry y", plane(1, 0.)}},
+                                   {flat, coordinate_plane(2, 0.)},
+                                   {"symmetry x", coordinate_plane(0, 0.)},
+                                   {"symmetry y", coordinate_plane(1, 0.)}},
                                   p.radius));
       GeneratedMesh result{mesh, {{outer, CurvedBoundary::sphere}}};
       if (shell)
@@ -353,6 +337,6 @@ namespace Signorini
       return generate_extruded(p);
     if (p.grading.ratio != 1.)
       throw InputError("Grading: a " + p.kind + " cannot be graded; refine it where that is needed.");
-    return has(p, "cylinder") ? generate_cylinder(p) : generate_ball(p);
+    return kind_has(p, "cylinder") ? generate_cylinder(p) : generate_ball(p);
   }
 } // namespace Signorini

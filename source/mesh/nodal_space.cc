@@ -39,13 +39,6 @@ namespace Signorini
       Assert(false, ExcInternalError());
       return 0;
     }
-
-    /// Sorted and without copies.
-    void make_unique(std::vector<NodeIndex> &list)
-    {
-      std::sort(list.begin(), list.end());
-      list.erase(std::unique(list.begin(), list.end()), list.end());
-    }
   } // namespace
 
 
@@ -163,7 +156,8 @@ namespace Signorini
         relevant.push_back(node);
     if (hexahedra)
       numbering.add_constrained(relevant, *hexahedra);
-    make_unique(relevant);
+    std::sort(relevant.begin(), relevant.end());
+    relevant.erase(std::unique(relevant.begin(), relevant.end()), relevant.end());
     relevant_nodes = owned_nodes;
     relevant_nodes.add_indices(relevant.begin(), relevant.end());
     relevant_nodes.compress();

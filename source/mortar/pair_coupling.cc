@@ -344,7 +344,7 @@ namespace Signorini
                       const std::vector<FaceMoments> &moments, const std::set<NodeIndex> &excluded,
                       const bool prescribed_gap, const DroppingRule &rule)
   {
-    return couple({nonmortar, mortar, SurfaceHalo(nonmortar, MPI_COMM_SELF)}, moments, excluded,
+    return couple(SharedPair{nonmortar, mortar, SurfaceHalo(nonmortar, MPI_COMM_SELF)}, moments, excluded,
                   prescribed_gap, rule);
   }
 } // namespace Signorini

@@ -59,7 +59,7 @@ namespace Signorini
       return kind + std::to_string(8 * sizeof(T));
     }
 
-    const char *byte_order()
+    const char *order_of_bytes()
     {
       const std::uint16_t one = 1;
       return *reinterpret_cast<const unsigned char *>(&one) == 1 ? "LittleEndian" : "BigEndian";
@@ -205,7 +205,7 @@ namespace Signorini
     void write_head(std::ostream &out, const char *const type, const bool has_data)
     {
       out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"" << type << "\" version=\"1.0\" byte_order=\""
-          << byte_order() << "\" header_type=\"UInt32\""
+          << order_of_bytes() << "\" header_type=\"UInt32\""
           << (has_data ? " compressor=\"vtkZLibDataCompressor\"" : "") << ">\n";
     }
 
@@ -303,7 +303,7 @@ namespace Signorini
   void write_collection(std::ostream &out, const std::vector<CollectionEntry> &entries)
   {
     out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\""
-        << byte_order() << "\">\n<Collection>\n"
+        << order_of_bytes() << "\">\n<Collection>\n"
         << std::setprecision(12);
     unsigned int part = 0;
     for (std::size_t i = 0; i < entries.size(); ++i)

@@ -22,7 +22,7 @@ namespace Signorini
       /// rounding: a node with neither stays what it is.
       double rounding = 1e-13;
     };
-    constexpr ActiveSetRule rule;
+    constexpr ActiveSetRule active_set_rule;
   } // namespace
 
 
@@ -61,7 +61,7 @@ namespace Signorini
     best = v;
     matrix().symmetric_residual(residual, v, problem.rhs);
     least_energy = -.5 * (problem.rhs * v + residual * v);
-    for (unsigned int k = 0; k < rule.n_sets; ++k)
+    for (unsigned int k = 0; k < active_set_rule.n_sets; ++k)
       {
         const Outcome outcome = solve_on_planes(v, problem, report, monitor);
         if (outcome == Outcome::converged)
@@ -130,7 +130,7 @@ namespace Signorini
         moved = 0.;
         // A length of zero is rounding: this is as far as it goes.
         if (!(planes.is_exact() || report.converged || length == 0. ||
-              (!is_seen && norm <= rule.inexact * first)))
+              (!is_seen && norm <= active_set_rule.inexact * first)))
           continue;
         is_seen = true;
         if (update_set(v))
@@ -153,7 +153,7 @@ namespace Signorini
   bool ActiveSetSolver::update_set(const Vector &v)
   {
     const HalfSpaces &spaces   = contact.half_spaces();
-    const double      rounding = rule.rounding * v.linfty_norm();
+    const double      rounding = active_set_rule.rounding * v.linfty_norm();
     bool              changes  = false;
     for (std::size_t p = 0; p < spaces.size(); ++p)
       {

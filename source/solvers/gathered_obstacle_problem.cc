@@ -17,7 +17,7 @@ namespace Signorini
 
   namespace
   {
-    struct ActiveSetRule
+    struct GatheredProblemRule
     {
       /// Steps of the primal-dual active set method, which may cycle.
       unsigned int n_steps = 20;
@@ -137,7 +137,7 @@ namespace Signorini
 
   bool GatheredObstacleProblem::Factors::try_factors(const States &states)
   {
-    const double stiffer  = is_singular ? 1. + ActiveSetRule().regularization : 1.;
+    const double stiffer  = is_singular ? 1. + GatheredProblemRule().regularization : 1.;
     const auto   plane_of = [&](const std::size_t node) {
       return factorized[node] ? states[node].normal : Vector3();
     };
@@ -205,7 +205,7 @@ namespace Signorini
   bool GatheredObstacleProblem::Factors::settle(Eigen::VectorXd &step, const States &states, Flags &active)
   {
     Eigen::VectorXd residual;
-    for (unsigned int k = 0; k < ActiveSetRule().n_steps; ++k)
+    for (unsigned int k = 0; k < GatheredProblemRule().n_steps; ++k)
       {
         if (!minimize(step, residual, states, active, true))
           return false;
@@ -232,7 +232,7 @@ namespace Signorini
     const double    start = energy(step, load);
     double          best = start, length = 1.;
     Eigen::VectorXd result = step;
-    for (unsigned int k = 0; k < ActiveSetRule().n_halvings; ++k, length *= .5)
+    for (unsigned int k = 0; k < GatheredProblemRule().n_halvings; ++k, length *= .5)
       {
         Eigen::VectorXd trial = step + length * direction;
         project(trial, states);
@@ -245,7 +245,7 @@ namespace Signorini
           break;
       }
     step = result;
-    return start - best > ActiveSetRule().rounding * std::abs(best);
+    return start - best > GatheredProblemRule().rounding * std::abs(best);
   }
 
 
@@ -254,7 +254,7 @@ namespace Signorini
   {
     const Eigen::VectorXd load = residual_of(states);
     Eigen::VectorXd       step = Eigen::VectorXd::Zero(load.size());
-    for (unsigned int k = 0; k < ActiveSetRule().n_newton_steps; ++k)
+    for (unsigned int k = 0; k < GatheredProblemRule().n_newton_steps; ++k)
       {
         Eigen::VectorXd residual = load - matrix * step, direction = Eigen::VectorXd::Zero(load.size());
         for (std::size_t i = 0; i < states.size(); ++i)

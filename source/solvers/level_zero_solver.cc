@@ -31,7 +31,7 @@ namespace Signorini
       /// from 1e-4 on tall bodies many.
       double regularization = 1e-9;
     };
-    constexpr LevelZeroRule rule;
+    constexpr LevelZeroRule level_zero_rule;
   } // namespace
 
 
@@ -39,7 +39,7 @@ namespace Signorini
   bool LevelZero::uses_amg(const NodeIndex n_nodes) const
   {
     return method == LevelZeroMethod::amg || method == LevelZeroMethod::algebraic_shortened ||
-           (method == LevelZeroMethod::automatic && n_nodes > rule.largest_for_cholesky);
+           (method == LevelZeroMethod::automatic && n_nodes > level_zero_rule.largest_for_cholesky);
   }
 
 
@@ -115,7 +115,7 @@ namespace Signorini
     const double                                         scale   = diagonal_scale(singular);
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(energies_of(motions, singular));
     Eigen::Index                                         n_kernel = 0;
-    while (n_kernel < n && eigen.eigenvalues()[n_kernel] <= rule.costs_nothing * scale)
+    while (n_kernel < n && eigen.eigenvalues()[n_kernel] <= level_zero_rule.costs_nothing * scale)
       ++n_kernel;
     const Eigen::MatrixXd basis = eigen.eigenvectors().leftCols(n_kernel);
     Eigen::MatrixXd       weights(n, n);
@@ -134,7 +134,7 @@ namespace Signorini
     definite = singular;
     for (unsigned int i = 0; i < definite.n_rows(); ++i)
       for (unsigned int k = 0; k < 9; ++k)
-        definite.block(definite.diagonal(i))[k] *= 1. + rule.regularization;
+        definite.block(definite.diagonal(i))[k] *= 1. + level_zero_rule.regularization;
   }
 
 
@@ -152,7 +152,7 @@ namespace Signorini
     for (std::size_t k = 0; k < kernel.size(); ++k)
       {
         const double work = kernel[k] * rhs;
-        is_loaded.push_back(std::abs(work) > rule.no_load * largest_rhs);
+        is_loaded.push_back(std::abs(work) > level_zero_rule.no_load * largest_rhs);
         if (!is_loaded.back())
           consistent.add(-work, kernel_weights[k]);
       }
@@ -185,6 +185,6 @@ namespace Signorini
           }
         return;
       }
-    solve_cg(*matrix, *amg, solution, rhs, rule.amg_tolerance, rule.amg_iterations);
+    solve_cg(*matrix, *amg, solution, rhs, level_zero_rule.amg_tolerance, level_zero_rule.amg_iterations);
   }
 } // namespace Signorini

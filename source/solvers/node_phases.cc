@@ -28,7 +28,7 @@ namespace Signorini
       /// Phases whose couplings are larger than the least by less than this part are equally good.
       double equally_good = .05;
     };
-    constexpr NodePhasesRule rule;
+    constexpr NodePhasesRule phases_rule;
 
     /// Steele, Lea, Flood: Fast splittable pseudorandom number generators (2014), the mixing function.
     std::uint64_t hash(std::uint64_t x)
@@ -51,8 +51,8 @@ namespace Signorini
     const NodePartition &partition = matrix.partition();
     if (partition.n_ranks() == 1)
       return;
-    n_phases =
-        partition.n_global() < rule.few_nodes * partition.n_ranks() ? rule.n_phases_there : rule.n_phases;
+    n_phases = partition.n_global() < phases_rule.few_nodes * partition.n_ranks() ? phases_rule.n_phases_there
+                                                                                  : phases_rule.n_phases;
     for (const unsigned int node : partition.shared_nodes())
       shared[node] = true;
     for (unsigned int node = 0; node < of_node.size(); ++node)
@@ -68,7 +68,7 @@ namespace Signorini
       }
     std::stable_sort(between_ranks.begin(), between_ranks.end(),
                      [](const Coupling &a, const Coupling &b) { return a.row < b.row; });
-    for (unsigned int pass = 0; pass < rule.n_passes; ++pass)
+    for (unsigned int pass = 0; pass < phases_rule.n_passes; ++pass)
       {
         move_shared_nodes(matrix, between_ranks, pass);
         import_ghost_flags(partition, of_node);
@@ -81,7 +81,7 @@ namespace Signorini
   void NodePhases::move_shared_nodes(const NodeBlockMatrix &matrix, const std::vector<Coupling> &couplings,
                                      const unsigned int pass)
   {
-    const bool is_last = pass + 1 == rule.n_passes;
+    const bool is_last = pass + 1 == phases_rule.n_passes;
     Work       work(n_phases, 0.);
     for (unsigned int row = 0; row < matrix.n_rows(); ++row)
       if (shared[row])
@@ -92,14 +92,14 @@ namespace Signorini
         Work               sum(n_phases, 0.);
         for (; k < couplings.size() && couplings[k].row == row; ++k)
           sum[of_node[couplings[k].ghost]] += couplings[k].norm;
-        if (!is_last && (hash(matrix.partition().to_global(row) * rule.n_passes + pass) & 1u) == 0)
+        if (!is_last && (hash(matrix.partition().to_global(row) * phases_rule.n_passes + pass) & 1u) == 0)
           continue;
         const double length = static_cast<double>(matrix.row_length(row));
         work[of_node[row]] -= length;
         const double least = *std::min_element(sum.begin(), sum.end());
         unsigned int best  = n_phases;
         for (unsigned int phase = 0; phase < n_phases; ++phase)
-          if (sum[phase] <= (1. + rule.equally_good) * least &&
+          if (sum[phase] <= (1. + phases_rule.equally_good) * least &&
               (best == n_phases || work[phase] < work[best]))
             best = phase;
         of_node[row] = static_cast<unsigned char>(best);

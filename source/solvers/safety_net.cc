@@ -11,13 +11,13 @@ namespace Signorini
 
   namespace
   {
-    constexpr SafetyNet::Rule rule;
+    constexpr SafetyNet::Rule net_rule;
 
     /// Logarithm of what an iteration has taken off the correction, in the mean over those watched.
     double decay_of(const std::vector<double> &history)
     {
-      return std::log(history[history.size() - 1 - rule.n_watched] / history.back()) /
-             static_cast<double>(rule.n_watched);
+      return std::log(history[history.size() - 1 - net_rule.n_watched] / history.back()) /
+             static_cast<double>(net_rule.n_watched);
     }
 
     /// Iterations to the tolerance, at the rate of the last ones.
@@ -76,7 +76,7 @@ namespace Signorini
 
   bool SafetyNet::uses_factors() const
   {
-    return n_unknowns() <= static_cast<double>(rule.largest_for_factors);
+    return n_unknowns() <= static_cast<double>(net_rule.largest_for_factors);
   }
 
 
@@ -84,20 +84,21 @@ namespace Signorini
   SafetyNet::Remedy SafetyNet::due(const ConvergenceReport &report, const ObstacleProblem &problem) const
   {
     if (!is_wanted() || report.converged || problem.semidefinite || level + 1 != hierarchy.n_levels() ||
-        report.history.size() <= rule.n_watched || report.iterations < not_before || report.scale <= 0.)
+        report.history.size() <= net_rule.n_watched || report.iterations < not_before || report.scale <= 0.)
       return Remedy::none;
     const double left = iterations_left(report, parameters);
     if (uses_factors())
-      return left > rule.left_with_factors + n_unknowns() / rule.unknowns_for_one_more
+      return left > net_rule.left_with_factors + n_unknowns() / net_rule.unknowns_for_one_more
                  ? Remedy::active_set_steps
                  : Remedy::none;
-    if (left <= rule.left_without)
+    if (left <= net_rule.left_without)
       return Remedy::none;
     const unsigned int n_ranks =
         Utilities::MPI::n_mpi_processes(hierarchy.level(level).matrix.partition().communicator());
-    if (!hierarchy.has_strong_smoothers() && n_unknowns() <= rule.largest_for_patches * n_ranks)
+    if (!hierarchy.has_strong_smoothers() && n_unknowns() <= net_rule.largest_for_patches * n_ranks)
       return Remedy::patches;
-    return n_conjugate + rule.fewest_searched <= rule.n_watched ? Remedy::active_set_steps : Remedy::none;
+    return n_conjugate + net_rule.fewest_searched <= net_rule.n_watched ? Remedy::active_set_steps
+                                                                        : Remedy::none;
   }
 
 
@@ -108,7 +109,7 @@ namespace Signorini
     report.before_patches = report.iterations;
     if (report.needed_patches)
       hierarchy.strengthen_smoothers();
-    not_before  = report.iterations + static_cast<unsigned int>(rule.n_watched) + 1;
+    not_before  = report.iterations + static_cast<unsigned int>(net_rule.n_watched) + 1;
     n_conjugate = 0;
   }
 
@@ -135,7 +136,7 @@ namespace Signorini
     net.n_steps = steps->n_steps();
     net.n_failed += ended ? 0 : 1;
     // Longer each time.
-    not_before  = report.iterations + (static_cast<unsigned int>(rule.n_watched) << net.n_failed);
+    not_before  = report.iterations + (static_cast<unsigned int>(net_rule.n_watched) << net.n_failed);
     n_conjugate = 0;
   }
 } // namespace Signorini

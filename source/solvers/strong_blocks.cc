@@ -43,7 +43,7 @@ namespace Signorini
       /// others.
       unsigned int most_colours = 7;
     };
-    constexpr StrongBlocksRule rule;
+    constexpr StrongBlocksRule blocks_rule;
 
     double trace_of(const double *const block)
     {
@@ -119,7 +119,7 @@ namespace Signorini
       }
     is_stretched.resize(n);
     for (unsigned int i = 0; i < n; ++i)
-      is_stretched[i] = largest[i] >= rule.stretched * trace_of(matrix.block(matrix.diagonal(i)));
+      is_stretched[i] = largest[i] >= blocks_rule.stretched * trace_of(matrix.block(matrix.diagonal(i)));
   }
 
 
@@ -128,7 +128,7 @@ namespace Signorini
                                const std::vector<double> &most_negative) const
   {
     return trace_of(matrix.block(entry)) <=
-           rule.strong * std::min(most_negative[row], most_negative[matrix.column(entry)]);
+           blocks_rule.strong * std::min(most_negative[row], most_negative[matrix.column(entry)]);
   }
 
 
@@ -192,12 +192,13 @@ namespace Signorini
     for (unsigned int start = 0; start < n; ++start)
       if (is_stretched[start] && !visited[start])
         {
-          std::vector<unsigned int> rows   = grow_block(start, rule.largest_block, strong, visited);
+          std::vector<unsigned int> rows   = grow_block(start, blocks_rule.largest_block, strong, visited);
           std::size_t               n_done = rows.size();
-          if (rows.size() > rule.piece_of_volume && mean_couplings(rows, most_negative) > rule.planar)
+          if (rows.size() > blocks_rule.piece_of_volume &&
+              mean_couplings(rows, most_negative) > blocks_rule.planar)
             {
               // The nodes that came last are at the border, and in the middle of another piece.
-              rows   = grow_block(start, rule.piece_of_volume, strong, nothing);
+              rows   = grow_block(start, blocks_rule.piece_of_volume, strong, nothing);
               n_done = rows.size() / 2;
             }
           for (std::size_t k = 0; k < n_done; ++k)
@@ -217,7 +218,7 @@ namespace Signorini
   {
     std::vector<unsigned int>      rows;
     std::map<unsigned int, double> coupling_of = {{start, 0.}};
-    while (rows.size() < rule.patch_size && !coupling_of.empty())
+    while (rows.size() < blocks_rule.patch_size && !coupling_of.empty())
       {
         const auto         is_less = [](const auto &a, const auto &b) { return a.second < b.second; };
         const auto         next    = std::max_element(coupling_of.begin(), coupling_of.end(), is_less);
@@ -289,8 +290,8 @@ namespace Signorini
     if (matrix.partition().n_ranks() > 1)
       {
         const RankColour colour = colour_rank(matrix.partition());
-        n_phases                = std::min(rule.most_colours, colour.n_colours) + 1;
-        border_phase            = colour.own % rule.most_colours;
+        n_phases                = std::min(blocks_rule.most_colours, colour.n_colours) + 1;
+        border_phase            = colour.own % blocks_rule.most_colours;
       }
     std::vector<SweepSchedule::Item> items;
     phases_of_node.assign(matrix.partition().n_local(), 0);
@@ -378,7 +379,7 @@ namespace Signorini
   void StrongBlocks::factorize(Block &block, const ContactState &contact)
   {
     const auto                          size     = static_cast<Eigen::Index>(dim * block.rows.size());
-    const bool                          is_dense = block.rows.size() <= rule.largest_dense;
+    const bool                          is_dense = block.rows.size() <= blocks_rule.largest_dense;
     Eigen::MatrixXd                     full;
     std::vector<Eigen::Triplet<double>> entries;
     if (is_dense)

@@ -37,7 +37,7 @@ namespace Signorini
     using Selection = std::function<bool(const unsigned int)>;
 
     /// Polygons with a smaller part of their triangle are turned.
-    constexpr double turned = -1e-12;
+    constexpr double turned_share = -1e-12;
 
     std::vector<bool> border_vertices(const SurfaceTopology &surface)
     {
@@ -85,9 +85,9 @@ namespace Signorini
           ++report.n_pairs;
           report.area_mortar_covered +=
               polygon.mortar_share * incidence.mortar_normal[polygon.mortar_triangle].norm();
-          report.n_flips += polygon.share < turned;
+          report.n_flips += polygon.share < turned_share;
           report.n_cells += polygon.last - polygon.first - 2;
-          is_wrong = is_wrong || polygon.share < turned;
+          is_wrong = is_wrong || polygon.share < turned_share;
         }
       if (is_wrong)
         report.wrong_triangles.push_back(t);

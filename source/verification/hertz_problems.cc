@@ -9,8 +9,6 @@ namespace Signorini
 {
   namespace
   {
-    constexpr double pi = dealii::numbers::PI;
-
     /// 1 / (sum of (1 - nu^2) / E).
     double contact_modulus(const double young1, const double poisson1, const double young2,
                            const double poisson2)
@@ -21,7 +19,7 @@ namespace Signorini
     /// For a quarter of a round contact: the radius, with the mean of r = 3 pi a / 16.
     double radius_from_moment(const std::vector<PressureRow> &rows)
     {
-      return 16. / (3. * pi) * mean_over_force(rows, radius);
+      return 16. / (3. * dealii::numbers::PI) * mean_over_force(rows, radius);
     }
 
     /// H1: a half-ball in a quarter model, pressed into a cylinder whose size counts.
@@ -75,7 +73,7 @@ namespace Signorini
                      materials + Settings{"Refinement/Final global cycles=" + std::to_string(mesh)});
         const double f = std::abs(results.pairs[0].force[2]), r = radius_from_moment(results.pressure);
         return measured(results, {relative_error(f, force), relative_error(r, a),
-                                  relative_error(6. * f / (pi * r * r), p0)});
+                                  relative_error(6. * f / (dealii::numbers::PI * r * r), p0)});
       };
       return problem;
     }
@@ -121,7 +119,7 @@ namespace Signorini
       const double force = 4. * std::abs(results.pairs[0].force[2]), relative_radius = 8. * 12. / (8. + 12.),
                    modulus = contact_modulus(7e3, .3, 2e4, .25),
                    a       = std::cbrt(3. * force * relative_radius / (4. * modulus)),
-                   p0      = 3. * force / (2. * pi * a * a);
+                   p0      = 3. * force / (2. * dealii::numbers::PI * a * a);
       const auto pressure  = [&](const dealii::Point<3> &x) {
         return p0 * std::sqrt(std::max(0., 1. - std::pow(radius(x) / a, 2)));
       };
@@ -191,8 +189,9 @@ namespace Signorini
                  "Body block/Divisions=" + n(20) + ", 1, " + n(12), "Refinement/Global cycles=1"});
       const double r = 10., depth = .2, modulus = contact_modulus(1000., .3, 1000., .3),
                    // Both halves, by depth.
-          force = 2. * results.pairs[0].load / depth, half_width = std::sqrt(4. * force * r / (pi * modulus)),
-                   p0 = std::sqrt(force * modulus / (pi * r));
+          force               = 2. * results.pairs[0].load / depth,
+                   half_width = std::sqrt(4. * force * r / (dealii::numbers::PI * modulus)),
+                   p0         = std::sqrt(force * modulus / (dealii::numbers::PI * r));
       // For p0 sqrt(1 - (x / b)^2) the mean of x^2 is (b / 2)^2.
       const double square =
           mean_over_force(results.pressure, [](const dealii::Point<3> &x) { return x[0] * x[0]; });

@@ -11,8 +11,7 @@ namespace Signorini
 {
   namespace
   {
-    constexpr double pi = dealii::numbers::PI, young = 1000., poisson = .3,
-                     modulus = young / (1. - poisson * poisson);
+    constexpr double young = 1000., poisson = .3, modulus = young / (1. - poisson * poisson);
 
     struct Indenter
     {
@@ -38,14 +37,15 @@ namespace Signorini
           return 0.;
         // x^2 = r^2 + u^2.
         const auto f = [&](const double u) { return slope(std::hypot(r, u)) / std::hypot(r, u); };
-        return modulus / pi *
+        return modulus / dealii::numbers::PI *
                integral(f, std::sqrt(std::max(0., flat * flat - r * r)), std::sqrt(a * a - r * r));
       }
 
       /// The mean of the squared radius, weighted with the pressure.
       double mean_square() const
       {
-        return 2. * pi * integral([&](const double r) { return pressure(r) * r * r * r; }, 0., a) / force();
+        return 2. * dealii::numbers::PI *
+               integral([&](const double r) { return pressure(r) * r * r * r; }, 0., a) / force();
       }
     };
 
@@ -55,7 +55,8 @@ namespace Signorini
     {
       const double      size = 8. * indenter.a;
       const std::string r = "sqrt(x^2+y^2+z^2)", n = std::to_string(size),
-                        factor = number(indenter.force() * (1. + poisson) / (2. * pi * young)),
+                        factor =
+                            number(indenter.force() * (1. + poisson) / (2. * dealii::numbers::PI * young)),
                         side =
                             "((-z)/" + r + "^3-" + number(1. - 2. * poisson) + "/(" + r + "*(" + r + "-z)))",
                         far = "(" + factor + "*x*" + side + ", " + factor + "*y*" + side + ", -" + factor +
@@ -133,8 +134,8 @@ namespace Signorini
     const Indenter paraboloid = {"(x^2+y^2)/2", [](const double x) { return x * x; },
                                  [](const double x) { return 2. * x; }, .2};
     const Indenter cone       = {"0.05*sqrt(x^2+y^2)",
-                                 [](const double x) { return .025 * pi * x; },
-                                 [](const double) { return .025 * pi; },
+                                 [](const double x) { return .025 * dealii::numbers::PI * x; },
+                                 [](const double) { return .025 * dealii::numbers::PI; },
                                  .2,
                                  0.,
                                  .05};

@@ -10,11 +10,9 @@ namespace Signorini
 {
   namespace
   {
-    constexpr double pi = dealii::numbers::PI;
-
     /// Radii of the two shells, (E, nu) of the inner and of the outer one.
-    constexpr std::array<double, 3> radii    = {{.5, .75, 1.}};
-    constexpr double                young[2] = {1000., 2000.}, poisson[2] = {.3, .2};
+    constexpr std::array<double, 3> radii       = {{.5, .75, 1.}};
+    constexpr double                young_of[2] = {1000., 2000.}, poisson_of[2] = {.3, .2};
     /// The outside is under the pressure load[0] + load[1] P2(cos t), t the angle from the z axis.
     constexpr double load[2] = {10., 4.};
 
@@ -37,7 +35,7 @@ namespace Signorini
     /// u_r, u_t and the stresses rr, rt of a mode at r, without the angular functions.
     std::array<double, 4> values(const Mode &m, const unsigned int n, const unsigned int body, const double r)
     {
-      const LameConstants material(young[body], poisson[body]);
+      const LameConstants material(young_of[body], poisson_of[body]);
       const double        slope = std::pow(r, m.power - 1);
       return {
           {m.u * std::pow(r, m.power), m.v * std::pow(r, m.power),
@@ -56,7 +54,7 @@ namespace Signorini
     Solution solve_shells(const unsigned int n)
     {
       const double                     a = radii[0], b = radii[1], c = radii[2];
-      const std::vector<Mode>          inner = modes(n, poisson[0]), outer = modes(n, poisson[1]);
+      const std::vector<Mode>          inner = modes(n, poisson_of[0]), outer = modes(n, poisson_of[1]);
       std::vector<std::vector<double>> matrix;
       std::vector<double>              right;
       // Value k at r in the inner shell (factor in), less that in the outer one (factor out).
@@ -93,7 +91,7 @@ namespace Signorini
     {
       const std::string r = "sqrt(x^2+y^2+z^2)", p2 = "(1.5*z^2/(x^2+y^2+z^2)-0.5)";
       const auto        series = [&](const Solution &s, const unsigned int n, const bool radial) {
-        const std::vector<Mode> m = modes(n, poisson[body]);
+        const std::vector<Mode> m = modes(n, poisson_of[body]);
         std::string             text;
         for (unsigned int i = 0; i < m.size(); ++i)
           text += (i == 0 ? "" : "+") + number(s.coefficients[body][i] * (radial ? m[i].u : m[i].v)) + "*" +
@@ -120,9 +118,9 @@ namespace Signorini
           text += "subsection Body " + name +
                   "\n set Mesh = spherical shell\n set Inner radius = " + std::to_string(radii[body]) +
                   "\n set Radius = " + std::to_string(radii[body + 1]) +
-                  "\n set Young modulus = " + std::to_string(young[body]) +
-                  "\n set Poisson ratio = " + std::to_string(poisson[body]) + "\n set Dirichlet = " + name +
-                  ": " + u + "\n set Exact displacement = " + u + "\nend\n";
+                  "\n set Young modulus = " + std::to_string(young_of[body]) +
+                  "\n set Poisson ratio = " + std::to_string(poisson_of[body]) +
+                  "\n set Dirichlet = " + name + ": " + u + "\n set Exact displacement = " + u + "\nend\n";
         }
       return text + R"(
         subsection Body inner
@@ -137,8 +135,8 @@ namespace Signorini
       )";
     }
 
-    VerificationProblem turned(const std::string &name, const std::string &what, const Settings &settings,
-                               const unsigned int n_quick)
+    VerificationProblem turned_shells(const std::string &name, const std::string &what,
+                                      const Settings &settings, const unsigned int n_quick)
     {
       const Solution      constant = solve_shells(0), curved = solve_shells(2);
       const std::string   text = shells(constant, curved);
@@ -237,7 +235,7 @@ namespace Signorini
                          exact + Settings{"Refinement/Global cycles=" + std::to_string(mesh + 1)});
         const DisplacementErrors u = displacement_errors(results);
         // An eighth of the sphere is pi r^2 / 4 in the projection along z.
-        const double mean = std::abs(results.pairs[0].force[2]) / (pi * 1.5 * 1.5 / 4.);
+        const double mean = std::abs(results.pairs[0].force[2]) / (dealii::numbers::PI * 1.5 * 1.5 / 4.);
         return measured(results, {u.l2, u.energy, relative_error(mean, pressure),
                                   constant_pressure_error(results, pressure)});
       };
@@ -251,12 +249,14 @@ namespace Signorini
   {
     return {
         lame(),
-        turned("shells-turned",
-               "Two whole shells under a pressure that varies, one mesh turned in the other; the gap is that "
-               "between the spheres.",
-               {}, 3),
-        turned("shells-prescribed", "The same with the gap 0 prescribed.", {"Pair contact/Initial gap=0"}, 2),
-        turned("shells-tetrahedra", "The same as shells-turned with tetrahedra in the inner shell.",
-               {"Body inner/Convert to tetrahedra=true"}, 2)};
+        turned_shells(
+            "shells-turned",
+            "Two whole shells under a pressure that varies, one mesh turned in the other; the gap is that "
+            "between the spheres.",
+            {}, 3),
+        turned_shells("shells-prescribed", "The same with the gap 0 prescribed.",
+                      {"Pair contact/Initial gap=0"}, 2),
+        turned_shells("shells-tetrahedra", "The same as shells-turned with tetrahedra in the inner shell.",
+                      {"Body inner/Convert to tetrahedra=true"}, 2)};
   }
 } // namespace Signorini

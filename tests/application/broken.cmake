@@ -1,5 +1,6 @@
 # Programs that are broken on purpose: one source with one change (a sign), the rest as it is. `signorini verify` has to
-# notice them. The object comes before the archive, which has the same symbols and is not asked for them any more.
+# notice them. The object comes before the archive, which has the same symbols and is not asked for them any more: its source
+# compiles alone there (SKIP_UNITY_BUILD_INCLUSION in its files.cmake).
 function(signorini_add_broken_program name source right wrong)
   set(original ${PROJECT_SOURCE_DIR}/source/${source})
   set(copy ${CMAKE_CURRENT_BINARY_DIR}/broken/${name}.cc)

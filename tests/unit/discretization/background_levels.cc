@@ -28,7 +28,7 @@ namespace
     };
     ConnectedNodes            mesh;
     std::vector<unsigned int> place(lines[0].size() * lines[1].size() * lines[2].size(), 0);
-    std::vector<double>       sizes(place.size(), 0.);
+    std::vector<double>       sizes(place.size());
     std::vector<Point<3>>     positions(place.size());
     for (std::size_t k = 0; k + 1 < lines[2].size(); ++k)
       for (std::size_t j = 0; j + 1 < lines[1].size(); ++j)

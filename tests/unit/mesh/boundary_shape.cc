@@ -304,5 +304,7 @@ TEST(NodeMovement, NodesInsideGiveWay)
   for (unsigned int v = 0; v < before.size(); ++v)
     if (is_fixed[v] &&
         std::none_of(targets.begin(), targets.end(), [&](const auto &t) { return t.first == v; }))
-      EXPECT_EQ(mesh.vertices[v], before[v]);
+      {
+        EXPECT_EQ(mesh.vertices[v], before[v]);
+      }
 }

@@ -349,10 +349,12 @@ TEST(GeneratedMesh, NewVerticesLieOnTheTrueGeometry)
           for (const auto &cell : bodies.triangulation().active_cell_iterators())
             for (const auto &face : cell->face_iterators())
               if (face->at_boundary() && ids.count(face->boundary_id()) > 0)
-                for (unsigned int v = 0; v < 4; ++v)
-                  EXPECT_NEAR(std::hypot(face->vertex(v)[0], face->vertex(v)[2] - 1.),
-                              name == "outer" ? 2. : 1., 1e-12)
-                      << kind;
+                {
+                  for (unsigned int v = 0; v < 4; ++v)
+                    EXPECT_NEAR(std::hypot(face->vertex(v)[0], face->vertex(v)[2] - 1.),
+                                name == "outer" ? 2. : 1., 1e-12)
+                        << kind;
+                }
         }
     }
 }

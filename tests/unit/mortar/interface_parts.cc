@@ -127,7 +127,7 @@ TEST(InterfaceParts, RowsAreThoseOfTheWhole)
           compute_face_moments(interface.non, interface.mor, own_part(interface, rank), {}, comm);
       const auto ghosted = halo.add_ghosts(own);
       const auto part =
-          couple({interface.non, interface.mor, halo}, ghosted, interface.excluded, false, rule);
+          couple(SharedPair{interface.non, interface.mor, halo}, ghosted, interface.excluded, false, rule);
 
       EXPECT_EQ(part.n_rows_of_all, whole.coupling.n_rows());
       EXPECT_EQ(dealii::Utilities::MPI::sum(part.coupling.n_rows(), comm), whole.coupling.n_rows());
