@@ -6,10 +6,10 @@ root_doc = 'doc/index'
 source_suffix = {'.md': 'markdown'}
 html_theme = 'sphinx_rtd_theme'
 html_theme_options = {'navigation_depth': 3}
+# What is typed has its own quotes and hyphens.
+smartquotes = False
 html_copy_source = False
 html_show_sphinx = False
-# The site has to be read from disk, without a network.
-html_theme_path = []
 myst_heading_anchors = 4
 suppress_warnings = ['myst.header']
 exclude_patterns = []

@@ -18,6 +18,8 @@ def declared(text):
     result, sections, description = [], [], []
     for line in text.splitlines():
         words = line.strip()
+        if words in ('# Listing of Parameters', '# ---------------------'):
+            continue
         if words.startswith('#'):
             description.append(words[1:].strip())
         elif words.startswith('subsection '):
@@ -30,8 +32,6 @@ def declared(text):
             name, _, value = words[4:].partition('=')
             result.append(('/'.join(sections), name.strip(), value.strip(), ' '.join(description)))
             description = []
-        elif not words:
-            pass
     return result
 
 
@@ -67,12 +67,11 @@ def main():
         print(re.sub(r'([<>|_*])', r'\\\1', description) + '\n')
         print(f'- default: {"`" + default + "`" if default else "empty"}')
         kind = section.split(' ')[0]
-        for value, file in found.get((kind, name), []):
-            if value and value != default:
-                print(f'- example, `{os.path.basename(file)}`: `set {name} = {value}`')
-                break
+        used = [(value, file) for value, file in found.get((kind, name), []) if value and value != default]
+        for value, file in used[:1]:
+            print(f'- example, `{os.path.basename(file)}`: `set {name} = {value}`')
         if section:
-            print(f'- on the command line: `--set "{place}/{name}=..."`')
+            print(f'- on the command line: `--set "{place}/{name}={used[0][0] if used else default or "..."}"`')
         print()
 
 

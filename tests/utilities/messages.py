@@ -12,13 +12,13 @@ provokes it:
     s|old text|new text|                 a change of the problem's file; \\n is a new line
     file NAME|text                       a file beside it; \\n is a new line
     run arguments                        a run of the program before this one
-    write NAME|text                      after these runs, a file that takes the place of another
     ```
 
 Instead of a block a line "Provoked by: " names another test, or why none can. PROBLEM is a file of prm/ or one of the short names below, `none`, or `map` for signorini-map. Without `code` the exit code is 1. Entries with `code=0` or 3 are notes and warnings on
 the terminal; all others are one line on stderr, and leave no results.
 """
 import concurrent.futures
+import glob
 import os
 import re
 import shlex
@@ -51,7 +51,7 @@ def entries():
                 else:
                     block.append(line)
             elif line.startswith('Provoked by: '):
-                result[-1][2].append(None)
+                result[-1][2].append(line)
             elif line.startswith('```provoke'):
                 words = line.split()[1:]
                 code = [int(w[5:]) for w in words if w.startswith('code=')]
@@ -99,8 +99,6 @@ def set_up(folder, problem, lines, commands):
                 f.write(unescape(text))
         elif line.startswith('run '):
             commands.append(shlex.split(line[4:]))
-        elif line.startswith('write '):
-            commands.append(['write', line[6:]])
         elif line.startswith('s|') or not line:
             pass
         elif line.startswith('-') or problem in ('none', 'map'):
@@ -112,8 +110,8 @@ def set_up(folder, problem, lines, commands):
     return arguments
 
 
-def provoke(programs, heading, problem, code, lines):
-    """The complaints about one way to provoke a message."""
+def provoke(programs, problem, code, lines):
+    """What a run says, and complaints about how it ends."""
     program = programs['map' if problem == 'map' else 'run']
     environment = Program(program, 1).environment
     with tempfile.TemporaryDirectory() as folder:
@@ -121,28 +119,18 @@ def provoke(programs, heading, problem, code, lines):
         try:
             arguments = set_up(folder, problem, lines, commands)
         except ValueError as error:
-            return [str(error)]
-        for command in commands:
-            if command[0] == 'write':
-                name, text = command[1].split('|', 1)
-                with open(os.path.join(folder, name), 'w') as f:
-                    f.write(unescape(text))
-                continue
-            subprocess.run([program] + command, cwd=folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=100)
-        run = subprocess.run([program] + arguments, cwd=folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=100)
+            return '', [str(error)]
+        for command in commands + [arguments]:
+            run = subprocess.run([program] + command, cwd=folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=300)
         said = run.stdout.decode(errors='replace') + run.stderr.decode(errors='replace')
         complaints = []
         if run.returncode != code:
             complaints.append(f'exit code {run.returncode}, not {code}')
-        if not pattern(heading).search(plain(said)):
-            complaints.append('says something else')
         if code == 1 and run.stderr.count(b'error:') != 1:
             complaints.append('not one message')
         if code == 1 and 'results in' not in said and not commands and os.path.isdir(os.path.join(folder, 'out')):
             complaints.append('results are left')
-        if complaints:
-            complaints.append(said[-900:])
-        return complaints
+        return said, complaints
 
 
 # Calls that make a message: input errors, the refusals of decks, notes of a run.
@@ -203,28 +191,49 @@ def missing(headings):
             yield f'{file}:{line}: "{text}" has no entry in doc/messages.md'
 
 
+def named_tests(catalogue):
+    """Complaints about tests that entries name and that are not there."""
+    known = ''
+    for file in glob.glob(os.path.join(TOP, 'tests', '*', 'files.cmake')):
+        with open(file) as f:
+            known += f.read()
+    for line, _, blocks in catalogue:
+        for block in blocks:
+            if isinstance(block, str):
+                for name in re.findall(r'test `\w+/(\w+)`', block):
+                    if not re.search(rf'\b{name}\b', known):
+                        yield f'line {line}: there is no test {name}'
+
+
+def provoke_all(programs, catalogue):
+    """Complaints; entries that the same run provokes share it."""
+    headings = {}
+    for line, heading, blocks in catalogue:
+        for block in blocks:
+            if not isinstance(block, str):
+                headings.setdefault((block[0], block[1], tuple(block[2])), []).append((line, heading))
+    with concurrent.futures.ThreadPoolExecutor(max(2, os.cpu_count() or 2)) as pool:
+        for block, (said, complaints) in zip(headings, pool.map(lambda block: provoke(programs, *block), headings)):
+            for line, heading in headings[block]:
+                wrong = complaints + ([] if pattern(heading).search(plain(said)) else ['says something else'])
+                if wrong:
+                    yield f'line {line}, "{heading}" by {block[0]} {list(block[2])}: ' + '\n    '.join(wrong + [said[-900:]])
+
+
 def main():
     arguments = [a for a in sys.argv[1:] if not a.startswith('--')]
     only = sys.argv[sys.argv.index('--only') + 1] if '--only' in sys.argv else ''
     if only:
         arguments.remove(only)
     catalogue = entries()
-    complaints = list(missing([h for _, h, _ in catalogue])) if not only else []
-    if '--missing' in sys.argv:
-        print('\n'.join(complaints), f'\n{len(complaints)} without an entry')
-        return bool(complaints)
-    programs = {'run': arguments[0], 'map': arguments[1] if len(arguments) > 1 else arguments[0] + '-map'}
-    jobs, n_elsewhere = [], 0
-    for line, heading, blocks in catalogue:
-        if not blocks and not only:
-            complaints.append(f'line {line}: nothing provokes "{heading}"')
-        n_elsewhere += None in blocks
-        jobs += [(line, heading, block) for block in blocks if only in heading and block]
-    with concurrent.futures.ThreadPoolExecutor(max(2, os.cpu_count() or 2)) as pool:
-        for (line, heading, block), found in zip(jobs, pool.map(lambda job: provoke(programs, job[1], *job[2]), jobs)):
-            if found:
-                complaints.append(f'line {line}, "{heading}" by {block[0]} {block[2]}: ' + '\n    '.join(found))
-    print(f'{len(catalogue)} messages, {len(jobs)} ways to provoke them; {n_elsewhere} by other tests or by nothing that a test can do')
+    complaints = [] if only else list(missing([h for _, h, _ in catalogue])) + list(named_tests(catalogue))
+    catalogue = [entry for entry in catalogue if only in entry[1]]
+    complaints += [f'line {line}: nothing provokes "{heading}"' for line, heading, blocks in catalogue if not blocks]
+    if '--missing' not in sys.argv:
+        programs = {'run': os.path.abspath(arguments[0]), 'map': os.path.abspath(arguments[1] if len(arguments) > 1 else arguments[0] + '-map')}
+        complaints += provoke_all(programs, catalogue)
+    n_elsewhere = sum(any(isinstance(block, str) for block in blocks) for _, _, blocks in catalogue)
+    print(f'{len(catalogue)} messages: {len(catalogue) - n_elsewhere} provoked here, {n_elsewhere} by other tests or by nothing that a test can do')
     print('\n'.join(complaints))
     return bool(complaints)
 
