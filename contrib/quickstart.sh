@@ -56,7 +56,8 @@ case "${1:-}" in
     ;;
   test)
     shift
-    install_missing "${packages[@]}" libgtest-dev libpsurface-dev doxygen universal-ctags pybind11-dev python3-dev python3-scipy python3-vtk9 xvfb xauth
+    install_missing "${packages[@]}" libgtest-dev libpsurface-dev doxygen universal-ctags pybind11-dev python3-dev python3-scipy python3-vtk9 xvfb xauth \
+      python3-sphinx python3-myst-parser python3-sphinx-rtd-theme codespell hunspell hunspell-en-gb hunspell-en-us gmsh git
     build all -DSIGNORINI_TESTS=ON -DSIGNORINI_PYTHON=ON "$@"
     ctest --test-dir "$build" --output-on-failure --parallel "$(nproc)"
     ;;

@@ -77,7 +77,8 @@ namespace
   {
     const std::string part = name + ".part";
     std::ofstream     out(part);
-    writer(out);
+    if (out)
+      writer(out);
     out.close();
     std::error_code error;
     if (out)
