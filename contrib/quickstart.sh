@@ -47,9 +47,10 @@ case "${1:-}" in
     [ "$(basename "$file")" = hertz.prm ] && [ -f "$hertz" ] && options=(--hertz "$hertz")
     /usr/bin/python3 "$top/contrib/plots/plot_pressure.py" "$folder" "${options[@]}"
     echo "quickstart: results in $folder (pressure.png, summary.json, bodies.pvd for ParaView)"
+    if [ -f "$folder/report.html" ]; then echo "quickstart: open $(realpath "$folder")/report.html in a browser"; fi
     ;;
   test)
-    install_missing "${packages[@]}" libgtest-dev libpsurface-dev doxygen universal-ctags
+    install_missing "${packages[@]}" libgtest-dev libpsurface-dev doxygen universal-ctags chromium
     build -DSIGNORINI_TESTS=ON
     ctest --test-dir "$build" --output-on-failure --parallel "$(nproc)"
     ;;
