@@ -120,9 +120,13 @@ namespace Signorini
       return mesh;
     }
 
+    /// How many of n triangles a surface gets; what is small stays as it is.
     std::size_t share_of(const std::size_t part, const std::size_t whole, const std::size_t n)
     {
-      return whole <= n ? part : static_cast<std::size_t>(static_cast<double>(part) / whole * n);
+      constexpr std::size_t few = 100;
+      if (whole <= n)
+        return part;
+      return std::max(static_cast<std::size_t>(static_cast<double>(part) / whole * n), std::min(part, few));
     }
 
     void write_drawn(JsonWriter &json, const ReportMesh &mesh, const std::size_t n_triangles)
