@@ -53,11 +53,12 @@ case "${1:-}" in
     [ "$(basename "$file")" = hertz.prm ] && [ -f "$hertz" ] && options=(--hertz "$hertz")
     /usr/bin/python3 "$top/contrib/plots/plot_pressure.py" "$folder" "${options[@]}"
     echo "quickstart: results in $folder (pressure.png, summary.json, bodies.pvd for ParaView)"
+    if [ -f "$folder/report.html" ]; then echo "quickstart: open $(realpath "$folder")/report.html in a browser"; fi
     ;;
   test)
     shift
     install_missing "${packages[@]}" libgtest-dev libpsurface-dev doxygen universal-ctags pybind11-dev python3-dev python3-scipy python3-vtk9 xvfb xauth \
-      python3-sphinx python3-myst-parser python3-sphinx-rtd-theme codespell hunspell hunspell-en-gb hunspell-en-us gmsh git
+      python3-sphinx python3-myst-parser python3-sphinx-rtd-theme codespell hunspell hunspell-en-gb hunspell-en-us gmsh git chromium
     build all -DSIGNORINI_TESTS=ON -DSIGNORINI_PYTHON=ON "$@"
     ctest --test-dir "$build" --output-on-failure --parallel "$(nproc)"
     ;;

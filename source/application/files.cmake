@@ -36,5 +36,6 @@ signorini_add_layer(application
   run_problem.cc
   run_state.cc
   ties.cc
+  write_report.cc
   write_results.cc
 )

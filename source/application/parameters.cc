@@ -143,6 +143,13 @@ namespace Signorini
                       "Files (.vtu) into which bodies and contact surfaces are divided: where there are more "
                       "ranks, neighbours write one together. 0: one file a rank.",
                       Patterns::Integer(0, 1000000));
+    prm.add_parameter("Report", report,
+                      "Write report.html, a page for a browser with verdict, numbers and turnable pictures.");
+    prm.add_parameter("Length unit", length_unit,
+                      "What lengths of the input are measured in, for the report only, e.g. mm: it stands "
+                      "behind its numbers, nothing is converted.");
+    prm.add_parameter("Force unit", force_unit, "The same for forces, e.g. N.");
+    prm.add_parameter("Stress unit", stress_unit, "The same for moduli, stresses and pressures, e.g. MPa.");
     add_choice(
         prm, "Checkpoint", checkpoints.times,
         {{CheckpointTimes::automatic, "automatic"},

@@ -2,10 +2,12 @@
 // Copyright (C) 2026 by the Signorini authors
 
 #include "paraview_files.h"
+#include "result_file.h"
 
 #include <signorini/algebra/input_error.h>
 #include <signorini/application/body_evaluation.h>
 #include <signorini/application/deck_results.h>
+#include <signorini/application/write_report.h>
 #include <signorini/application/write_results.h>
 #include <signorini/mesh/surface_extraction.h>
 #include <signorini/mortar/contact_forces.h>
@@ -164,24 +166,6 @@ namespace Signorini
 
   namespace
   {
-    template <typename F>
-    void write_file(const std::string &path, const F &writer)
-    {
-      std::ofstream out(path);
-      try
-        {
-          writer(out);
-          out.close();
-        }
-      catch (const ExceptionBase &)
-        {
-          // deal.II looks at the stream, too.
-          out.setstate(std::ios::failbit);
-        }
-      if (!out)
-        throw InputError("the file \"" + path + "\" cannot be written: is the disk full?");
-    }
-
     void write_mappings(const Discretization &d, const OutputFolder &folder)
     {
       const unsigned int rank = Utilities::MPI::this_mpi_process(d.nodal().communicator());
@@ -372,6 +356,7 @@ namespace Signorini
     , output(output)
     , folder(folder)
     , times(times)
+    , report(output.report ? std::make_shared<ReportSteps>(model, folder, times.size()) : nullptr)
   {
   }
 
@@ -388,6 +373,8 @@ namespace Signorini
                                             static_cast<unsigned int>(std::to_string(times.size()).size()));
     };
     write_fields(model, d, solution, fields, folder, suffix(step));
+    if (report)
+      report->add(step, times[step], d, solution);
 
     if (Utilities::MPI::this_mpi_process(model.communicator()) == 0)
       write_series(folder.path(), paraview_blocks(model.bodies(), d, output), step + 1,
@@ -434,6 +421,8 @@ namespace Signorini
     results.wall_time += time.stop();
     if (!results.cycles.empty())
       results.cycles.back().times.add(Phase::output, times[Phase::output]);
+    if (output.report && !mesh_only)
+      write_report(nested, model, file, folder);
     if (Utilities::MPI::this_mpi_process(comm) != 0)
       return;
     write_texts(results, file, folder.path());

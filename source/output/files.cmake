@@ -6,6 +6,10 @@ signorini_add_layer(output
   final_words.cc
   output_folder.cc
   progress.cc
+  report_mesh.cc
+  report_page.cc
+  report_surfaces.cc
+  report_template.cc
   summary.cc
   termination.cc
   vtu_file.cc

@@ -56,6 +56,9 @@ namespace Signorini
     bool double_precision = false;
     /// Files in which all ranks together write a field; 0 for one a rank.
     unsigned int most_files = 64;
+    /// The page report.html; what lengths, forces and stresses are measured in, as it shall say.
+    bool        report = true;
+    std::string length_unit, force_unit, stress_unit;
     /// When the state is saved, and how long the run may take.
     CheckpointParameters checkpoints;
 

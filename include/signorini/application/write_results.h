@@ -8,8 +8,12 @@
 #include <signorini/output/field_output.h>
 #include <signorini/output/output_folder.h>
 
+#include <memory>
+
 namespace Signorini
 {
+  class ReportSteps;
+
   /// "signorini 0.1.0 (deal.II 9.4.1, ...)".
   std::string version_text();
 
@@ -50,6 +54,8 @@ namespace Signorini
     const OutputParameters    &output;
     const OutputFolder        &folder;
     const std::vector<double> &times;
+    /// Shared by the copies that std::function makes; null where there is no report.
+    std::shared_ptr<ReportSteps> report;
   };
 
   /// Collective. Adds to the results what the iteration does not know: what happens to the bodies, the
