@@ -22,7 +22,7 @@ namespace Signorini
 
   namespace
   {
-    bool is_root(const MPI_Comm communicator)
+    bool is_first_rank(const MPI_Comm communicator)
     {
       return Utilities::MPI::this_mpi_process(communicator) == 0;
     }
@@ -190,7 +190,7 @@ namespace Signorini
     const auto write = [&](ReportBlocks *const blocks) {
       write_state(*surfaces, blocks, {step, time}, model, d, solution);
     };
-    if (is_root(model.communicator()))
+    if (is_first_rank(model.communicator()))
       write_file(folder.path() + file_name(step), [&](std::ostream &out) {
         ReportBlocks blocks(out);
         write(&blocks);
@@ -214,7 +214,7 @@ namespace Signorini
     const auto           write = [&](ReportBlocks *const blocks) {
       write_state(surfaces, blocks, ReportState(), model, d, nested.solution);
     };
-    if (!is_root(model.communicator()))
+    if (!is_first_rank(model.communicator()))
       {
         if (n_steps == 0)
           write(nullptr);
