@@ -14,6 +14,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <sstream>
 
 namespace Signorini
@@ -37,6 +38,26 @@ namespace Signorini
       return sides;
     }
 
+    /// Vertices without a partner have a gap of zero in the files for ParaView; a picture would show that
+    /// they touch.
+    void remove_void_gaps(std::vector<OutputField> &fields)
+    {
+      const auto values = [&](const std::string &name) {
+        const auto field =
+            std::find_if(fields.begin(), fields.end(), [&](const OutputField &f) { return f.name == name; });
+        return field == fields.end() ? nullptr : &field->values;
+      };
+      std::vector<double> *const gap = values("gap");
+      const auto *const active = values("active"), *const image = values("mortar_image");
+      if (gap == nullptr || active == nullptr || image == nullptr)
+        return;
+      for (std::size_t v = 0; v < gap->size(); ++v)
+        if ((*gap)[v] == 0. && (*active)[v] == 0. &&
+            std::all_of(image->begin() + 3 * v, image->begin() + 3 * v + 3,
+                        [](const double x) { return x == 0.; }))
+          (*gap)[v] = std::numeric_limits<double>::quiet_NaN();
+    }
+
     /// Collective. The fields of a solution.
     void write_state(const ReportSurfaces &surfaces, ReportBlocks *const blocks, const ReportState &state,
                      const ContactModel &model, const Discretization &d, const ContactSolution &solution)
@@ -47,11 +68,15 @@ namespace Signorini
           of_bodies.push_back(std::move(field));
       std::vector<ReportSide> sides = sides_of(d);
       for (ReportSide &side : sides)
-        for (OutputField &field : side.is_mortar ? mortar_fields(d, solution, side.pair)
-                                                 : nonmortar_fields(d, solution, side.pair))
-          if (field.name == "displacement" || field.name == "pressure" ||
-              field.name == "recovered pressure" || field.name == "gap")
-            side.fields.push_back(std::move(field));
+        {
+          auto fields = side.is_mortar ? mortar_fields(d, solution, side.pair)
+                                       : nonmortar_fields(d, solution, side.pair);
+          remove_void_gaps(fields);
+          for (OutputField &field : fields)
+            if (field.name == "displacement" || field.name == "pressure" ||
+                field.name == "recovered pressure" || field.name == "gap")
+              side.fields.push_back(std::move(field));
+        }
       surfaces.write_state(blocks, state, d.nodal(), of_bodies, sides);
     }
 
@@ -130,24 +155,19 @@ namespace Signorini
       out << '\n';
     }
 
-    /// Takes the fields of the drawn load steps into a page and removes their files. Returns how many there
-    /// were.
-    unsigned int take_steps(std::ostream *const out, const std::string &folder, const std::size_t n_steps)
+    /// Takes the fields of the drawn load steps into a page and removes their files.
+    void take_steps(std::ostream &out, const std::string &folder, const std::size_t n_steps)
     {
-      unsigned int n = 0;
       for (std::size_t k = 0; k < n_steps; ++k)
         {
           const std::string path = folder + ReportSteps::file_name(k);
           std::ifstream     in(path);
           if (!in)
             continue;
-          if (out != nullptr)
-            *out << in.rdbuf();
+          out << in.rdbuf();
           in.close();
           std::filesystem::remove(path);
-          ++n;
         }
-      return n;
     }
   } // namespace
 
@@ -204,9 +224,9 @@ namespace Signorini
   void write_report(const NestedSolution &nested, const ContactModel &model, const ParameterFile &file,
                     const OutputFolder &folder)
   {
-    const Discretization &d       = *nested.discretization;
-    const Results        &results = nested.results;
-    const std::size_t     n_steps = results.steps.size();
+    const Discretization &d         = *nested.discretization;
+    const Results        &results   = nested.results;
+    const bool            has_steps = !results.steps.empty();
     std::ostringstream    problem;
     describe(problem, model, d);
     const ReportSurfaces surfaces(d.nodal(), model.bodies(), sides_of(d),
@@ -216,7 +236,7 @@ namespace Signorini
     };
     if (!is_first_rank(model.communicator()))
       {
-        if (n_steps == 0)
+        if (!has_steps)
           write(nullptr);
         return;
       }
@@ -226,10 +246,10 @@ namespace Signorini
         blocks.json("summary", [&](std::ostream &o) { write_summary(o, results); });
         blocks.json("run", [&](std::ostream &o) { write_run(o, results, model, file, problem.str()); });
         surfaces.write_geometry(blocks);
-        if (n_steps == 0)
+        if (!has_steps)
           write(&blocks);
         else
-          take_steps(&out, folder.path(), n_steps);
+          take_steps(out, folder.path(), file.load_steps().size());
       });
     });
   }
