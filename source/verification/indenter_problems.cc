@@ -155,8 +155,8 @@ namespace Signorini
             "indenter-quartic",
             "A rigid indenter of fourth power on a half-space; the largest pressure is not in the centre.",
             quartic),
-        problem("indenter-tetrahedra", "The same on tetrahedra.", quartic,
-                {"Body block/Convert to tetrahedra=true"}),
+        problem("indenter-tetrahedra", "A rigid indenter of fourth power on a half-space of tetrahedra.",
+                quartic, {"Body block/Convert to tetrahedra=true"}),
         problem("indenter-punch", "A rigid flat punch with a rounded edge on a half-space.", punch)};
   }
 } // namespace Signorini

@@ -134,9 +134,13 @@ namespace Signorini
             "Two blocks of different materials, meshes that do not match, in contact inside of a circle that "
             "is to be found.",
             two, {}),
-        problem("manufactured-stiff", "The same with the multipliers on the stiffer block.", two,
-                {"Pair plane/Nonmortar=second"}),
-        problem("manufactured-tetrahedra", "The same with tetrahedra in the upper block.", two,
-                {"Body upper/Convert to tetrahedra=true"})};
+        problem(
+            "manufactured-stiff",
+            "Two blocks in contact inside of a circle that is to be found, multipliers on the stiffer one.",
+            two, {"Pair plane/Nonmortar=second"}),
+        problem(
+            "manufactured-tetrahedra",
+            "A block of tetrahedra on one of hexahedra, in contact inside of a circle that is to be found.",
+            two, {"Body upper/Convert to tetrahedra=true"})};
   }
 } // namespace Signorini

@@ -49,7 +49,8 @@ namespace Signorini
       double error = 0.;
       for (const OverlayTriangle &cell : mapping.overlay())
         for (unsigned int c = 0; c < 3; ++c)
-          error = std::max(error, distance(evaluate(nonmortar, cell.nonmortar_triangle, cell.nonmortar[c]),
+          error =
+              larger_error(error, distance(evaluate(nonmortar, cell.nonmortar_triangle, cell.nonmortar[c]),
                                            evaluate(mortar, cell.mortar_triangle, cell.mortar[c])));
       return error;
     }
@@ -86,10 +87,10 @@ namespace Signorini
           if (m == there.none)
             continue;
           const SurfacePoint back = mapping.preimage(m, image.weights_in(there, m));
-          error = std::max(error, back.on == SurfacePoint::On::nothing || !back.lies_in(here, t)
-                                      ? 1.
-                                      : evaluate(nonmortar, t, back.weights_in(here, t))
-                                            .distance(evaluate(nonmortar, t, middle)));
+          error = larger_error(error, back.on == SurfacePoint::On::nothing || !back.lies_in(here, t)
+                                          ? 1.
+                                          : evaluate(nonmortar, t, back.weights_in(here, t))
+                                                .distance(evaluate(nonmortar, t, middle)));
         }
       return error;
     }

@@ -31,6 +31,9 @@ namespace Signorini
   /// |value / expected - 1|.
   double relative_error(const double value, const double expected);
 
+  /// The larger of two errors; one that is no number (NaN) stays.
+  double larger_error(const double a, const double b);
+
   /// Relative errors of the displacement of all bodies together on the last mesh, L2 norm and energy norm;
   /// the problem has Exact displacements.
   struct DisplacementErrors

@@ -137,23 +137,23 @@ namespace Signorini
                                    both("Pressures", "right: 2.5; front: 2.5; back: 2.5") + shrinks;
     const Settings hanging = {
         "Refinement/Regions=ball: (0.4, 0.5, 0.3), 0.31, 1; ball: (0.6, 0.5, -0.3), 0.31, 2"};
-    return {exact_problem("patch-blocks",
-                          "Two blocks, 3^3 cells on 4^3, pressed together by a prescribed displacement.",
-                          blocks, {}, 5.),
-            exact_problem(
-                "patch-turned",
-                "The same in a direction that no axis of coordinates has, under the same pressure from all "
-                "sides.",
-                blocks, all_held, shrinking_pressure),
-            exact_problem(
-                "patch-hanging",
-                "The same, sides loaded instead of held, refined inside of two balls: hanging nodes on both "
-                "sides of the contact.",
-                blocks, partly_loaded + hanging, shrinking_pressure),
-            exact_problem("patch-tetrahedra", "The same with tetrahedra in the upper block.", blocks,
-                          partly_loaded + hanging + Settings{"Body upper/Convert to tetrahedra=true"},
-                          shrinking_pressure),
-            overhang(),
-            separation()};
+    return {
+        exact_problem("patch-blocks",
+                      "Two blocks, 3^3 cells on 4^3, pressed together by a prescribed displacement.", blocks,
+                      {}, 5.),
+        exact_problem(
+            "patch-turned",
+            "Two blocks, turned away from the axes of coordinates, under the same pressure from all sides.",
+            blocks, all_held, shrinking_pressure),
+        exact_problem("patch-hanging",
+                      "Two turned blocks, sides loaded instead of held, with hanging nodes on both sides of "
+                      "the contact.",
+                      blocks, partly_loaded + hanging, shrinking_pressure),
+        exact_problem("patch-tetrahedra",
+                      "A turned block of tetrahedra on one of hexahedra, refined in part, sides loaded.",
+                      blocks, partly_loaded + hanging + Settings{"Body upper/Convert to tetrahedra=true"},
+                      shrinking_pressure),
+        overhang(),
+        separation()};
   }
 } // namespace Signorini

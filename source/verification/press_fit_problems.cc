@@ -75,7 +75,7 @@ namespace Signorini
       for (const PressureRow &row : rows)
         if (const double angle = std::atan2(row.position[1], row.position[0]), z = row.position[2] / height;
             .2 < z && z < .8 && .1 < angle && angle < 1.47)
-          error = std::max(error, relative_error(row.pressure, pressure));
+          error = larger_error(error, relative_error(row.pressure, pressure));
       return error;
     }
 
@@ -107,10 +107,11 @@ namespace Signorini
         const double             force   = pressure * shaft * height;
         const Vector3           &f       = results.pairs[0].force;
         return measured(
-               results, {u.l2, u.energy,
-                      pressure_error(results.pressure, [&](const dealii::Point<3> &) { return pressure; }),
-                      std::max(relative_error(std::abs(f[0]), force), relative_error(std::abs(f[1]), force)),
-                      error_inside(results.pressure, pressure)});
+               results,
+               {u.l2, u.energy,
+             pressure_error(results.pressure, [&](const dealii::Point<3> &) { return pressure; }),
+             larger_error(relative_error(std::abs(f[0]), force), relative_error(std::abs(f[1]), force)),
+             error_inside(results.pressure, pressure)});
       };
       return problem;
     }
@@ -176,7 +177,9 @@ namespace Signorini
     return {ring_problem(
                 "press-fit-rings",
                 "A ring pressed into another one, meshes that do not match, interference prescribed.", {}),
-            ring_problem("press-fit-tetrahedra", "The same with tetrahedra in both.",
+            ring_problem("press-fit-tetrahedra",
+                         "A ring of tetrahedra pressed into another one, meshes that do not match, "
+                         "interference prescribed.",
                          {"Body shaft/Convert to tetrahedra=true", "Body hub/Convert to tetrahedra=true"}),
             tube_problem()};
   }

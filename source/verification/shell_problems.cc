@@ -254,9 +254,12 @@ namespace Signorini
             "Two whole shells under a pressure that varies, one mesh turned in the other; the gap is that "
             "between the spheres.",
             {}, 3),
-        turned_shells("shells-prescribed", "The same with the gap 0 prescribed.",
+        turned_shells("shells-prescribed",
+                      "Two whole shells, one mesh turned in the other; the gap 0 is prescribed.",
                       {"Pair contact/Initial gap=0"}, 2),
-        turned_shells("shells-tetrahedra", "The same as shells-turned with tetrahedra in the inner shell.",
-                      {"Body inner/Convert to tetrahedra=true"}, 2)};
+        turned_shells(
+            "shells-tetrahedra",
+            "Two whole shells, the inner one of tetrahedra and turned; the gap is that between the spheres.",
+            {"Body inner/Convert to tetrahedra=true"}, 2)};
   }
 } // namespace Signorini

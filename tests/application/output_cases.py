@@ -101,7 +101,7 @@ def check_pressure(s, out):
 
 def check_blocks(out, suffix='', times=('0',)):
     entries = [(e.get('timestep'), e.get('part'), e.get('name'), e.get('file')) for e in parse(out, f'results{suffix}.pvd').iter('DataSet')]
-    names = ['body upper', 'body lower & more', 'contact interface, nonmortar side (body upper, boundary bottom)', 'contact interface, mortar side (body lower & more, boundary top)']
+    names = ['body upper', 'body lower & more', 'contact interface, nonmortar side (upper: bottom)', 'contact interface, mortar side (lower & more: top)']
     check([(t, part, name) for t, part, name, _ in entries] == [(t, str(i), name) for t in times for i, name in enumerate(names)], f'blocks: {entries}')
     for _, _, _, file in entries:
         check(os.path.exists(os.path.join(out, file)), f'{file} is missing')

@@ -8,6 +8,7 @@ import inspect
 import io
 import os
 import re
+import textwrap
 import unittest
 
 import numpy as np
@@ -39,6 +40,17 @@ class Document(unittest.TestCase):
                 said, should = (re.split(NUMBER, text) for text in (printed.getvalue(), expected))
                 self.assertEqual(said, should)
                 np.testing.assert_allclose(*(list(map(float, re.findall(NUMBER, text))) for text in (printed.getvalue(), expected)), rtol=.005)
+
+    def test_readme(self):
+        with open(os.path.join(TOP, 'README.md'), encoding='utf-8') as f:
+            code = re.search(r'^## Python\n\n((?: {4}[^\n]+\n)+)', f.read(), re.MULTILINE).group(1)
+        printed = io.StringIO()
+        with contextlib.redirect_stdout(printed):
+            exec(textwrap.dedent(code).replace('"prm/', f'"{TOP}/prm/'), {})  # pylint: disable=exec-used
+        pressure, stress = map(float, printed.getvalue().split())
+        # That of Lame for an interference of 0.02 (prm/shapes/README.md).
+        self.assertAlmostEqual(pressure / 66.007, 1, delta=.005)
+        self.assertGreater(stress, pressure)
 
     def test_docstrings(self):
         for name in signorini.__all__:

@@ -145,6 +145,18 @@ class Vectors(unittest.TestCase):
         expected, _ = active_set(A, f, normals, np.full(49, .2))
         np.testing.assert_allclose(signorini.solve_obstacle(A, f, self.prolongations, normals=normals, bounds=.2).u, expected, atol=1e-10)
 
+    def test_held_components(self):
+        """Of nodes that touch and of others."""
+        fixed = np.array([3, 5, 70])
+        free = np.setdiff1d(np.arange(147), fixed)
+        # A dense method: held by stiff springs.
+        stiff = self.A + sp.diags(np.where(np.isin(np.arange(147), fixed), 1e7, 0.))
+        expected, _ = active_set(stiff, self.f, self.normals, self.bounds)
+        for P in (self.prolongations, ()):
+            solution = signorini.solve_obstacle(self.A, self.f, P, normals=self.normals, bounds=self.bounds, fixed=fixed)
+            np.testing.assert_allclose(solution.u[free], expected[free], atol=1e-6)
+            np.testing.assert_array_equal(solution.u[fixed], 0)
+
     def test_without_half_spaces(self):
         solution = signorini.solve_obstacle(self.A, self.f, self.prolongations, components=3)
         np.testing.assert_allclose(solution.u, sp.linalg.spsolve(self.A.tocsc(), self.f), atol=1e-10)
@@ -172,6 +184,13 @@ class Errors(unittest.TestCase):
         with self.assertRaises(signorini.NotConverged) as caught:
             signorini.solve_obstacle(A, f, prolongations, lower=stairs(x), solver={'Maximal iterations': 1})
         self.assertEqual(caught.exception.result.iterations, 1)
+
+    def test_not_positive_definite(self):
+        A, f, prolongations, *_ = membrane(3)
+        with self.assertRaisesRegex(signorini.InputError, 'not positive definite'):
+            signorini.solve_obstacle(A - sp.diags(np.asarray(A.sum(axis=1)).ravel()), f, prolongations)
+        with self.assertRaisesRegex(signorini.NotConverged, 'positive definite'):
+            signorini.solve_obstacle(np.array([[1., 2.], [2., 1.]]), np.ones(2))
 
     def test_interrupt(self):
         """Sweeps alone would go on for minutes."""

@@ -166,6 +166,8 @@ def run_document(document, program, names):
                 where = f.read().strip()
             if run.returncode != code:
                 complaints.append(f'{place}: exit code {run.returncode}\n{text}\n' + run.stdout.decode(errors='replace')[-1500:])
+                # What follows builds on it.
+                break
     return complaints, counts
 
 

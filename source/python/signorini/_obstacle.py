@@ -106,6 +106,19 @@ def vector_half_spaces(nodes, normals, bounds, n_nodes):
     return nodes[order], three[order], (bounds / lengths)[order]
 
 
+def half_spaces(lower, upper, nodes, normals, bounds, n, components):
+    """Nodes, normals and bounds of whatever is given."""
+    if normals is None and bounds is not None or normals is not None and (bounds is None or lower is not None or upper is not None):
+        raise _core.InputError('A half-space has a normal and a bound; lower and upper are for scalar problems.')
+    if normals is not None:
+        return vector_half_spaces(nodes, normals, bounds, n // components)
+    if components == 1:
+        return scalar_half_spaces(lower, upper, n)
+    if lower is not None or upper is not None:
+        raise _core.InputError('lower, upper: for scalar problems; vectors have normals and bounds.')
+    return np.zeros(0, np.int64), np.zeros((0, 3)), np.zeros(0)
+
+
 def prescribed(fixed, values, n):
     """Mask of prescribed dofs, and a vector with their values."""
     mask = np.zeros(n, dtype=bool)
@@ -130,6 +143,21 @@ def solve(settings, problem):
     except _core.InputError as error:
         # Two lines come before.
         raise _core.InputError(_problem.explain(str(error), ['solver', 'solver', *settings], 'solver')) from None
+    except RuntimeError as error:
+        if 'singular' not in str(error):
+            raise
+        raise _core.InputError('A is not positive definite at the dofs that are not fixed.') from None
+
+
+def unbalanced_force(solution, fixed, normals, scale):
+    """The largest force at free components that no obstacle explains, over `scale`; normals (k, components) of the active nodes."""
+    fixed = fixed.reshape(-1, normals.shape[1])
+    rest = np.where(fixed, 0., solution.force.reshape(fixed.shape))
+    # An active half-space gives a force against its normal.
+    normals = np.where(fixed[solution.active], 0., normals)
+    along = np.minimum(np.einsum('ij,ij->i', rest[solution.active], normals), 0.) / np.einsum('ij,ij->i', normals, normals)
+    rest[solution.active] -= along[:, None] * normals
+    return np.abs(rest).max() / scale if scale > 0 else 0.
 
 
 def solve_obstacle(A, f, prolongations=(), *, lower=None, upper=None, normals=None, bounds=None, nodes=None, components=None, fixed=None,
@@ -156,26 +184,19 @@ def solve_obstacle(A, f, prolongations=(), *, lower=None, upper=None, normals=No
     components = int(components or (1 if normals is None else np.shape(normals)[-1]))
     if components not in (1, 2, 3) or n % components or (normals is not None and np.shape(normals)[-1] != components):
         raise _core.InputError(f'components: {components} of a node do not fit to {n} dofs and the normals.')
-    if normals is None and bounds is not None or normals is not None and (bounds is None or lower is not None or upper is not None):
-        raise _core.InputError('A half-space has a normal and a bound; lower and upper are for scalar problems.')
-    if normals is None and components > 1 and (lower is not None or upper is not None):
-        raise _core.InputError('lower, upper: for scalar problems; vectors have normals and bounds.')
-    n_nodes = n // components
-    at, normals, bounds = scalar_half_spaces(lower, upper, n) if normals is None and components == 1 else \
-        vector_half_spaces(np.zeros(0, int) if normals is None else nodes, np.zeros((0, components)) if normals is None else normals,
-                           np.zeros(0) if bounds is None else bounds, n_nodes)
+    at, normals, bounds = half_spaces(lower, upper, nodes, normals, bounds, n, components)
     mask, lift = prescribed(fixed, values, n)
-    if not np.isfinite(f).all():
-        raise _core.InputError('f: there are entries that are not finite.')
+    begin = np.zeros(n) if start is None else array(start, 'start', (n,), np.float64) - lift
+    if not np.isfinite(f).all() or not np.isfinite(begin).all():
+        raise _core.InputError('f, start: there are entries that are not finite.')
     if (A.diagonal()[~mask] <= 0.).any():
         raise _core.InputError(f'A: the diagonal is not positive at dof {np.flatnonzero(~mask & (A.diagonal() <= 0.))[0]}.')
     levels = []
     for i, P in enumerate(prolongations):
-        levels.append(nodal(P, f'prolongations[{i}]', levels[-1].shape[1] if levels else n_nodes, components))
+        levels.append(nodal(P, f'prolongations[{i}]', levels[-1].shape[1] if levels else n // components, components))
     # v = u - lift is zero where u is prescribed.
-    lift_at = np.zeros((n_nodes, 3))
-    lift_at[:, :components] = lift.reshape(n_nodes, components)
-    begin = np.zeros(n) if start is None else array(start, 'start', (n,), np.float64) - lift
+    lift_at = np.zeros((n // components, 3))
+    lift_at[:, :components] = lift.reshape(-1, components)
     settings = {'Tolerance': tolerance, **(solver or {})}
     given = solve(settings, {'components': components, 'matrix': packed(A), 'rhs': f - A @ lift, 'start': begin, 'fixed': mask.astype(np.uint8),
                              'prolongations': [packed(P) for P in levels], 'nodes': at, 'normals': normals,
@@ -187,4 +208,10 @@ def solve_obstacle(A, f, prolongations=(), *, lower=None, upper=None, normals=No
                               given['history'] / scale if scale > 0 else given['history'], given['converged'], given['note'])
     if not result.converged:
         raise NotConverged('the iteration did not converge. ' + result.note, result)
+    # Where A is not positive definite an iteration may come to rest anywhere.
+    scale = (abs(A) @ np.abs(u) + np.abs(f)).max()
+    rest = unbalanced_force(result, mask, normals[np.searchsorted(at, result.active), :components], scale)
+    if not rest <= 1e-6 + 100 * settings['Tolerance']:
+        raise NotConverged(f'the forces are not in balance (relative to the largest: {rest:.2g}); is A positive definite at the dofs that are not fixed?',
+                           result)
     return result

@@ -39,7 +39,8 @@ namespace
     return out.str();
   }
 
-  const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+  const double no_number = std::numeric_limits<double>::quiet_NaN(),
+               infinite  = std::numeric_limits<double>::infinity();
 } // namespace
 
 
@@ -70,7 +71,7 @@ TEST(Verify, NoNumberNeverPasses)
 {
   for (const VerifiedQuantity &q : {VerifiedQuantity{"L2", "", {}, 1.9}, VerifiedQuantity{"L2", "", {}},
                                     VerifiedQuantity{"L2", "", {1.}}})
-    for (const double bad : {nan, inf, -inf})
+    for (const double bad : {no_number, infinite, -infinite})
       {
         EXPECT_FALSE(judged(q, {.4, bad}).passes());
         EXPECT_FALSE(judged(q, {bad, .1}).passes());
@@ -118,8 +119,7 @@ TEST(Verify, EveryProblemHasBarsAndEnoughMeshes)
       for (const VerifiedQuantity &q : p.quantities)
         {
           EXPECT_TRUE(!q.most.empty() || q.least_order != VerifiedQuantity::any_order) << p.name << q.name;
-          if (q.least_order != VerifiedQuantity::any_order)
-            EXPECT_GE(p.n_quick, 2u) << p.name;
+          EXPECT_TRUE(p.n_quick >= 2 || q.least_order == VerifiedQuantity::any_order) << p.name;
         }
     }
 }
