@@ -15,6 +15,8 @@ if(CTAGS_PROGRAM)
            COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/contrib/utilities/function_lines.py --check)
   add_test(NAME utilities/function_lines.cases
            COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/utilities/function_lines_cases.py)
+  add_test(NAME utilities/local_names COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/contrib/utilities/local_names.py)
+  add_test(NAME utilities/local_names.cases COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/utilities/local_names_cases.py)
 endif()
 # The pictures of contrib/plots; those by VTK where it is installed.
 foreach(kind matplotlib vtk)
