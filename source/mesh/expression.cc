@@ -23,8 +23,8 @@ namespace Signorini
              std::to_string(text.size()) + " characters)";
     }
 
-    /// An expression is evaluated at every node: what is longer was not written by a person. (The parser has a
-    /// bound of its own, and needs no recursion.)
+    /// An expression is evaluated at every node: what is longer was not written by a person. (The parser has
+    /// a bound of its own, and needs no recursion.)
     constexpr std::size_t longest_expression = 10000;
   } // namespace
 
@@ -157,7 +157,8 @@ namespace Signorini
   {
     const std::string trimmed = Utilities::trim(text);
     if (trimmed.size() < 2 || trimmed.front() != '(' || trimmed.back() != ')')
-      throw InputError(where + ": " + in_quotes(trimmed) + " should be a vector in parentheses, like (0, 0, -1).");
+      throw InputError(where + ": " + in_quotes(trimmed) +
+                       " should be a vector in parentheses, like (0, 0, -1).");
     const auto entries = split_list(trimmed.substr(1, trimmed.size() - 2), ',', where);
     if (entries.size() != dim)
       throw InputError(where + ": " + in_quotes(trimmed) + " should have three entries.");

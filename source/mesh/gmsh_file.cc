@@ -287,7 +287,7 @@ namespace Signorini
     std::string extension = std::filesystem::path(file).extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(), ::tolower);
     constexpr std::array<const char *, 11> known = {
-      {".mesh", ".meshb", ".vtk", ".unv", ".bdf", ".nas", ".med", ".cgns", ".neu", ".p3d", ".diff"}};
+        {".mesh", ".meshb", ".vtk", ".unv", ".bdf", ".nas", ".med", ".cgns", ".neu", ".p3d", ".diff"}};
     if (std::find(known.begin(), known.end(), extension) != known.end())
       return;
     std::ifstream in(file, std::ios::binary);
@@ -296,9 +296,10 @@ namespace Signorini
     for (const char *const word : {"$MeshFormat", "$NOD", "$Comments"})
       if (head.compare(0, std::string(word).size(), word) == 0)
         return;
-    throw InputError("Mesh file \"" + file + "\": it does not begin with $MeshFormat, as gmsh's files do" +
-                     (extension == ".msh" ? "" : ", and \"" + extension + "\" is the ending of no format known here") +
-                     ". Write the mesh as .msh.");
+    throw InputError(
+        "Mesh file \"" + file + "\": it does not begin with $MeshFormat, as gmsh's files do" +
+        (extension == ".msh" ? "" : ", and \"" + extension + "\" is the ending of no format known here") +
+        ". Write the mesh as .msh.");
   }
 
 

@@ -214,10 +214,9 @@ namespace Signorini
               throw InputError("Mesh file \"" + file + "\" cannot be opened.");
             std::string extension = std::filesystem::path(file).extension().string();
             std::transform(extension.begin(), extension.end(), extension.begin(), ::tolower);
-            mesh = extension == ".inp" ? read_abaqus_mesh(file) :
-                                         read_in_separate_process<VolumeMesh>(file, "gmsh", [&file] {
-                                           return read_with_gmsh(file);
-                                         });
+            mesh = extension == ".inp" ? read_abaqus_mesh(file)
+                                       : read_in_separate_process<VolumeMesh>(
+                                             file, "gmsh", [&file] { return read_with_gmsh(file); });
             mend_orientation(mesh, "Mesh file \"" + file + "\"");
           }
         catch (const InputError &e)

@@ -176,13 +176,14 @@ namespace Signorini
                             const Limits &limits)
     {
       const std::string too_long =
-        "has not read it within " + std::to_string(limits.seconds) + " s of processor time";
+          "has not read it within " + std::to_string(limits.seconds) + " s of processor time";
       if (bytes.size() < 2 || bytes.back() != end_of_answer)
         {
           const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
-          complain(reader, signal == SIGXCPU || signal == SIGKILL ?
-                             too_long :
-                             "breaks down over it" + (signal == 0 ? "" : " (signal " + std::to_string(signal) + ")"));
+          complain(reader, signal == SIGXCPU || signal == SIGKILL
+                               ? too_long
+                               : "breaks down over it" +
+                                     (signal == 0 ? "" : " (signal " + std::to_string(signal) + ")"));
         }
       const std::vector<char> content(bytes.begin() + 1, bytes.end() - 1);
       const std::string       text(content.begin(), content.end());

@@ -95,17 +95,18 @@ namespace Signorini
     {
       CGAL::File_header_OFF header;
       in >> header;
-      return in ? static_cast<double>(header.size_of_vertices()) + static_cast<double>(header.size_of_facets()) :
-                  0.;
+      return in ? static_cast<double>(header.size_of_vertices()) +
+                      static_cast<double>(header.size_of_facets())
+                : 0.;
     }
 
     /// CGAL makes room for what the head of a file announces before it reads the rest.
     void check_announced(const std::string &file, const std::string &extension)
     {
       std::ifstream in(file, std::ios::binary);
-      const double  n    = extension == ".ply" ? announced_in_ply(in) :
-                           extension == ".off" ? announced_in_off(in) :
-                                                 0.;
+      const double  n    = extension == ".ply"   ? announced_in_ply(in)
+                           : extension == ".off" ? announced_in_off(in)
+                                                 : 0.;
       const auto    size = static_cast<double>(std::filesystem::file_size(file));
       if (n <= size)
         return;
@@ -235,7 +236,7 @@ namespace Signorini
       throw InputError("Surface " + file + ": a vertex has no finite coordinates.");
     SurfaceMesh mesh;
     std::tie(mesh.vertices, mesh.triangles) =
-      read_separately(file, is_gmsh ? "gmsh" : "CGAL", is_gmsh ? read_gmsh : read_polygons);
+        read_separately(file, is_gmsh ? "gmsh" : "CGAL", is_gmsh ? read_gmsh : read_polygons);
     if (mesh.triangles.empty())
       throw InputError("Surface " + file + ": there are no triangles in it.");
     for (const Point<3> &p : mesh.vertices)

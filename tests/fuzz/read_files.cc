@@ -55,9 +55,11 @@ namespace
     return pages * static_cast<std::uint64_t>(sysconf(_SC_PAGE_SIZE));
   }
 
-  [[noreturn]] void run_child(const std::string &kind, const std::string &file, const int pipe_end, const Limits &limits)
+  [[noreturn]] void run_child(const std::string &kind, const std::string &file, const int pipe_end,
+                              const Limits &limits)
   {
-    const struct rlimit none = {0, 0}, memory = {size_of_process() + limits.bytes, size_of_process() + limits.bytes},
+    const struct rlimit none   = {0, 0},
+                        memory = {size_of_process() + limits.bytes, size_of_process() + limits.bytes},
                         time = {static_cast<rlim_t>(limits.seconds), static_cast<rlim_t>(limits.seconds) + 1};
     setrlimit(RLIMIT_CORE, &none);
     setrlimit(RLIMIT_CPU, &time);
@@ -109,15 +111,19 @@ namespace
   std::string outcome_of(const int status)
   {
     if (WIFSIGNALED(status))
-      return WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL ?
-               "time" :
-               "signal " + std::to_string(WTERMSIG(status));
+      return WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL
+                 ? "time"
+                 : "signal " + std::to_string(WTERMSIG(status));
     switch (WEXITSTATUS(status))
       {
-          case is_read: return "read";
-          case is_refused: return "refused";
-          case is_out_of_memory: return "memory";
-          default: return "thrown";
+        case is_read:
+          return "read";
+        case is_refused:
+          return "refused";
+        case is_out_of_memory:
+          return "memory";
+        default:
+          return "thrown";
       }
   }
 
@@ -148,9 +154,10 @@ namespace
     wait4(child, &status, 0, &used);
     kill(watch, SIGKILL);
     waitpid(watch, nullptr, 0);
-    const double seconds = used.ru_utime.tv_sec + used.ru_stime.tv_sec + 1e-6 * (used.ru_utime.tv_usec + used.ru_stime.tv_usec);
-    std::cout << outcome_of(status) << '\t' << seconds << '\t' << 1024. * used.ru_maxrss << '\t' << file << '\t' << message
-              << std::endl;
+    const double seconds =
+        used.ru_utime.tv_sec + used.ru_stime.tv_sec + 1e-6 * (used.ru_utime.tv_usec + used.ru_stime.tv_usec);
+    std::cout << outcome_of(status) << '\t' << seconds << '\t' << 1024. * used.ru_maxrss << '\t' << file
+              << '\t' << message << std::endl;
   }
 } // namespace
 

@@ -39,10 +39,10 @@ namespace Signorini
   T read_in_separate_process(const std::string &file, const std::string &reader,
                              const std::function<T()> &read, const ReadingRule &rule = {})
   {
-    return dealii::Utilities::unpack<T>(bytes_of_separate_process(
-                                          file, reader,
-                                          [&read] { return dealii::Utilities::pack(read(), false); }, rule),
-                                        false);
+    return dealii::Utilities::unpack<T>(
+        bytes_of_separate_process(
+            file, reader, [&read] { return dealii::Utilities::pack(read(), false); }, rule),
+        false);
   }
 } // namespace Signorini
 

@@ -25,7 +25,8 @@ namespace
   unsigned int read_all(const std::string &kind, const std::function<void(const std::string &file)> &read)
   {
     unsigned int n = 0;
-    for (const auto &entry : std::filesystem::directory_iterator(SIGNORINI_SOURCE_DIR "/tests/fuzz/found/" + kind))
+    for (const auto &entry :
+         std::filesystem::directory_iterator(SIGNORINI_SOURCE_DIR "/tests/fuzz/found/" + kind))
       {
         Timer time;
         try
@@ -119,7 +120,9 @@ TEST(DamagedFiles, CountsMakeSense)
     }
   // A block of -1 elements, of binary files: type, number, tags.
   std::string head = "$MeshFormat\n2.2 1 8\n";
-  const auto  add  = [&head](const int number) { head.append(reinterpret_cast<const char *>(&number), sizeof(int)); };
+  const auto  add  = [&head](const int number) {
+    head.append(reinterpret_cast<const char *>(&number), sizeof(int));
+  };
   add(1);
   head += "\n$EndMeshFormat\n$Elements\n5\n";
   for (const int number : {4, -1, 2})

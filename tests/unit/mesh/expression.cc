@@ -61,9 +61,9 @@ TEST(Expression, DoesNotRunAway)
   EXPECT_EQ(Expression(repeated("(", 4000) + "x" + repeated(")", 4000), "test")(p), .5);
   EXPECT_LT(Expression(repeated("sin(", 1500) + "x" + repeated(")", 1500), "test")(p), .5);
   for (const std::string &text :
-       {repeated("(", 50000) + "x" + repeated(")", 50000), repeated("x+", 100000) + "x", repeated("9", 100000) + "*x",
-        repeated("2^", 4000) + "2", repeated("(1+x)^", 1500) + "9", repeated("-", 9000) + "x", repeated("(", 9000),
-        repeated("if(", 3000)})
+       {repeated("(", 50000) + "x" + repeated(")", 50000), repeated("x+", 100000) + "x",
+        repeated("9", 100000) + "*x", repeated("2^", 4000) + "2", repeated("(1+x)^", 1500) + "9",
+        repeated("-", 9000) + "x", repeated("(", 9000), repeated("if(", 3000)})
     try
       {
         Expression(text, "Body first/Pressures")(p);

@@ -86,11 +86,11 @@ TEST(SeparateProcess, EndsWhatTakesTooLong)
   ReadingRule rule;
   rule.seconds = 1.;
   expect_in(error_of(
-              []() -> Numbers {
-                for (volatile unsigned int i = 0;;)
-                  i = i + 1;
-              },
-              rule),
+                []() -> Numbers {
+                  for (volatile unsigned int i = 0;;)
+                    i = i + 1;
+                },
+                rule),
             "has not read it within 1 s");
 }
 
