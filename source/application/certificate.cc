@@ -185,9 +185,9 @@ namespace Signorini
     c.energy              = solution.report.energy;
     c.potential_energy =
         potential_energy(model.bodies(), d.nodal(), d.partition(), model.loads(), solution.displacement);
-    // Where bodies only move all forces are rounding.
-    const bool has_forces =
-        evaluation.equilibrium.largest_nodal_force > CertificateRule().rounding * scales.force;
+    // Where bodies only move all forces are rounding, or what the solver has left of them.
+    const bool has_forces = evaluation.equilibrium.largest_nodal_force >
+                            std::max(CertificateRule().rounding, tolerance) * scales.force;
     object_to_solver(c, tolerance, has_converged, has_forces);
     for (unsigned int p = 0; p < d.pairs.size(); ++p)
       object_to_pair(c, evaluation.pairs[p], model.pairs()[p].definition.surface,

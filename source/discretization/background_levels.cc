@@ -146,20 +146,63 @@ namespace Signorini
 
 
 
+    /// Who came first with a vertex, among the few of a cell.
+    class FirstWithVertex
+    {
+    public:
+      /// Forgets all; there is room for a number of vertices.
+      void clear(const std::size_t n_vertices)
+      {
+        std::size_t size = 64;
+        while (size < 2 * n_vertices)
+          size *= 2;
+        if (size > slots.size())
+          slots.assign(size, {});
+        ++round;
+      }
+
+      /// The first entry with the vertex; `entry` where it is new.
+      std::size_t operator()(const BackgroundOctree::Vertex vertex, const std::size_t entry)
+      {
+        // The upper half of Fibonacci hashing: codes of neighbours differ in few bits.
+        std::size_t k = (vertex * 0x9E3779B97F4A7C15ull) >> 32;
+        for (;; ++k)
+          {
+            Slot &slot = slots[k & (slots.size() - 1)];
+            if (slot.round == round && slot.vertex != vertex)
+              continue;
+            if (slot.round != round)
+              slot = {vertex, round, entry};
+            return slot.first;
+          }
+      }
+
+    private:
+      struct Slot
+      {
+        BackgroundOctree::Vertex vertex = 0;
+        std::size_t              round = 0, first = 0;
+      };
+      std::vector<Slot> slots;
+      std::size_t       round = 0;
+    };
+
+
+
     std::vector<std::size_t> BackgroundBuilder::find_pieces(const VertexRows &rows) const
     {
-      DisjointSets                                                  sets(rows.vertices.size());
-      std::vector<std::pair<BackgroundOctree::Vertex, std::size_t>> in_cell;
+      DisjointSets    sets(rows.vertices.size());
+      FirstWithVertex first;
       for (std::size_t c = 0; c + 1 < cells.start.size(); ++c)
         {
-          in_cell.clear();
+          std::size_t n_entries = 0;
+          for (std::size_t k = cells.start[c]; k < cells.start[c + 1]; ++k)
+            n_entries += rows.start[cells.nodes[k] + 1] - rows.start[cells.nodes[k]];
+          first.clear(n_entries);
           for (std::size_t k = cells.start[c]; k < cells.start[c + 1]; ++k)
             for (std::size_t e = rows.start[cells.nodes[k]]; e < rows.start[cells.nodes[k] + 1]; ++e)
-              in_cell.emplace_back(rows.vertices[e], e);
-          std::sort(in_cell.begin(), in_cell.end());
-          for (std::size_t k = 1; k < in_cell.size(); ++k)
-            if (in_cell[k].first == in_cell[k - 1].first)
-              sets.unite(in_cell[k].second, in_cell[k - 1].second);
+              if (const std::size_t other = first(rows.vertices[e], e); other != e)
+                sets.unite(e, other);
         }
       std::vector<std::size_t> pieces(rows.vertices.size());
       for (std::size_t e = 0; e < pieces.size(); ++e)

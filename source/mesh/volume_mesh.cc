@@ -44,29 +44,42 @@ namespace Signorini
       unsigned int     cell;
     };
 
-    /// Of all cells; those with the same key follow each other, in the order of their cells.
+    VolumeMesh::Face face_of_cell(const VolumeMesh::Cell &cell, const unsigned int f)
+    {
+      VolumeMesh::Face face;
+      face[3] = VolumeMesh::no_vertex;
+      if (cell.n_vertices == CellShape::hexahedron)
+        for (unsigned int v = 0; v < 4; ++v)
+          face[v] = cell.vertices[GeometryInfo<3>::face_to_cell_vertices(f, v)];
+      else
+        for (unsigned int v = 0; v < 3; ++v)
+          face[v] = cell.vertices[CellShape::face(4, f)[v]];
+      return face;
+    }
+
+    /// Of all cells; those with the same key follow each other, in the order of their cells. Faces are dealt
+    /// out by their smallest vertex first: what is left to sort are a few dozen.
     std::vector<CellFace> sorted_faces(const VolumeMesh &mesh)
     {
-      std::vector<CellFace> faces;
-      for (unsigned int c = 0; c < mesh.cells.size(); ++c)
-        {
-          const VolumeMesh::Cell &cell = mesh.cells[c];
-          for (unsigned int f = 0; f < CellShape::n_faces(cell.n_vertices); ++f)
-            {
-              VolumeMesh::Face face;
-              face[3] = VolumeMesh::no_vertex;
-              if (cell.n_vertices == CellShape::hexahedron)
-                for (unsigned int v = 0; v < 4; ++v)
-                  face[v] = cell.vertices[GeometryInfo<3>::face_to_cell_vertices(f, v)];
-              else
-                for (unsigned int v = 0; v < 3; ++v)
-                  face[v] = cell.vertices[CellShape::face(4, f)[v]];
-              faces.push_back({face_key(face), face, c});
-            }
-        }
-      std::sort(faces.begin(), faces.end(), [](const CellFace &a, const CellFace &b) {
-        return std::tie(a.key, a.cell) < std::tie(b.key, b.cell);
+      const auto for_all_faces = [&](const auto &visit) {
+        for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+          for (unsigned int f = 0; f < CellShape::n_faces(mesh.cells[c].n_vertices); ++f)
+            visit(face_of_cell(mesh.cells[c], f), c);
+      };
+      std::vector<std::size_t> end(mesh.vertices.size() + 1, 0);
+      for_all_faces([&](const VolumeMesh::Face &face, const unsigned int) {
+        ++end[*std::min_element(face.begin(), face.end()) + 1];
       });
+      std::partial_sum(end.begin(), end.end(), end.begin());
+      std::vector<CellFace> faces(end.back());
+      for_all_faces([&](const VolumeMesh::Face &face, const unsigned int cell) {
+        const VolumeMesh::Face key = face_key(face);
+        faces[end[key[0]]++]       = {key, face, cell};
+      });
+      for (std::size_t v = 0, begin = 0; v < mesh.vertices.size(); begin = end[v], ++v)
+        std::sort(faces.begin() + begin, faces.begin() + end[v], [](const CellFace &a, const CellFace &b) {
+          return std::tie(a.key, a.cell) < std::tie(b.key, b.cell);
+        });
       return faces;
     }
 

@@ -8,6 +8,8 @@ import tempfile
 
 TOP = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 FAILURES = []
+# Of MPI, for this test alone: where several tests share one, the end of one may take it away while another begins.
+SESSIONS = tempfile.TemporaryDirectory(prefix='mpi-')
 
 
 def check(condition, text):
@@ -26,7 +28,7 @@ class Program:
         self.environment = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT='1', OMPI_ALLOW_RUN_AS_ROOT_CONFIRM='1',
                                 OMPI_MCA_rmaps_base_oversubscribe='1', OMPI_MCA_btl_vader_single_copy_mechanism='none',
                                 OMPI_MCA_pml='ob1', OMPI_MCA_btl='self,vader', OMPI_MCA_mpi_yield_when_idle='1',
-                                OMPI_MCA_ess_singleton_isolated='1')
+                                OMPI_MCA_ess_singleton_isolated='1', OMPI_MCA_orte_tmpdir_base=SESSIONS.name)
 
     def call(self, *arguments):
         # Where one rank ends with an error all do: mpirun would give the others a second.
