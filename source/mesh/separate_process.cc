@@ -172,7 +172,7 @@ namespace Signorini
       return text.str();
     }
 
-    std::vector<char> judge(const std::vector<char> &bytes, const int status, const std::string &reader,
+    std::vector<char> judge(std::vector<char> bytes, const int status, const std::string &reader,
                             const Limits &limits)
     {
       const std::string too_long =
@@ -180,23 +180,24 @@ namespace Signorini
       if (bytes.size() < 2 || bytes.back() != end_of_answer)
         {
           const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
-          complain(reader, signal == SIGXCPU || signal == SIGKILL
+          complain(reader, signal == SIGXCPU
                                ? too_long
                                : "breaks down over it" +
                                      (signal == 0 ? "" : " (signal " + std::to_string(signal) + ")"));
         }
-      const std::vector<char> content(bytes.begin() + 1, bytes.end() - 1);
-      const std::string       text(content.begin(), content.end());
-      switch (bytes[0])
+      const char kind = bytes.front();
+      bytes.pop_back();
+      bytes.erase(bytes.begin());
+      switch (kind)
         {
           case result:
-            return content;
+            return bytes;
           case input_error:
-            throw InputError(text);
+            throw InputError(std::string(bytes.begin(), bytes.end()));
           case out_of_space:
             complain(reader, "asks for more than " + gigabytes(limits.bytes) + " of memory for it");
           default:
-            throw std::runtime_error(text);
+            throw std::runtime_error(std::string(bytes.begin(), bytes.end()));
         }
     }
   } // namespace
@@ -214,9 +215,10 @@ namespace Signorini
     const pid_t child = fork();
     if (child == 0)
       {
-        close(ends[0]);
+        // Where the standard streams are closed the pipe has their numbers.
+        const int pipe_end = fcntl(ends[1], F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
         become_separate(limits);
-        answer(ends[1], read);
+        answer(pipe_end, read);
       }
     close(ends[1]);
     if (child < 0)
@@ -224,8 +226,8 @@ namespace Signorini
         close(ends[0]);
         return read();
       }
-    const std::vector<char> bytes = read_all(ends[0]);
+    std::vector<char> bytes = read_all(ends[0]);
     close(ends[0]);
-    return judge(bytes, status_of(child), reader, limits);
+    return judge(std::move(bytes), status_of(child), reader, limits);
   }
 } // namespace Signorini

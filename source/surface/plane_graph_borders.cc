@@ -71,7 +71,7 @@ namespace Signorini
 
     std::vector<std::array<double, 2>> pieces = {{{-far, far}}};
     std::vector<unsigned int>          candidates;
-    for (unsigned int n = 0; !pieces.empty(); ++n)
+    for (unsigned int n_pieces = 0; !pieces.empty(); ++n_pieces)
       {
         const auto [low, high] = pieces.back();
         pieces.pop_back();
@@ -82,7 +82,7 @@ namespace Signorini
         if (candidates.empty())
           continue;
         const double width = p.distance(q) + std::max(std::abs(low), std::abs(high)) * (m - n).norm();
-        if (candidates.size() > few && high - low > 2. * width && n < most_pieces)
+        if (candidates.size() > few && high - low > 2. * width && n_pieces < most_pieces)
           {
             const double middle = .5 * (low + high);
             pieces.push_back({{low, middle}});

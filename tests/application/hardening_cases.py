@@ -54,6 +54,23 @@ def names_of_all_kinds(p):
         check(run.returncode == 0 and summary_of(out)['converged'], f'deck: exit code {run.returncode}: {run.stderr}')
 
 
+def long_texts(p):
+    """Lines, names and numbers that no person writes: one message that a person can read, at once."""
+    long = 200000
+    dirichlet = 'set Bodies = a\nsubsection Body a\n  set Dirichlet = top: (0, 0, {})\nend\n'
+    with tempfile.TemporaryDirectory() as folder:
+        prm = os.path.join(folder, 'long.prm')
+        for text in ('x' * long, 'set Bodies = ' + 'x' * long + '\nset x = 1\n', 'subsection Body a\n' * long, '\0' * long, '(' * long, 'set ' + '=' * long,
+                     'set Bodies = a\nsubsection Body a\n  set Lower corner = [List of <[Double' + 'x' * long + '\nend\n',
+                     dirichlet.format('(' * long + '1' + ')' * long), dirichlet.format('^'.join('2' * long)), dirichlet.format('9' * long + '*x')):
+            with open(prm, 'w') as f:
+                f.write(text)
+            run = p.call('--check', prm)
+            what = f'{text[:60]}...'
+            check(run.returncode == 1 and run.stderr.count('signorini: error: ') == 1, f'{what}: exit code {run.returncode}: {run.stderr[:1000]}')
+            check(len(run.stderr) < 2600, f'{what}: a message of {len(run.stderr)} characters: {run.stderr[:300]}')
+
+
 class Nobody:
     """Runs the program as somebody without rights: root may write everywhere."""
 

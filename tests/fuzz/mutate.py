@@ -201,9 +201,9 @@ def command_for(programs, kind, path):
 
 def run_program(programs, kind, path):
     """As read_files says it, from exit code and messages of a program."""
-    with tempfile.TemporaryFile() as said, tempfile.TemporaryFile() as errors:
-        process = subprocess.Popen(command_for(programs, kind, path), stdin=subprocess.DEVNULL, stdout=said, stderr=errors, env=ENVIRONMENT,
-                                   preexec_fn=set_limits)
+    with tempfile.TemporaryDirectory() as session, tempfile.TemporaryFile() as said, tempfile.TemporaryFile() as errors:
+        process = subprocess.Popen(command_for(programs, kind, path), stdin=subprocess.DEVNULL, stdout=said, stderr=errors,
+                                   env=dict(ENVIRONMENT, OMPI_MCA_orte_tmpdir_base=session), preexec_fn=set_limits)
         timer = threading.Timer(120, process.kill)
         timer.start()
         _, status, used = os.wait4(process.pid, 0)
@@ -230,7 +230,8 @@ def run_reader(reader, lines):
         yield from run_programs(reader, lines)
         return
     run = subprocess.run([reader], input=lines.encode(), stdout=subprocess.PIPE, env=ENVIRONMENT)
-    for line in run.stdout.decode(errors='replace').splitlines():
+    # Messages may quote any character.
+    for line in run.stdout.decode(errors='replace').split('\n')[:-1]:
         outcome, seconds, size, file, message = line.split('\t', 4)
         yield outcome, float(seconds), float(size), file, message
     if run.returncode != 0:
