@@ -124,8 +124,13 @@ namespace
       throw InputError(
           "the surfaces do not face each other anywhere: there is not a single overlay cell. Normals "
           "must point towards each other.");
-    if (const std::string errors = describe_errors(mapping.report()); line.strict && !errors.empty())
-      throw InputError("the mapping has errors: " + errors + ".");
+    if (const std::string errors = describe_errors(mapping.report()); !errors.empty())
+      {
+        if (line.strict)
+          throw InputError("the mapping has errors: " + errors + ".");
+        std::cerr << "signorini-map: WARNING: the mapping has errors: " << errors
+                  << ". It is not one-to-one there: mend the surfaces. (--strict makes this an error.)\n";
+      }
   }
 } // namespace
 

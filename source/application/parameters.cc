@@ -205,6 +205,14 @@ namespace Signorini
       return text;
     }
 
+    /// A message with the beginning and the end of what it quotes: a person has to read it, and regular
+    /// expressions go deep into long texts.
+    std::string shortened(const std::string &text)
+    {
+      constexpr std::size_t longest = 2000, begin = 1200, end = 600;
+      return text.size() <= longest ? text : text.substr(0, begin) + " ... " + text.substr(text.size() - end);
+    }
+
     /// The text of a deal.II exception without its banner.
     std::string plain_text(const std::exception &e)
     {
@@ -227,7 +235,7 @@ namespace Signorini
       for (const char c : line)
         if (c != ' ' || (!result.empty() && result.back() != ' '))
           result += c;
-      return explain_patterns(Utilities::trim(result));
+      return explain_patterns(shortened(Utilities::trim(result)));
     }
 
     /// Applies "Section/Name=value".

@@ -11,6 +11,25 @@ namespace Signorini
 {
   using namespace dealii;
 
+  namespace
+  {
+    /// As messages quote what a user wrote: the beginning and the end of a long one.
+    std::string in_quotes(const std::string &text)
+    {
+      constexpr std::size_t longest = 200, kept = 80;
+      if (text.size() <= longest)
+        return "\"" + text + "\"";
+      return "\"" + text.substr(0, kept) + " ... " + text.substr(text.size() - kept) + "\" (" +
+             std::to_string(text.size()) + " characters)";
+    }
+
+    /// An expression is evaluated at every node: what is longer was not written by a person. (The parser has
+    /// a bound of its own, and needs no recursion.)
+    constexpr std::size_t longest_expression = 10000;
+  } // namespace
+
+
+
   std::vector<std::string> split_list(const std::string &text, const char separator, const std::string &where)
   {
     std::vector<std::string> pieces(1);
@@ -26,7 +45,7 @@ namespace Signorini
           pieces.back() += c;
       }
     if (depth != 0)
-      throw InputError(where + ": the parentheses in \"" + text + "\" do not match.");
+      throw InputError(where + ": the parentheses in " + in_quotes(text) + " do not match.");
     for (std::string &piece : pieces)
       piece = Utilities::trim(piece);
     return pieces;
@@ -50,9 +69,12 @@ namespace Signorini
     if (used == source.size() && used > 0)
       {
         if (!std::isfinite(constant))
-          throw InputError(where + ": \"" + source + "\" is not a finite number.");
+          throw InputError(where + ": " + in_quotes(source) + " is not a finite number.");
         return;
       }
+    if (source.size() > longest_expression)
+      throw InputError(where + ": the expression " + in_quotes(source) + " is too long: at most " +
+                       std::to_string(longest_expression) + " characters are read.");
     // deal.II tells what the parser found on the standard error: take it into our message instead.
     std::ostringstream    words;
     std::streambuf *const standard_error = std::cerr.rdbuf(words.rdbuf());
@@ -67,12 +89,15 @@ namespace Signorini
       }
     catch (const std::exception &)
       {
-        error = where + ": \"" + source + "\" is not an expression in x, y, z, t";
+        error = where + ": " + in_quotes(source) + " is not an expression in x, y, z, t";
         std::string       line;
         const std::string key = "Message:  <";
         for (std::istringstream lines(words.str()); std::getline(lines, line);)
           if (line.compare(0, key.size(), key) == 0 && line.back() == '>')
-            error += " (" + line.substr(key.size(), line.size() - key.size() - 1) + ")";
+            {
+              const std::string said = line.substr(key.size(), line.size() - key.size() - 1);
+              error += " (" + (said.size() > 200 ? said.substr(0, 200) + " ..." : said) + ")";
+            }
         error += ".";
       }
     std::cerr.rdbuf(standard_error);
@@ -91,7 +116,7 @@ namespace Signorini
     if (!std::isfinite(value))
       {
         std::ostringstream message;
-        message << place << ": \"" << source << "\" has no finite value at (" << p << ").";
+        message << place << ": " << in_quotes(source) << " has no finite value at (" << p << ").";
         throw InputError(message.str());
       }
     return value;
@@ -132,10 +157,11 @@ namespace Signorini
   {
     const std::string trimmed = Utilities::trim(text);
     if (trimmed.size() < 2 || trimmed.front() != '(' || trimmed.back() != ')')
-      throw InputError(where + ": \"" + trimmed + "\" should be a vector in parentheses, like (0, 0, -1).");
+      throw InputError(where + ": " + in_quotes(trimmed) +
+                       " should be a vector in parentheses, like (0, 0, -1).");
     const auto entries = split_list(trimmed.substr(1, trimmed.size() - 2), ',', where);
     if (entries.size() != dim)
-      throw InputError(where + ": \"" + trimmed + "\" should have three entries.");
+      throw InputError(where + ": " + in_quotes(trimmed) + " should have three entries.");
     return entries;
   }
 
@@ -151,7 +177,7 @@ namespace Signorini
           continue;
         const std::size_t colon = piece.find(':');
         if (colon == std::string::npos || colon == 0)
-          throw InputError(where + ": \"" + piece + "\" should read \"name: value\".");
+          throw InputError(where + ": " + in_quotes(piece) + " should read \"name: value\".");
         entries.emplace_back(Utilities::trim(piece.substr(0, colon)),
                              Utilities::trim(piece.substr(colon + 1)));
       }

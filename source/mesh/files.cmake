@@ -29,6 +29,7 @@ signorini_add_layer(mesh
   nodal_space.cc
   node_movement.cc
   refinement.cc
+  separate_process.cc
   start_nodes.cc
   size_limit.cc
   surface_extraction.cc

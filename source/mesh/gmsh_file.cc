@@ -6,9 +6,13 @@
 
 #include <deal.II/base/utilities.h>
 
+#include <algorithm>
+#include <array>
+#include <filesystem>
 #include <fstream>
 #include <gmsh.h>
 #include <map>
+#include <sstream>
 #include <vector>
 
 namespace Signorini
@@ -25,8 +29,11 @@ namespace Signorini
         : file(file)
         , in(file, std::ios::binary)
       {
-        gmsh::initialize();
+        gmsh::initialize(0, nullptr, false);
         gmsh::option::setNumber("General.Terminal", 0);
+        std::error_code error;
+        const auto      found = std::filesystem::file_size(file, error);
+        file_size             = error ? 0 : found;
       }
 
       ~ElementCounter()
@@ -125,6 +132,22 @@ namespace Signorini
         return value;
       }
 
+      /// Passes over n items of some bytes each.
+      void skip(const std::size_t n, const std::size_t size)
+      {
+        if (n > file_size / std::max<std::size_t>(size, 1))
+          fail("it ends within its elements. Is it cut off?");
+        in.seekg(static_cast<std::streamoff>(n * size), std::ios::cur);
+      }
+
+      /// A number of elements, tags or lines.
+      std::size_t count_of(const long n) const
+      {
+        if (n < 0)
+          fail("it has a count of " + std::to_string(n) + ". Was it edited? Write it again.");
+        return static_cast<std::size_t>(n);
+      }
+
       void compare(const std::size_t announced, const std::size_t counted) const
       {
         if (announced != counted)
@@ -161,7 +184,7 @@ namespace Signorini
         next_line(line);
         split(numbers, line);
         const std::size_t position  = version < 4. ? 0 : 1;
-        const std::size_t announced = numbers.size() > position ? numbers[position] : 0;
+        const std::size_t announced = numbers.size() > position ? count_of(numbers[position]) : 0;
         std::size_t       counted = 0, left_in_block = 0;
         Type              type = {};
         while (next_line(line) && line != "$EndElements")
@@ -175,7 +198,7 @@ namespace Signorini
                   fail("a block of elements should begin here. Does the block before announce the right "
                        "number of elements?");
                 type          = type_of(static_cast<int>(numbers[2]));
-                left_in_block = static_cast<std::size_t>(numbers[3]);
+                left_in_block = count_of(numbers[3]);
                 continue;
               }
             std::size_t n_others = 1;
@@ -184,7 +207,7 @@ namespace Signorini
                 if (numbers.size() < 3)
                   fail("an element needs a type, tags and nodes.");
                 type     = type_of(static_cast<int>(numbers[1]));
-                n_others = 3 + static_cast<std::size_t>(numbers[2]);
+                n_others = 3 + count_of(numbers[2]);
               }
             else
               --left_in_block;
@@ -200,17 +223,18 @@ namespace Signorini
 
       void count_binary_2()
       {
-        std::string line;
+        std::string       line;
+        std::vector<long> numbers;
         next_line(line);
-        const std::size_t announced = std::stoul(line);
+        split(numbers, line);
+        const std::size_t announced = numbers.empty() ? 0 : count_of(numbers[0]);
         std::size_t       counted   = 0;
         while (counted < announced)
           {
-            const Type type   = type_of(get<int>());
-            const int  n      = get<int>();
-            const int  n_tags = get<int>();
-            in.seekg(static_cast<std::streamoff>(sizeof(int)) * n * (1 + n_tags + type.n_nodes),
-                     std::ios::cur);
+            const Type        type   = type_of(get<int>());
+            const std::size_t n      = count_of(get<int>());
+            const std::size_t n_tags = count_of(get<int>());
+            skip(n, sizeof(int) * (1 + n_tags + type.n_nodes));
             add(type, n);
             counted += n;
           }
@@ -227,10 +251,9 @@ namespace Signorini
         for (std::size_t block = 0; block < n_blocks; ++block)
           {
             in.seekg(2 * sizeof(int), std::ios::cur);
-            const Type           type = type_of(get<int>());
-            const std::size_t    n    = get<std::size_t>();
-            const std::streamoff size = is_newest ? sizeof(std::size_t) : sizeof(int);
-            in.seekg(size * static_cast<std::streamoff>(n) * (1 + type.n_nodes), std::ios::cur);
+            const Type        type = type_of(get<int>());
+            const std::size_t n    = get<std::size_t>();
+            skip(n, (is_newest ? sizeof(std::size_t) : sizeof(int)) * (1 + type.n_nodes));
             add(type, n);
             counted += n;
           }
@@ -250,12 +273,34 @@ namespace Signorini
 
       const std::string   file;
       std::ifstream       in;
-      std::size_t         line_number = 0, n_volume_elements = 0;
+      std::size_t         line_number = 0, n_volume_elements = 0, file_size = 0;
       double              version   = 0.;
       bool                is_binary = false;
       std::map<int, Type> types;
     };
   } // namespace
+
+
+
+  void check_gmsh_format(const std::string &file)
+  {
+    std::string extension = std::filesystem::path(file).extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(), ::tolower);
+    constexpr std::array<const char *, 11> known = {
+        {".mesh", ".meshb", ".vtk", ".unv", ".bdf", ".nas", ".med", ".cgns", ".neu", ".p3d", ".diff"}};
+    if (std::find(known.begin(), known.end(), extension) != known.end())
+      return;
+    std::ifstream in(file, std::ios::binary);
+    std::string   head(11, ' ');
+    in.read(head.data(), static_cast<std::streamsize>(head.size()));
+    for (const char *const word : {"$MeshFormat", "$NOD", "$Comments"})
+      if (head.compare(0, std::string(word).size(), word) == 0)
+        return;
+    throw InputError(
+        "Mesh file \"" + file + "\": it does not begin with $MeshFormat, as gmsh's files do" +
+        (extension == ".msh" ? "" : ", and \"" + extension + "\" is the ending of no format known here") +
+        ". Write the mesh as .msh.");
+  }
 
 
 

@@ -15,7 +15,8 @@ namespace Signorini
   {
     explicit GmshSession(const std::string &file)
     {
-      gmsh::initialize();
+      // Without the options that a user keeps for gmsh: they may change what is read.
+      gmsh::initialize(0, nullptr, false);
       gmsh::option::setNumber("General.Terminal", 0);
       gmsh::open(file);
     }

@@ -7,6 +7,7 @@
 #include <signorini/mesh/abaqus_input.h>
 #include <signorini/mesh/gmsh_file.h>
 #include <signorini/mesh/mesh_input.h>
+#include <signorini/mesh/separate_process.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -159,6 +160,7 @@ namespace Signorini
 
     VolumeMesh read_with_gmsh(const std::string &file)
     {
+      check_gmsh_format(file);
       const std::size_t n_in_file = count_volume_elements(file);
       const GmshSession session(file);
       GmshNodes         gmsh_nodes(file);
@@ -211,11 +213,13 @@ namespace Signorini
       {
         try
           {
-            if (!std::ifstream(file))
+            if (!std::ifstream(file) || std::filesystem::is_directory(file))
               throw InputError("Mesh file \"" + file + "\" cannot be opened.");
             std::string extension = std::filesystem::path(file).extension().string();
             std::transform(extension.begin(), extension.end(), extension.begin(), ::tolower);
-            mesh = extension == ".inp" ? read_abaqus_mesh(file) : read_with_gmsh(file);
+            mesh = extension == ".inp" ? read_abaqus_mesh(file)
+                                       : read_in_separate_process<VolumeMesh>(
+                                             file, "gmsh", [&file] { return read_with_gmsh(file); });
             mend_orientation(mesh, "Mesh file \"" + file + "\"");
           }
         catch (const InputError &e)
@@ -226,13 +230,9 @@ namespace Signorini
           }
         catch (const std::exception &e)
           {
-            error = "Mesh file \"" + file + "\" cannot be read: " + e.what();
-          }
-        catch (...)
-          {
-            // gmsh throws plain strings and numbers as well.
-            error =
-                "Mesh file \"" + file + "\" cannot be read. Is it complete, and of a format that gmsh knows?";
+            error = "Mesh file \"" + file + "\" cannot be read" +
+                    (*e.what() == 0 ? std::string() : ": " + std::string(e.what())) +
+                    ". Is it complete, and of a format that gmsh knows?";
           }
       }
     error = Utilities::MPI::broadcast(communicator, error, 0);

@@ -120,7 +120,9 @@ namespace Signorini
             {
               const std::size_t n = all.size();
               all.resize(n + bytes.size() / sizeof(T));
-              std::memcpy(static_cast<void *>(all.data() + n), bytes.data(), bytes.size());
+              // Nothing to copy may come without an address.
+              if (!bytes.empty())
+                std::memcpy(static_cast<void *>(all.data() + n), bytes.data(), bytes.size());
             }
         }
       std::sort(all.begin(), all.end());

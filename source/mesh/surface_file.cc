@@ -4,8 +4,11 @@
 #include "gmsh_session.h"
 
 #include <signorini/algebra/input_error.h>
+#include <signorini/mesh/gmsh_file.h>
+#include <signorini/mesh/separate_process.h>
 #include <signorini/mesh/surface_file.h>
 
+#include <CGAL/IO/OFF/File_header_OFF.h>
 #include <CGAL/IO/polygon_soup_io.h>
 #include <CGAL/Simple_cartesian.h>
 
@@ -73,6 +76,49 @@ namespace Signorini
       return false;
     }
 
+    /// What the head of a PLY file says of its elements, all kinds together.
+    double announced_in_ply(std::istream &in)
+    {
+      double      sum = 0.;
+      std::string line, word, kind;
+      while (std::getline(in, line) && line.compare(0, 10, "end_header") != 0)
+        {
+          std::istringstream words(line);
+          double             n = 0.;
+          if (words >> word >> kind >> n && word == "element")
+            sum += n;
+        }
+      return sum;
+    }
+
+    double announced_in_off(std::istream &in)
+    {
+      CGAL::File_header_OFF header;
+      in >> header;
+      return in ? static_cast<double>(header.size_of_vertices()) +
+                      static_cast<double>(header.size_of_facets())
+                : 0.;
+    }
+
+    /// CGAL makes room for what the head of a file announces before it reads the rest.
+    void check_announced(const std::string &file, const std::string &extension)
+    {
+      std::ifstream in(file, std::ios::binary);
+      const double  n    = extension == ".ply"   ? announced_in_ply(in)
+                           : extension == ".off" ? announced_in_off(in)
+                                                 : 0.;
+      const auto    size = static_cast<double>(std::filesystem::file_size(file));
+      if (n <= size)
+        return;
+      std::ostringstream message;
+      message << "Surface " << file << ": it announces " << n << " vertices and faces, and has only " << size
+              << " bytes. Was it cut off or edited? Write it again.";
+      throw InputError(message.str());
+    }
+
+    /// What is packed between processes.
+    using Arrays = std::pair<std::vector<Point<3>>, std::vector<std::array<unsigned int, 3>>>;
+
     SurfaceMesh read_polygons(const std::string &file)
     {
       using Kernel = CGAL::Simple_cartesian<double>;
@@ -107,6 +153,8 @@ namespace Signorini
       SurfaceMesh mesh;
       try
         {
+          check_gmsh_format(file);
+          count_volume_elements(file);
           const GmshSession        session(file);
           std::vector<std::size_t> tags;
           std::vector<double>      coordinates, parametric;
@@ -147,6 +195,27 @@ namespace Signorini
         }
       return mesh;
     }
+
+    Arrays read_separately(const std::string &file, const std::string &reader,
+                           SurfaceMesh (*const read)(const std::string &file))
+    {
+      try
+        {
+          return read_in_separate_process<Arrays>(file, reader, [&] {
+            const SurfaceMesh mesh = read(file);
+            return Arrays(mesh.vertices, mesh.triangles);
+          });
+        }
+      catch (const InputError &e)
+        {
+          const std::string text = e.what();
+          throw InputError(text.find(file) == std::string::npos ? "Surface " + file + ": " + text : text);
+        }
+      catch (const std::exception &)
+        {
+          throw InputError("Surface " + file + ": the file cannot be read as what its name says.");
+        }
+    }
   } // namespace
 
 
@@ -157,19 +226,17 @@ namespace Signorini
       throw InputError("Surface " + file + ": there is no such file.");
     std::string extension = std::filesystem::path(file).extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(), ::tolower);
-    SurfaceMesh mesh;
-    if (extension == ".off" || extension == ".stl" || extension == ".obj" || extension == ".ply")
-      {
-        if (extension == ".stl" && has_infinite_coordinates(file))
-          throw InputError("Surface " + file + ": a vertex has no finite coordinates.");
-        mesh = read_polygons(file);
-      }
-    else if (extension == ".msh")
-      mesh = read_gmsh(file);
-    else
+    const bool is_gmsh = extension == ".msh";
+    if (!is_gmsh && extension != ".off" && extension != ".stl" && extension != ".obj" && extension != ".ply")
       throw InputError("Surface " + file +
                        ": the kind of file is known by .off, .stl, .obj, .ply or .msh, not by \"" +
                        extension + "\".");
+    check_announced(file, extension);
+    if (extension == ".stl" && has_infinite_coordinates(file))
+      throw InputError("Surface " + file + ": a vertex has no finite coordinates.");
+    SurfaceMesh mesh;
+    std::tie(mesh.vertices, mesh.triangles) =
+        read_separately(file, is_gmsh ? "gmsh" : "CGAL", is_gmsh ? read_gmsh : read_polygons);
     if (mesh.triangles.empty())
       throw InputError("Surface " + file + ": there are no triangles in it.");
     for (const Point<3> &p : mesh.vertices)

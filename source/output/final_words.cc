@@ -72,6 +72,15 @@ namespace Signorini
       out << '\n';
     }
 
+    /// Errors of the contact mapping, which most runs do not have.
+    void print_mapping_errors(std::ostream &out, const Results &results)
+    {
+      for (const MappingResult &mapping : results.mappings)
+        if (const std::string errors = describe_errors(mapping.report); !errors.empty())
+          out << "WARNING: pair " << mapping.pair << ": the contact mapping has errors (" << errors
+              << "): pressures and forces near those places are wrong\n";
+    }
+
     void print_smallness(std::ostream &out, const Results &results)
     {
       double rotation = 0., slip = 0.;
@@ -133,6 +142,7 @@ namespace Signorini
     for (const PretensionResult &bolt : results.pretensions)
       print_pretension(out, bolt);
     print_smallness(out, results);
+    print_mapping_errors(out, results);
     if (results.certificate.objections.empty())
       out << "contact conditions hold: yes\n";
     for (const std::string &objection : results.certificate.objections)

@@ -180,6 +180,10 @@ namespace Signorini
         target.pop_back();
       if (fs::exists(target) && !fs::is_directory(target))
         throw InputError("\"" + target + "\" is a file. Choose another name.");
+      // Locked on purpose: it could be exchanged for another one where the folder above is open.
+      if (fs::exists(target) && access(target.c_str(), W_OK) != 0)
+        throw InputError("nothing can be written to \"" + target +
+                         "\": it is locked, or not yours. Choose another name.");
       in_place       = is_pinned(target);
       for_checkpoint = in_place ? target + "/" + checkpoint_inside : target + ".checkpoint";
       remove_abandoned();

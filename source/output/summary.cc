@@ -282,6 +282,7 @@ namespace Signorini
     json.number("pairs", report.n_pairs);
     json.number("area", report.area_covered);
     json.number("worst_tiling_defect", report.worst_tiling_defect);
+    json.text("errors", describe_errors(report));
     json.begin('{', "unmapped");
     for (const auto &[reason, number] : count_unmapped(report))
       json.number(reason, number);

@@ -204,6 +204,12 @@ namespace Signorini
     if (report.worst_tiling_defect > largest_defect)
       text << (text.tellp() > 0 ? ", " : "") << "a triangle that is covered wrongly by "
            << report.worst_tiling_defect << " of its area";
+    // No point of a surface has more than one image.
+    for (const auto &[name, share] : {std::pair("nonmortar", report.area_covered / report.area_nonmortar),
+                                      std::pair("mortar", report.area_mortar_covered / report.area_mortar)})
+      if (!(share <= 1. + largest_defect))
+        text << (text.tellp() > 0 ? ", " : "") << "the " << name << " surface covered to " << 100. * share
+             << " %";
     return text.str();
   }
 

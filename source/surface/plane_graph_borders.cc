@@ -65,10 +65,13 @@ namespace Signorini
     constexpr double       shortest = .1;
     const double           far      = distance / std::max(shortest, .5 * (n + m).norm());
     constexpr unsigned int few      = 4;
+    // Halving saves time where few boxes are near the curtain. Boxes of damaged surfaces may be as large as
+    // everything and coordinates lose their digits on the way there: then it saves nothing, and must end.
+    constexpr unsigned int most_pieces = 10000;
 
     std::vector<std::array<double, 2>> pieces = {{{-far, far}}};
     std::vector<unsigned int>          candidates;
-    while (!pieces.empty())
+    for (unsigned int n_pieces = 0; !pieces.empty(); ++n_pieces)
       {
         const auto [low, high] = pieces.back();
         pieces.pop_back();
@@ -79,7 +82,7 @@ namespace Signorini
         if (candidates.empty())
           continue;
         const double width = p.distance(q) + std::max(std::abs(low), std::abs(high)) * (m - n).norm();
-        if (candidates.size() > few && high - low > 2. * width)
+        if (candidates.size() > few && high - low > 2. * width && n_pieces < most_pieces)
           {
             const double middle = .5 * (low + high);
             pieces.push_back({{low, middle}});

@@ -9,6 +9,10 @@
 
 namespace Signorini
 {
+  /// Refuses what gmsh would not read as a mesh: it takes files without a head or an ending that it knows for
+  /// scripts, and runs them, commands to the shell included. Errors: InputError.
+  void check_gmsh_format(const std::string &file);
+
   /// How many elements of dimension 3 a file in gmsh's own format (2 and 4, text and binary) contains; all
   /// versions of others, and files in other formats: `unknown_number`. gmsh reads as many elements as a file
   /// announces, drops some that it cannot place, and says so nowhere; lines that are too short spoil its

@@ -48,6 +48,36 @@ TEST(Expression, RefusesValuesThatAreNotFinite)
 
 
 
+// Nested ones, towers of powers and long ones are evaluated or refused, at once and in few words.
+TEST(Expression, DoesNotRunAway)
+{
+  const auto repeated = [](const std::string &text, const unsigned int n) {
+    std::string result;
+    for (unsigned int i = 0; i < n; ++i)
+      result += text;
+    return result;
+  };
+  const Point<3> p(.5, 0., 0.);
+  EXPECT_EQ(Expression(repeated("(", 4000) + "x" + repeated(")", 4000), "test")(p), .5);
+  EXPECT_LT(Expression(repeated("sin(", 1500) + "x" + repeated(")", 1500), "test")(p), .5);
+  for (const std::string &text :
+       {repeated("(", 50000) + "x" + repeated(")", 50000), repeated("x+", 100000) + "x",
+        repeated("9", 100000) + "*x", repeated("2^", 4000) + "2", repeated("(1+x)^", 1500) + "9",
+        repeated("-", 9000) + "x", repeated("(", 9000), repeated("if(", 3000)})
+    try
+      {
+        Expression(text, "Body first/Pressures")(p);
+        ADD_FAILURE() << "\"" << text.substr(0, 20) << "\" was taken";
+      }
+    catch (const InputError &e)
+      {
+        EXPECT_LT(std::string(e.what()).size(), 600u) << e.what();
+        EXPECT_EQ(std::string(e.what()).find("Body first/Pressures: "), 0u) << e.what();
+      }
+}
+
+
+
 TEST(Lists, KeepParenthesesTogether)
 {
   EXPECT_EQ(split_vector("(min(x, y), 2, *)", "test"), (std::vector<std::string>{"min(x, y)", "2", "*"}));

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/output/final_words.h>
+#include <signorini/output/results.h>
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <sstream>
+
+using namespace Signorini;
+
+namespace
+{
+  /// Two surfaces that lie over each other.
+  MappingReport perfect_report()
+  {
+    MappingReport report;
+    report.area_nonmortar = report.area_covered = 2.;
+    report.area_mortar = report.area_mortar_covered = 3.;
+    report.worst_tiling_defect                      = 1e-14;
+    return report;
+  }
+
+  std::string words_at_the_end(const MappingReport &report)
+  {
+    Results results;
+    results.mappings.emplace_back();
+    results.mappings[0].pair   = "interface";
+    results.mappings[0].report = report;
+    std::ostringstream out;
+    print_final_words(out, results);
+    return out.str();
+  }
+} // namespace
+
+
+
+// Damaged surfaces: what covers a triangle twice or not at all, or a surface more than once, is the last
+// thing that is read, whatever else has been printed.
+TEST(FinalWords, WarnOfMappingErrors)
+{
+  EXPECT_EQ(describe_errors(perfect_report()), "");
+  EXPECT_EQ(words_at_the_end(perfect_report()).find("WARNING"), std::string::npos);
+  const auto expect_warning = [](const MappingReport &report, const std::string &what) {
+    const std::string text = words_at_the_end(report);
+    EXPECT_NE(text.find("WARNING: pair interface: the contact mapping has errors ("), std::string::npos)
+        << text;
+    EXPECT_NE(text.find(what), std::string::npos) << text;
+  };
+  MappingReport report       = perfect_report();
+  report.worst_tiling_defect = 1e-3;
+  expect_warning(report, "covered wrongly by 0.001 of its area");
+  report              = perfect_report();
+  report.area_covered = 3.;
+  expect_warning(report, "nonmortar surface covered to 150 %");
+  report                     = perfect_report();
+  report.area_mortar_covered = 4.5;
+  expect_warning(report, "the mortar surface covered to 150 %");
+  report.area_mortar_covered = std::numeric_limits<double>::quiet_NaN();
+  expect_warning(report, "the mortar surface covered to nan %");
+}
