@@ -87,6 +87,18 @@ namespace Signorini
             members.insert(members.end(), result[other].members.begin(), result[other].members.end());
             continue;
           }
+        // Ranges may be far longer than the list of what there is: then this is looked through.
+        if (const auto n = static_cast<std::size_t>(std::max(0l, (entry.last - entry.first) / entry.step));
+            n > 10 * number.size() + 1000)
+          {
+            for (const auto &[key, member] : number)
+              for (const unsigned int i : {entry.instance, instances.size() == 1 ? 0u : entry.instance})
+                if (const long label = key - offset(i, of_nodes);
+                    label >= entry.first && label <= entry.last && (label - entry.first) % entry.step == 0 &&
+                    member_with(label, entry.instance, number, of_nodes) == member)
+                  members.push_back(member);
+            continue;
+          }
         for (long label = entry.first; label <= entry.last; label += entry.step)
           if (const unsigned int member = member_with(label, entry.instance, number, of_nodes);
               member != none)

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 
 namespace Signorini
 {
@@ -149,6 +150,11 @@ namespace Signorini
     const long value = std::strtol(word.c_str(), &end, 10);
     if (word.empty() || *end != 0)
       fail(place, "\"" + word + "\" should be a whole number.");
+    // Sums of numbers are taken, and strtol() gives the largest one for all that are larger.
+    constexpr long largest = std::numeric_limits<int>::max();
+    if (value > largest || value < -largest)
+      fail(place,
+           "the number " + word + " is too large: at most " + std::to_string(largest) + " is possible.");
     return value;
   }
 

@@ -81,7 +81,10 @@ class Nobody:
         shutil.copy(PATCH_TEST, self.prm)
         os.chmod(self.program, 0o755)
         os.chmod(self.prm, 0o644)
-        self.environment = dict(p.environment, HOME='/')
+        sessions = os.path.join(folder, 'sessions')
+        os.mkdir(sessions)
+        os.chmod(sessions, 0o777)
+        self.environment = dict(p.environment, HOME='/', OMPI_MCA_orte_tmpdir_base=sessions)
 
     @staticmethod
     def become():

@@ -166,6 +166,24 @@ TEST(Deck, SaysWhereMistakesAre)
 
 
 
+// Numbers and ranges of damaged files: at once, whatever they are.
+TEST(Deck, RangesMayBeLongerThanWhatThereIs)
+{
+  const std::string nodes   = "*NODE\n1, 0, 0, 0\n5, 1, 0, 0\n7, 0, 1, 0\n2000000000, 0, 0, 1\n";
+  const auto        members = [&](const std::string &range) {
+    const TemporaryFile file(nodes + "*NSET, NSET=A, GENERATE\n" + range + "\n", ".inp");
+    return Deck(file.path).node_sets()[0].members;
+  };
+  EXPECT_EQ(members("1, 2147483647"), (std::vector<unsigned int>{0, 1, 2, 3}));
+  EXPECT_EQ(members("1, 2147483647, 2"), (std::vector<unsigned int>{0, 1, 2}));
+  EXPECT_EQ(members("3, 2000000000, 4"), (std::vector<unsigned int>{2}));
+  EXPECT_EQ(members("1, 7, 2"), (std::vector<unsigned int>{0, 1, 2}));
+  expect_in(error_of(nodes + "*NSET, NSET=A\n1, 99999999999999999999999\n"), "line 7: the number 999");
+  expect_in(error_of(nodes + "*NSET, NSET=A, GENERATE\n1, 9223372036854775807, 1\n"), "at most 2147483647");
+}
+
+
+
 TEST(DeckElements, QuadraticElementsAreCutIntoEight)
 {
   const std::vector<Point<3>> tetrahedron = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
