@@ -17,7 +17,8 @@ DOCUMENT = os.path.join(TOP, 'doc', 'output.md')
 def run(p, folder, prm, *settings):
     out = os.path.join(folder, f'out {len(os.listdir(folder))}')
     answer = p.call(prm, '--output', out, *[word for s in settings for word in ('--set', s)])
-    check(answer.returncode in (0, 3), f'{prm} {settings}: exit code {answer.returncode}: {answer.stderr}')
+    if answer.returncode not in (0, 3):
+        raise SystemExit(f'{prm} {settings}: exit code {answer.returncode}: {answer.stderr}')
     with open(os.path.join(out, 'summary.json')) as f:
         return out, json.load(f)
 
