@@ -6,6 +6,7 @@ import os
 import re
 import subprocess
 import tempfile
+import urllib.parse
 
 import browser
 from harness import TOP, check
@@ -90,7 +91,7 @@ def is_quiet(b, out):
     path = os.path.realpath(os.path.join(out, 'report.html'))
     messages = [m for m in b.messages if not SLOW_DRIVER.search(m)]
     check(not messages, f'{out}: the console says {messages}')
-    check([r for r in b.requests if not r.startswith('data:')] == ['file://' + path], f'{out}: the page asks for {b.requests}')
+    check([r for r in b.requests if not r.startswith('data:')] == ['file://' + urllib.parse.quote(path)], f'{out}: the page asks for {b.requests}')
 
 
 def moves(b, panel, action):

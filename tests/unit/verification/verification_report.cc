@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include <regex>
+
 using namespace Signorini;
 
 namespace
@@ -75,8 +77,8 @@ TEST(Verify, NoNumberNeverPasses)
       {
         EXPECT_FALSE(judged(q, {.4, bad}).passes());
         EXPECT_FALSE(judged(q, {bad, .1}).passes());
-        EXPECT_EQ(json(judged(q, {.4, bad})).find("nan"), std::string::npos);
-        EXPECT_EQ(json(judged(q, {.4, bad})).find("inf"), std::string::npos);
+        // Texts may say so; in place of a number it would be no JSON.
+        EXPECT_FALSE(std::regex_search(json(judged(q, {.4, bad})), std::regex(R"([:\[,]\s*-?(nan|inf))")));
       }
 }
 
