@@ -272,7 +272,7 @@ function cut(scene, side, values, point, direction, across, radius) {
 function profiles(scene, side, pair, units) {
   const place = h('div', {class: 'charts'}), choices = h('div', {class: 'options'});
   const largest = finite(pair.max_pressure_at) ? pair.max_pressure_at : null, centre = finite(pair.centre_of_pressure) ? pair.centre_of_pressure : null;
-  let state = scene.states.length - 1, through = null, along = 'principal';
+  let state = scene.states.length - 1, through = null, along = null;
   const u = text => (text ? ` [${text}]` : '');
   const draw = () => {
     const {centre: middle, normal, radius, isActive, moments} = zone(scene, state, side);
@@ -282,16 +282,21 @@ function profiles(scene, side, pair, units) {
       return;
     }
     const [d, across] = principal(moments, normal);
-    const directions = {principal: [d, across], across: [across, d]};
-    const [direction, normalOfCut] = directions[along];
     const points = {largest: largest || middle, centre: centre || middle};
     if (through === null) {
       // In half and quarter models the pressure is largest on the border, away from the centre of pressure.
       const isOff = largest && centre && Math.hypot(...minus(largest, centre)) > 0.3 * radius;
       through = isOff || (largest && !centre) ? 'largest' : 'centre';
-      choices.querySelector('select').value = through;
+      // The axes of such a zone may only touch it there.
+      along = isOff ? 'inward' : 'principal';
+      choices.querySelectorAll('select').forEach((box, i) => (box.value = [through, along][i]));
     }
-    const point = points[through];
+    const point = points[through], inward = minus(middle, point), inNormal = dot(inward, normal) / (dot(normal, normal) || 1);
+    const tangent = inward.map((x, c) => x - inNormal * normal[c]);
+    const directions = {principal: [d, across], across: [across, d]};
+    const hasInward = Math.hypot(...tangent) > 1e-6 * radius;
+    directions.inward = hasInward ? [unit(tangent), unit(cross(Math.hypot(...normal) > 0.3 ? normal : across, tangent))] : directions.principal;
+    const [direction, normalOfCut] = directions[along];
     const lines = [{name: 'pressure', points: cut(scene, side, values, point, direction, normalOfCut, radius), pieces: true, colour: '#21918c'}];
     if (smooth) lines.push({name: 'smoothed', points: cut(scene, side, smooth, point, direction, normalOfCut, radius), pieces: true, dash: true, colour: '#440154'});
     const xyz = scene.points(side), n = xyz.length / 3, step = Math.ceil(n / 20000), dots = [];
@@ -310,7 +315,7 @@ function profiles(scene, side, pair, units) {
       through = value;
       draw();
     }),
-    select('along', [['principal', 'the longest axis of the contact zone'], ['across', 'the axis across it']], along, value => {
+    select('along', [['principal', 'the longest axis of the contact zone'], ['across', 'the axis across it'], ['inward', 'the way to the middle of the zone']], 'principal', value => {
       along = value;
       draw();
     }));
