@@ -9,6 +9,7 @@
 #include <limits>
 #include <numeric>
 #include <unordered_map>
+#include <utility>
 
 namespace Signorini
 {
@@ -50,35 +51,68 @@ namespace Signorini
 
   namespace
   {
-    /// A box around the vertices: its lowest corner and its longest edge.
-    std::pair<Point<3>, double> box_of(const std::vector<Point<3>> &vertices)
+    /// Cubes (nearly) around the vertices, so that those on the faces of the box lie in the middle of cubes.
+    class Grid
     {
-      Point<3> low = vertices[0], high = vertices[0];
-      for (const Point<3> &p : vertices)
+    public:
+      explicit Grid(const std::vector<Point<3>> &vertices)
+        : low(vertices[0])
+      {
+        Point<3> high = low;
+        for (const Point<3> &p : vertices)
+          for (unsigned int c = 0; c < 3; ++c)
+            {
+              low[c]  = std::min(low[c], p[c]);
+              high[c] = std::max(high[c], p[c]);
+            }
+        size = high - low;
+      }
+
+      /// n cubes along the longest edge of the box.
+      void divide(const double n)
+      {
+        const double longest = std::max({size[0], size[1], size[2]});
+        for (unsigned int c = 0; c < 3; ++c)
+          width[c] = size[c] > 0. ? size[c] / std::max(1., std::round(n * size[c] / longest)) : 1.;
+      }
+
+      /// The number of the cube that a point lies in, and how far it is from the middle.
+      std::pair<std::uint64_t, double> find(const Point<3> &p) const
+      {
+        std::uint64_t cube   = 0;
+        double        square = 0.;
         for (unsigned int c = 0; c < 3; ++c)
           {
-            low[c]  = std::min(low[c], p[c]);
-            high[c] = std::max(high[c], p[c]);
+            const double x = (p[c] - low[c]) / width[c], middle = std::round(x);
+            cube = cube << 21 | static_cast<std::uint64_t>(middle);
+            square += (x - middle) * (x - middle);
           }
-      const Tensor<1, 3> size = high - low;
-      return {low, std::max({size[0], size[1], size[2]})};
-    }
+        return {cube, square};
+      }
 
-    /// By vertex the one that it becomes: the first in its cube of a grid.
-    std::vector<unsigned int> merge(const std::vector<Point<3>> &vertices, const Point<3> &origin,
-                                    const double width, const std::vector<bool> &pinned)
+    private:
+      Point<3>     low;
+      Tensor<1, 3> size, width;
+    };
+
+    /// By vertex the one that it becomes: the one nearest to the middle of their cube, the first of several.
+    std::vector<unsigned int> merge(const std::vector<Point<3>> &vertices, const Grid &grid,
+                                    const std::vector<bool> &pinned)
     {
-      std::unordered_map<std::uint64_t, unsigned int> first;
-      std::vector<unsigned int>                       target(vertices.size());
+      const auto is_free = [&](const unsigned int v) { return pinned.empty() || !pinned[v]; };
+      std::unordered_map<std::uint64_t, std::pair<double, unsigned int>> nearest;
       for (unsigned int v = 0; v < vertices.size(); ++v)
-        if (target[v] = v; pinned.empty() || !pinned[v])
+        if (is_free(v))
           {
-            std::uint64_t cube = 0;
-            for (unsigned int c = 0; c < 3; ++c)
-              cube =
-                  cube << 21 | static_cast<std::uint64_t>(std::floor((vertices[v][c] - origin[c]) / width));
-            target[v] = first.emplace(cube, v).first->second;
+            const auto [cube, distance] = grid.find(vertices[v]);
+            auto &entry                 = nearest.emplace(cube, std::make_pair(distance, v)).first->second;
+            // What differs by rounding only is the same.
+            if (distance < entry.first - 1e-9)
+              entry = {distance, v};
           }
+      std::vector<unsigned int> target(vertices.size());
+      for (unsigned int v = 0; v < vertices.size(); ++v)
+        target[v] = is_free(v) ? nearest.at(grid.find(vertices[v]).first).second : v;
       return target;
     }
 
@@ -123,15 +157,15 @@ namespace Signorini
   {
     if (mesh.triangles.size() <= n_triangles)
       return {};
-    const auto [origin, size] = box_of(mesh.vertices);
+    Grid grid(mesh.vertices);
     // Beyond 16 cubes across nothing of a shape is left: then what is pinned has to give way.
     constexpr double finest = 65536., coarsest = 16.;
     for (double n = finest; n >= 1.; n /= std::sqrt(2.))
       {
-        const auto target =
-            merge(mesh.vertices, origin, 1.0001 * size / n, n >= coarsest ? pinned : std::vector<bool>());
-        const auto left = std::count_if(mesh.triangles.begin(), mesh.triangles.end(),
-                                        [&](const auto &t) { return !collapses(t, target); });
+        grid.divide(n);
+        const auto target = merge(mesh.vertices, grid, n >= coarsest ? pinned : std::vector<bool>());
+        const auto left   = std::count_if(mesh.triangles.begin(), mesh.triangles.end(),
+                                          [&](const auto &t) { return !collapses(t, target); });
         if (static_cast<std::size_t>(left) <= n_triangles)
           return merge_vertices(mesh, target);
       }

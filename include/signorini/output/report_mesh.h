@@ -54,8 +54,9 @@ namespace Signorini
   };
 
   /// Merges vertices until there are at most so many triangles: those in a cube of a regular grid become the
-  /// first of them, from the finest grid on that is coarse enough. Fine parts lose the most; a vertex that
-  /// stays is one of the mesh, with its values. The same on any number of ranks.
+  /// one nearest to its middle, where the faces of the box around all of them lie; from the finest grid on
+  /// that is coarse enough. Fine parts lose the most; a vertex that stays is one of the mesh, with its
+  /// values. The same on any number of ranks.
   /// @param pinned by vertex: those that stay, as long as this leaves enough others to merge; may be empty
   /// @return the numbers that the vertices of the new mesh had; empty if nothing was to be done
   std::vector<unsigned int> thin(ReportMesh &mesh, const std::size_t n_triangles,
