@@ -60,12 +60,29 @@ namespace Signorini
 
 
 
-  ConstrainedSpace::ConstrainedSpace(const ContactModel &model, const bool with_inner_faces)
-    : space(std::make_shared<const NodalSpace>(model.communicator(), model.bodies().mesh(), with_inner_faces))
+  ConstrainedSpace::ConstrainedSpace(std::shared_ptr<const NodalSpace> nodal, const ContactModel &model)
+    : space(std::move(nodal))
     , partition(space->owned(), space->relevant(), model.communicator())
     , dirichlet(evaluate_dirichlet(*space, model.loads(), true))
     , free_parts(find_free_parts(model, *space, dirichlet))
   {
+  }
+
+
+
+  ConstrainedSpace::ConstrainedSpace(const ContactModel &model, const bool with_inner_faces)
+    : ConstrainedSpace(
+          std::make_shared<const NodalSpace>(model.communicator(), model.bodies().mesh(), with_inner_faces),
+          model)
+  {
+  }
+
+
+
+  std::shared_ptr<const ConstrainedSpace>
+  ConstrainedSpace::with_more_conditions(const ConstrainedSpace &other, const ContactModel &model)
+  {
+    return std::shared_ptr<const ConstrainedSpace>(new ConstrainedSpace(other.space, model));
   }
 
 

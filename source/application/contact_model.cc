@@ -88,6 +88,21 @@ namespace Signorini
 
 
 
+  void ContactModel::hold(PointHold hold)
+  {
+    const auto         none = [](const Point<3> &) { return 0.; };
+    DirichletCondition condition;
+    condition.body                       = hold.body;
+    condition.boundary                   = "held point";
+    condition.components[hold.component] = none;
+    condition.start_vertex               = hold.start_vertex;
+    hold.condition                       = the_loads.dirichlet.size();
+    the_loads.dirichlet.push_back(condition);
+    holds.push_back(std::move(hold));
+  }
+
+
+
   void ContactModel::refine_globally(const std::vector<unsigned int> &times)
   {
     AssertDimension(times.size(), the_bodies.n_bodies());

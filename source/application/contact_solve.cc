@@ -210,23 +210,48 @@ namespace Signorini
       return result;
     }
 
-    void note_loose_motions(const LooseMotions &loose, const ContactModel &model, const Discretization &d,
-                            Journal &journal)
+    void note_undetermined(const LooseMotions &loose, const ContactModel &model, const Discretization &d,
+                           Journal &journal)
     {
       for (const std::vector<double> &motion : loose.undetermined)
         journal.note("nothing determines " + describe_motion(d.free_motions(), motion, model.bodies()) +
                      ": frictionless contact does not hold it. The mean of the displacement in it is set to "
                      "zero.");
-      for (const std::vector<double> &motion : loose.hardly_held)
-        journal.note(
-            "warning: " + describe_motion(d.free_motions(), motion, model.bodies()) +
-            ": frictionless contact does not hold it but for the facets of the surfaces. How far the "
-            "body moves that way, and what depends on it, is no property of the true bodies; "
-            "prescribe a displacement there.");
+    }
+
+    /// The width of the faces of the contact surfaces, in the mean.
+    double mean_width(const Discretization &d)
+    {
+      double area = 0.;
+      for (std::size_t p = 0; p < d.coupling.n_rows(); ++p)
+        if (d.owns_row(p))
+          area += d.coupling.weight[p];
+      area = Utilities::MPI::sum(area, d.nodal().communicator());
+      return std::sqrt(area / std::max<double>(1., d.n_contact_nodes));
+    }
+
+    /// What contact leaves loose: notes it, and takes out of a solution what nothing determines. Returns the
+    /// motions along which it drifts.
+    std::vector<std::vector<double>> settle_loose_motions(AlgebraicProblem                 &algebraic,
+                                                          const std::vector<unsigned char> &active,
+                                                          const ContactModel &model, const Discretization &d,
+                                                          Journal &journal)
+    {
+      const HalfSpaces &spaces = algebraic.problem.half_spaces;
+      const auto        fields = motions_of_unknowns(
+                 model, *d.constrained, algebraic.hierarchy->finest().matrix.partition(), *d.transformation);
+      const LooseMotions loose = find_loose_motions(d.free_motions(), fields, spaces, active);
+      auto drifting = find_drift(d.free_motions(), fields, spaces, loose, algebraic.v, mean_width(d));
+      if (!drifting.empty())
+        return drifting;
+      note_undetermined(loose, model, d, journal);
+      warn_of_facets(model, d.free_motions(), loose.hardly_held, journal);
+      remove_motions(algebraic.v, loose.undetermined, fields, spaces);
+      return {};
     }
 
     /// Solves; returns the active half-spaces.
-    std::vector<unsigned char> solve(ConvergenceReport &report, AlgebraicProblem &algebraic,
+    std::vector<unsigned char> solve(ContactSolution &result, AlgebraicProblem &algebraic,
                                      const ContactModel &model, const Discretization &d,
                                      const SolverParameters &parameters, Journal &journal)
     {
@@ -238,18 +263,12 @@ namespace Signorini
                                             hierarchy.finest().fixed, d.coupling, d.projections);
       const auto      solver = make_solver(hierarchy, parameters);
       DeformationOnly deformation(algebraic);
-      report = solver->solve(algebraic.v, problem, make_monitor(parameters.tolerance, journal));
+      result.report = solver->solve(algebraic.v, problem, make_monitor(parameters.tolerance, journal));
       partition.reinit(algebraic.residual);
       hierarchy.finest().matrix.symmetric_residual(algebraic.residual, algebraic.v, problem.rhs);
       deformation.restore();
       if (!d.free_motions().empty())
-        {
-          const auto fields = motions_of_unknowns(model, *d.constrained, partition, *d.transformation);
-          const LooseMotions loose =
-              find_loose_motions(d.free_motions(), fields, problem.half_spaces, solver->active());
-          note_loose_motions(loose, model, d, journal);
-          remove_motions(algebraic.v, loose.undetermined, fields, problem.half_spaces);
-        }
+        result.drifting = settle_loose_motions(algebraic, solver->active(), model, d, journal);
       return solver->active();
     }
 
@@ -295,8 +314,14 @@ namespace Signorini
     const NodeBlockMatrix &matrix  = algebraic->hierarchy->finest().matrix;
     PhaseTimes::Scope      solving = journal.measure(Phase::solve);
     if (!d.free_motions().empty())
-      settle_free_parts(algebraic->v, model, d, matrix.partition(), algebraic->problem);
-    const auto active = Signorini::solve(result.report, *algebraic, model, d, parameters, journal);
+      if (const auto turning =
+              settle_free_parts(algebraic->v, model, d, matrix.partition(), algebraic->problem);
+          !turning.empty())
+        {
+          result.drifting = {turning};
+          return result;
+        }
+    const auto active = Signorini::solve(result, *algebraic, model, d, parameters, journal);
     solving.stop();
 
     result.n_levels      = n_levels;

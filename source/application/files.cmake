@@ -29,6 +29,7 @@ signorini_add_layer(application
   nested_iteration.cc
   parameters.cc
   paraview_files.cc
+  point_holds.cc
   pressure_rows.cc
   pretension.cc
   problem_description.cc

@@ -22,6 +22,12 @@ namespace Signorini
       /// The mean square of the normal parts of a motion at active nodes, relative to that of the motion that
       /// moves these most: zero to rounding; what facets of round surfaces give.
       double not_opposed = 1e-10, hardly_opposed = 1e-4;
+      /// How far surfaces may slide along a motion that facets oppose, in widths of a face: on a radius of
+      /// ten faces that is a hundredth of a radian. Solutions that drift slide by 1e2 to 1e6 of them.
+      double slip = .1;
+      /// The work of loads on a rotation that surfaces allow, relative to that of all loads with the size of
+      /// the surfaces as their arm, which may come from facets: 1e-4 to 1e-2 for balls of tetrahedra.
+      double work_of_facets = .05;
     };
   } // namespace
 
@@ -81,32 +87,95 @@ namespace Signorini
 
 
 
-  void settle_free_parts(Vector &v, const ContactModel &model, const Discretization &d,
-                         const NodePartition &unknowns, const ObstacleProblem &problem)
+  void refuse_flight(const ContactModel &model, const std::vector<FreeMotion> &motions,
+                     const std::vector<double> &flight)
   {
-    const auto        fields = motions_of_unknowns(model, *d.constrained, unknowns, *d.transformation);
-    const std::size_t n      = fields.size();
-    // By contact node of this rank.
-    const std::vector<std::size_t> own    = owned_rows(d.coupling, d.partition());
-    const std::size_t              n_rows = own.size();
-    std::vector<double>            bounds = select_values(d.transformation->reduce_gaps(d.gaps), own);
-    std::vector<double>            rows(n * n_rows), work(n);
-    // The work of the loads on a motion, zero to the rounding of their sums.
-    const double scale = problem.rhs.l1_norm();
-    for (std::size_t m = 0; m < n; ++m)
+    throw InputError("The loads press no body into contact that could hold it: " +
+                     describe_motion(motions, flight, model.bodies()) +
+                     ", would fly away. Prescribe displacements, or change the loads.");
+  }
+
+
+
+  namespace
+  {
+    /// What contact and loads make of the rigid motions of free parts.
+    struct RigidProblem
+    {
+      RigidProblem(const ContactModel &model, const Discretization &d, const NodePartition &unknowns,
+                   const ObstacleProblem &problem)
+        : fields(motions_of_unknowns(model, *d.constrained, unknowns, *d.transformation))
+        , work(fields.size())
+        , loads(problem.rhs.l1_norm())
+        , own(owned_rows(d.coupling, d.partition()))
+        , rows(fields.size() * own.size())
       {
-        work[m] = problem.rhs * fields[m];
-        work[m] = std::abs(work[m]) > 1e-10 * scale ? work[m] : 0.;
-        for (std::size_t p = 0; p < n_rows; ++p)
-          rows[n * p + m] = d.projections[own[p]].direction() *
-                            nodal_value(fields[m], unknowns.to_local(d.coupling.rows[own[p]]));
+        for (const std::size_t p : own)
+          {
+            nodes.push_back(unknowns.to_local(d.coupling.rows[p]));
+            directions.push_back(d.projections[p].direction());
+          }
+        for (std::size_t m = 0; m < fields.size(); ++m)
+          {
+            // Zero to the rounding of sums.
+            work[m] = problem.rhs * fields[m];
+            work[m] = std::abs(work[m]) > 1e-10 * loads ? work[m] : 0.;
+            for (std::size_t p = 0; p < own.size(); ++p)
+              rows[fields.size() * p + m] = directions[p] * nodal_value(fields[m], nodes[p]);
+          }
       }
+
+      /// Collective. Whether a motion turns surfaces in each other, loaded by no more than what facets may
+      /// make of loads that do not turn it.
+      bool turns_freely(const std::vector<FreeMotion> &motions, const std::vector<double> &motion) const
+      {
+        constexpr FreedomRule rule;
+        // Squares of normal parts and of whole motions, number of nodes.
+        double sums[3] = {0., 0., static_cast<double>(nodes.size())};
+        double done    = 0.;
+        for (std::size_t p = 0; p < nodes.size(); ++p)
+          {
+            Vector3 moved;
+            for (std::size_t m = 0; m < fields.size(); ++m)
+              moved += motion[m] * nodal_value(fields[m], nodes[p]);
+            sums[0] += Utilities::fixed_power<2>(directions[p] * moved);
+            sums[1] += moved.norm_square();
+          }
+        for (double &s : sums)
+          s = Utilities::MPI::sum(s, fields[0].get_mpi_communicator());
+        for (std::size_t m = 0; m < fields.size(); ++m)
+          done += work[m] * motion[m];
+        return is_rotation(motions, motion) && sums[0] <= rule.hardly_opposed * sums[1] &&
+               std::abs(done) <= rule.work_of_facets * loads * std::sqrt(sums[1] / std::max(sums[2], 1.));
+      }
+
+      /// The motions; work of the loads on them; sum of the loads (force).
+      const std::vector<Vector> fields;
+      std::vector<double>       work;
+      const double              loads;
+      /// Contact nodes of this rank: rows of the coupling, nodes, normals.
+      const std::vector<std::size_t> own;
+      std::vector<unsigned int>      nodes;
+      std::vector<Vector3>           directions;
+      /// Normal parts of all motions, node by node.
+      std::vector<double> rows;
+    };
+  } // namespace
+
+
+
+  std::vector<double> settle_free_parts(Vector &v, const ContactModel &model, const Discretization &d,
+                                        const NodePartition &unknowns, const ObstacleProblem &problem)
+  {
+    const RigidProblem  rigid(model, d, unknowns, problem);
+    const std::size_t   n      = rigid.fields.size();
+    std::vector<double> bounds = select_values(d.transformation->reduce_gaps(d.gaps), rigid.own);
+    std::vector<double> rows   = rigid.rows;
     // What touches may hold the bodies where they are.
     std::vector<double> touching_rows, touching_gaps;
-    for (std::size_t p = 0; p < n_rows; ++p)
+    for (std::size_t p = 0; p < rigid.own.size(); ++p)
       {
-        bounds[p] -=
-            d.projections[own[p]].direction() * nodal_value(v, unknowns.to_local(d.coupling.rows[own[p]]));
+        bounds[p] -= rigid.directions[p] * nodal_value(v, rigid.nodes[p]);
         if (bounds[p] > 0.)
           continue;
         touching_gaps.push_back(bounds[p]);
@@ -114,15 +183,16 @@ namespace Signorini
       }
     for (std::vector<double> *const list : {&touching_rows, &touching_gaps, &rows, &bounds})
       *list = gather_lists(std::move(*list), d.nodal().communicator(), Receivers::all);
-    if (!v.all_zero() && balance_rigid_motions(touching_rows, touching_gaps, work).is_held)
-      return;
-    const RigidBalance balance = balance_rigid_motions(rows, bounds, work);
+    if (!v.all_zero() && balance_rigid_motions(touching_rows, touching_gaps, rigid.work).is_held)
+      return {};
+    const RigidBalance balance = balance_rigid_motions(rows, bounds, rigid.work);
+    if (!balance.is_held && rigid.turns_freely(d.free_motions(), balance.flight))
+      return balance.flight;
     if (!balance.is_held)
-      throw InputError("The loads press no body into contact that could hold it: " +
-                       describe_motion(d.free_motions(), balance.flight, model.bodies()) +
-                       ", would fly away. Prescribe displacements, or change the loads.");
+      refuse_flight(model, d.free_motions(), balance.flight);
     for (std::size_t m = 0; m < n; ++m)
-      v.add(balance.settling[m], fields[m]);
+      v.add(balance.settling[m], rigid.fields[m]);
+    return {};
   }
 
 
@@ -160,6 +230,70 @@ namespace Signorini
       }
     result.undetermined = separate_motions(motions, result.undetermined);
     return result;
+  }
+
+
+
+  namespace
+  {
+    /// How far a solution slides along the span of some motions (length).
+    double slip_along(const std::vector<std::vector<double>> &motions, const std::vector<Vector> &fields,
+                      const HalfSpaces &spaces, const Vector &v)
+    {
+      const auto      n = static_cast<Eigen::Index>(motions.size());
+      Eigen::MatrixXd coefficients(fields.size(), n);
+      for (Eigen::Index k = 0; k < n; ++k)
+        coefficients.col(k) = Eigen::Map<const Eigen::VectorXd>(motions[k].data(), coefficients.rows());
+      const auto at = [&](const std::size_t p) {
+        Eigen::MatrixXd each(dim, fields.size());
+        for (std::size_t i = 0; i < fields.size(); ++i)
+          for (unsigned int c = 0; c < dim; ++c)
+            each(c, i) = fields[i].local_element(dim * spaces.nodes[p] + c);
+        return Eigen::MatrixXd(each * coefficients);
+      };
+      Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(n, n + 1);
+      for (std::size_t p = 0; p < spaces.size(); ++p)
+        {
+          const Eigen::MatrixXd moved = at(p);
+          sums.leftCols(n) += moved.transpose() * moved;
+          sums.col(n) +=
+              moved.transpose() * Eigen::Map<const Eigen::Vector3d>(v.begin() + dim * spaces.nodes[p]);
+        }
+      for (Eigen::Index i = 0; i < sums.size(); ++i)
+        sums.data()[i] = Utilities::MPI::sum(sums.data()[i], v.get_mpi_communicator());
+      const Eigen::VectorXd share   = sums.leftCols(n).completeOrthogonalDecomposition().solve(sums.col(n));
+      double                largest = 0.;
+      for (std::size_t p = 0; p < spaces.size(); ++p)
+        largest = std::max(largest, (at(p) * share).norm());
+      return Utilities::MPI::max(largest, v.get_mpi_communicator());
+    }
+  } // namespace
+
+
+
+  std::vector<std::vector<double>> find_drift(const std::vector<FreeMotion> &motions,
+                                              const std::vector<Vector> &fields, const HalfSpaces &spaces,
+                                              const LooseMotions &loose, const Vector &v, const double width)
+  {
+    if (loose.hardly_held.empty() ||
+        slip_along(loose.hardly_held, fields, spaces, v) <= FreedomRule().slip * width)
+      return {};
+    // Few nodes may be active in a solution that drifts: these need not show what the surfaces allow.
+    const LooseMotions anywhere =
+        find_loose_motions(motions, fields, spaces, std::vector<unsigned char>(spaces.size(), 1));
+    return anywhere.hardly_held.empty() ? loose.hardly_held : anywhere.hardly_held;
+  }
+
+
+
+  void warn_of_facets(const ContactModel &model, const std::vector<FreeMotion> &motions,
+                      const std::vector<std::vector<double>> &hardly_held, Journal &journal)
+  {
+    for (const std::vector<double> &motion : hardly_held)
+      journal.note("warning: " + describe_motion(motions, motion, model.bodies()) +
+                   ": frictionless contact does not hold it but for the facets of the surfaces. How far the "
+                   "body moves that way, and what depends on it, is no property of the true bodies; "
+                   "prescribe a displacement there.");
   }
 
 

@@ -4,6 +4,7 @@
 #include <signorini/algebra/input_error.h>
 #include <signorini/application/journal.h>
 #include <signorini/application/load_steps.h>
+#include <signorini/application/point_holds.h>
 #include <signorini/application/pretension.h>
 #include <signorini/mesh/expression.h>
 
@@ -131,7 +132,8 @@ namespace Signorini
             solver->change_loads(*discretization, foretell(time));
           }
         ContactSolution solution = solve_with_pretension(model, *solver, *discretization, journal);
-        needed_patches           = needed_patches || solution.report.needed_patches;
+        leave_drift(model, *discretization, solution, journal);
+        needed_patches = needed_patches || solution.report.needed_patches;
         before.swap(previous);
         previous      = solution.displacement;
         time_before   = time_previous;

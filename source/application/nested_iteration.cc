@@ -7,6 +7,7 @@
 #include <signorini/application/free_bodies.h>
 #include <signorini/application/journal.h>
 #include <signorini/application/nested_iteration.h>
+#include <signorini/application/point_holds.h>
 #include <signorini/discretization/elasticity.h>
 #include <signorini/discretization/error_indicator.h>
 #include <signorini/discretization/exact_error.h>
@@ -216,6 +217,9 @@ namespace Signorini
         how_to.measure_sweeps   = how_to.measure_sweeps && cycle == refinement.n_cycles();
         const NestedStart *from = cycle > 0 ? &start : nullptr;
         last.solution           = solve_contact(model, *last.discretization, coarser, from, how_to, journal);
+        while (!last.solution.drifting.empty() && hold_points())
+          last.solution = solve_contact(model, *last.discretization, coarser, nullptr, how_to, journal);
+        check_point_holds(model, *last.discretization, last.solution);
         const Discretization    &d      = *last.discretization;
         const ConvergenceReport &report = last.solution.report;
         last.results.converged          = last.results.converged && report.converged;
@@ -237,6 +241,23 @@ namespace Signorini
         result.times = journal.take_times();
         journal.print(describe(result, is_adaptive));
         last.results.cycles.push_back(result);
+      }
+
+      /// Holds what the solution drifts along; false if there is no point for that.
+      bool hold_points()
+      {
+        const std::vector<std::vector<double>> &drifting = last.solution.drifting;
+        const std::vector<PointHold> holds = choose_point_holds(model, *last.discretization, drifting);
+        if (holds.empty())
+          {
+            leave_drift(model, *last.discretization, last.solution, journal);
+            return false;
+          }
+        for (const PointHold &hold : holds)
+          model.hold(hold);
+        space               = ConstrainedSpace::with_more_conditions(*space, model);
+        last.discretization = std::make_unique<const Discretization>(*last.discretization, space);
+        return true;
       }
 
       bool keeps_state() const
@@ -265,6 +286,7 @@ namespace Signorini
         state.trace                    = order.trace();
         state.turned                   = turned;
         state.bolts                    = save_bolts(model.loads().pretensions);
+        state.holds                    = model.point_holds();
         state.cycles                   = last.results.cycles;
         state.converged                = last.results.converged;
         state.solution.report          = last.solution.report;
@@ -320,6 +342,8 @@ namespace Signorini
                     marked[order.cells(kind)[i]] = state.marked[k][kind][i] != 0;
                 model.refine(old, marked);
               }
+            for (const PointHold &hold : state.holds)
+              model.hold(hold);
             space = std::make_shared<const ConstrainedSpace>(model, is_adaptive);
             read_fields(saved, reader, CurveOrder(space->nodal()));
           }
@@ -427,6 +451,8 @@ namespace Signorini
               journal.note("pair " + d.pairs[p].name +
                            ": the surfaces are separated, there is no contact force.");
           }
+        for (const std::string &remark : check_point_holds(model, d, last.solution))
+          journal.note(remark);
         results.boundaries          = std::move(evaluation.equilibrium.reactions);
         results.largest_nodal_force = evaluation.equilibrium.largest_nodal_force;
         results.pairs               = std::move(evaluation.pairs);

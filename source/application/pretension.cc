@@ -211,7 +211,7 @@ namespace Signorini
     const PretensionRule     rule;
     std::vector<Pretension> &bolts    = model.pretensions();
     ContactSolution          solution = solver.solve(d);
-    if (bolts.empty())
+    if (bolts.empty() || !solution.drifting.empty())
       return solution;
     std::vector<unsigned int> iterations = {solution.report.iterations};
     std::vector<Shank>        shanks     = measure(model, d, solution.displacement);
@@ -236,6 +236,8 @@ namespace Signorini
         journal.show("tightening bolts");
         solver.change_loads(d, start);
         solution = solver.solve(d);
+        if (!solution.drifting.empty())
+          return solution;
         iterations.push_back(solution.report.iterations);
         shanks                        = measure(model, d, solution.displacement);
         const Eigen::VectorXd present = forces_of(shanks);

@@ -109,6 +109,12 @@ namespace Signorini
     a(r.strain, r.reached, r.slopes);
   }
 
+  template <typename Archive>
+  void transfer(Archive &a, PointHold &h)
+  {
+    a(h.body, h.start_vertex, h.component, h.position, h.motion, h.arm);
+  }
+
   namespace
   {
     /// What the nested iteration leaves that is the same on all ranks.
@@ -117,7 +123,8 @@ namespace Signorini
     {
       auto n_marked  = static_cast<std::uint64_t>(s.marked.size());
       auto n_earlier = static_cast<std::uint64_t>(s.earlier.size());
-      a(s.cycle, n_marked, s.trace, s.turned, s.bolts, s.cycles, s.converged, n_earlier, s.has_indicator);
+      a(s.cycle, n_marked, s.trace, s.turned, s.bolts, s.holds, s.cycles, s.converged, n_earlier,
+        s.has_indicator);
       a(s.solution.report, s.solution.pretensions, s.solution.n_active, s.solution.n_levels);
       s.marked.resize(n_marked);
       s.earlier.resize(n_earlier);

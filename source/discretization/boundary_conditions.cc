@@ -42,8 +42,14 @@ namespace Signorini
           throw InputError(
               section + "Dirichlet, boundary \"" + condition.boundary +
               "\": along a normal there is one component; tangents have no meaning of their own.");
-        dirichlet.push_back(
-            {body, condition.boundary, ids, condition.components, condition.frame, {}, node_set});
+        dirichlet.push_back({body,
+                             condition.boundary,
+                             ids,
+                             condition.components,
+                             condition.frame,
+                             {},
+                             node_set,
+                             StartNodes::none});
         if (condition.frame.needs_normal())
           dirichlet.back().shapes = bodies.true_shapes(body, ids, false);
       }

@@ -60,6 +60,11 @@ namespace Signorini
       if (loads.dirichlet[i].node_set != StartNodes::none)
         for (const NodeIndex node : space.node_sets()[loads.dirichlet[i].node_set])
           entry(node, i);
+    for (unsigned int i = 0; i < loads.dirichlet.size(); ++i)
+      if (loads.dirichlet[i].start_vertex != StartNodes::none)
+        for (std::size_t r = 0; r < space.start_vertices().size(); ++r)
+          if (space.start_vertices()[r] == loads.dirichlet[i].start_vertex)
+            entry(space.relevant().nth_index_in_set(r), i);
   }
 
 

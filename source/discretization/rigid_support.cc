@@ -373,6 +373,55 @@ namespace Signorini
 
 
 
+  namespace
+  {
+    /// What a motion does to one part: translation + rotation x (x - centre) / length.
+    FreeMotion motion_of_part(const std::vector<FreeMotion> &motions, const std::vector<double> &coefficients,
+                              const unsigned int part)
+    {
+      FreeMotion result{0, Point<3>(), 0., Vector3(), Vector3(), part};
+      for (std::size_t m = 0; m < motions.size(); ++m)
+        if (motions[m].part == part)
+          {
+            result.body = motions[m].body;
+            result.translation += coefficients[m] * motions[m].translation;
+            result.rotation += coefficients[m] * motions[m].rotation;
+            result.centre = motions[m].centre;
+            result.length = motions[m].length;
+          }
+      return result;
+    }
+
+    /// What is left of a translation or a rotation beside one this much larger is rounding.
+    constexpr double negligible = 1e-3;
+
+    /// The translation along the axis of the rotation.
+    Vector3 along_axis(const FreeMotion &motion)
+    {
+      return (motion.rotation * motion.translation) / motion.rotation.norm_square() * motion.rotation;
+    }
+  } // namespace
+
+
+
+  bool is_rotation(const std::vector<FreeMotion> &motions, const std::vector<double> &coefficients)
+  {
+    std::set<unsigned int> parts;
+    for (const FreeMotion &motion : motions)
+      parts.insert(motion.part);
+    double largest = 0.;
+    for (const unsigned int part : parts)
+      largest = std::max(largest, motion_of_part(motions, coefficients, part).rotation.norm());
+    return std::all_of(parts.begin(), parts.end(), [&](const unsigned int part) {
+      const FreeMotion motion = motion_of_part(motions, coefficients, part);
+      if (motion.rotation.norm() <= negligible * largest)
+        return motion.translation.norm() <= negligible * largest;
+      return along_axis(motion).norm() <= negligible * motion.rotation.norm();
+    });
+  }
+
+
+
   std::string describe_motion(const std::vector<FreeMotion> &motions, const std::vector<double> &coefficients,
                               const Bodies &bodies)
   {
@@ -381,27 +430,19 @@ namespace Signorini
     for (std::size_t m = 0; m < motions.size(); ++m)
       size[motions[m].part] += coefficients[m] * coefficients[m];
     const auto part = static_cast<unsigned int>(std::max_element(size.begin(), size.end()) - size.begin());
-    Vector3    translation, rotation;
-    Point<3>   centre;
-    double     length = 0.;
-    for (std::size_t m = 0; m < motions.size(); ++m)
-      if (motions[m].part == part)
-        {
-          translation += coefficients[m] * motions[m].translation;
-          rotation += coefficients[m] * motions[m].rotation;
-          centre = motions[m].centre;
-          length = motions[m].length;
-        }
-    const std::string name = bodies.part_name(part) + ", ";
-    if (rotation.norm() <= 1e-3 * translation.norm())
-      return name + "translation " + print_direction(translation);
+    const FreeMotion  motion   = motion_of_part(motions, coefficients, part);
+    const Vector3    &rotation = motion.rotation;
+    const std::string name     = bodies.part_name(part) + ", ";
+    if (rotation.norm() <= negligible * motion.translation.norm())
+      return name + "translation " + print_direction(motion.translation);
     // Where the points of the axis are.
-    const double      square = rotation.norm_square();
-    const Vector3     along  = (rotation * translation) / square * rotation;
-    const Point<3>    point(centre + length / square * cross_product_3d(rotation, translation));
-    const std::string turning = "rotation about the axis through " + print_vector(point, 1e-6 * length) +
-                                " along " + print_direction(rotation);
-    return name + (along.norm() > 1e-3 * rotation.norm()
+    const Point<3>    point(motion.centre + motion.length / rotation.norm_square() *
+                                                cross_product_3d(rotation, motion.translation));
+    const std::string turning = "rotation about the axis through " +
+                                print_vector(point, 1e-6 * motion.length) + " along " +
+                                print_direction(rotation);
+    const Vector3 along = along_axis(motion);
+    return name + (along.norm() > negligible * rotation.norm()
                        ? "translation " + print_direction(along) + " with " + turning
                        : turning);
   }

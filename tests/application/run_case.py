@@ -13,6 +13,7 @@ import tempfile
 import checkpoint_cases
 import deck_cases
 import finished_mesh_cases
+import free_body_cases
 import geometry_cases
 import hardening_cases
 import heat_cases
@@ -702,7 +703,7 @@ def surface_map(p):
 
 
 if __name__ == '__main__':
-    modules = (sys.modules[__name__], checkpoint_cases, deck_cases, geometry_cases, hardening_cases, heat_cases, finished_mesh_cases, load_cases, output_cases, random_pair_cases, report_cases, shape_cases,
+    modules = (sys.modules[__name__], checkpoint_cases, deck_cases, geometry_cases, hardening_cases, heat_cases, finished_mesh_cases, free_body_cases, load_cases, output_cases, random_pair_cases, report_cases, shape_cases,
                tool_cases, true_gap_cases, verification_cases, verify_cases)
     case = next(getattr(m, sys.argv[2]) for m in modules if hasattr(m, sys.argv[2]))
     case(Program(sys.argv[1], int(sys.argv[3])))

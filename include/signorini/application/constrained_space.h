@@ -37,6 +37,11 @@ namespace Signorini
     /// (ContactModel::set_time()); the directions that they hold are the same at all times.
     ConstrainedSpace(const ConstrainedSpace &other, const ContactModel &model);
 
+    /// Collective. The same space after the model has got conditions in more directions
+    /// (ContactModel::hold()).
+    static std::shared_ptr<const ConstrainedSpace> with_more_conditions(const ConstrainedSpace &other,
+                                                                        const ContactModel     &model);
+
     /// Collective. The nodal interpolant of a displacement on the mesh that this one was refined from. Ghosts
     /// are up to date.
     /// @param rows of interpolation_rows() between the two spaces
@@ -57,6 +62,9 @@ namespace Signorini
     const DirichletData dirichlet;
     /// What the conditions do not hold.
     const FreeParts free_parts;
+
+  private:
+    ConstrainedSpace(std::shared_ptr<const NodalSpace> space, const ContactModel &model);
   };
 
   /// The prescribed displacements (zero at free components) at the owned nodes of a partition of the space.

@@ -43,6 +43,20 @@ namespace Signorini
     }
   };
 
+  /// A node that is held in one direction, because nothing else holds a motion (choose_point_holds()).
+  struct PointHold
+  {
+    /// Of which body; NodalSpace::start_vertices(); x, y or z; where.
+    unsigned int     body = 0, start_vertex = StartNodes::none, component = 0;
+    dealii::Point<3> position;
+    /// What it holds, in words.
+    std::string motion;
+    /// The displacement of that motion there, relative to its mean size on the contact surfaces.
+    double arm = 0.;
+    /// Index into Loads::dirichlet, of a model that has it.
+    std::size_t condition = 0;
+  };
+
   /// A problem on its bodies: loads and pairs, which stay, and the meshes, which are refined.
   class ContactModel
   {
@@ -81,6 +95,15 @@ namespace Signorini
       the_loads.time = time;
     }
 
+    /// Holds one more point, from the next ConstrainedSpace on.
+    void hold(PointHold hold);
+
+    /// All of them.
+    const std::vector<PointHold> &point_holds() const
+    {
+      return holds;
+    }
+
     /// Bolts, whose strains are found while the problem is solved (solve_with_pretension()).
     std::vector<Pretension> &pretensions()
     {
@@ -108,6 +131,7 @@ namespace Signorini
     Bodies                 the_bodies;
     Loads                  the_loads;
     std::vector<PairModel> the_pairs;
+    std::vector<PointHold> holds;
   };
 } // namespace Signorini
 

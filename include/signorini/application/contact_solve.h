@@ -78,6 +78,9 @@ namespace Signorini
     std::size_t n_active = 0;
     /// Of the multigrid hierarchy.
     unsigned int n_levels = 0;
+    /// Motions along which it slides far although only facets oppose them, as coefficients of the free
+    /// motions: no property of the true bodies.
+    std::vector<std::vector<double>> drifting;
     /// If they were to be measured.
     SweepMeasurement sweeps;
     /// If it was wanted and the linear problem has a unique solution.
@@ -102,6 +105,7 @@ namespace Signorini
 
     /// Collective. Solves, from the start or from what change_loads() was given.
     /// @param discretization the one of the constructor or of the last change_loads()
+    /// Errors: those of settle_free_parts().
     ContactSolution solve(const Discretization &discretization);
 
     /// Collective. Takes the loads of the present time of the model.

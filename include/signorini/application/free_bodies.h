@@ -22,11 +22,14 @@ namespace Signorini
                                           const NodePartition       &unknowns,
                                           const BasisTransformation &transformation);
 
-  /// Collective. Adds to a start the motion that brings free parts into the contacts that hold them. Errors:
-  /// InputError for loads that no contact can hold.
+  /// Collective. Adds to a start the motion that brings free parts into the contacts that hold them. Returns
+  /// a motion (coefficients) that has to be held before: one by which round surfaces turn in each other, if
+  /// the loads turn it no more than facets may; then the start is as it was. Errors: InputError for loads
+  /// that no contact can hold.
   /// @param unknowns partition of v
-  void settle_free_parts(Vector &v, const ContactModel &model, const Discretization &discretization,
-                         const NodePartition &unknowns, const ObstacleProblem &problem);
+  std::vector<double> settle_free_parts(Vector &v, const ContactModel &model,
+                                        const Discretization &discretization, const NodePartition &unknowns,
+                                        const ObstacleProblem &problem);
 
   /// Motions that slide along active contacts, as coefficients of the free motions.
   struct LooseMotions
@@ -41,6 +44,24 @@ namespace Signorini
   /// @param fields of motions_of_unknowns(); at least one
   LooseMotions find_loose_motions(const std::vector<FreeMotion> &motions, const std::vector<Vector> &fields,
                                   const HalfSpaces &half_spaces, const std::vector<unsigned char> &active);
+
+  /// Collective. Those motions that the surfaces hardly oppose, wherever they touch, if a solution slides
+  /// along hardly held ones by more than a tenth of a face; else none.
+  /// @param loose of the solution
+  /// @param v the solution; its values at contact nodes are relative displacements
+  /// @param width of a face (length)
+  std::vector<std::vector<double>> find_drift(const std::vector<FreeMotion> &motions,
+                                              const std::vector<Vector>     &fields,
+                                              const HalfSpaces &half_spaces, const LooseMotions &loose,
+                                              const Vector &v, const double width);
+
+  /// Ends the run for loads that no contact can hold. Errors: InputError, always.
+  [[noreturn]] void refuse_flight(const ContactModel &model, const std::vector<FreeMotion> &motions,
+                                  const std::vector<double> &flight);
+
+  /// Warns of motions that only facets oppose.
+  void warn_of_facets(const ContactModel &model, const std::vector<FreeMotion> &motions,
+                      const std::vector<std::vector<double>> &hardly_held, Journal &journal);
 
   /// Collective. Takes motions out of a solution where that is admissible.
   /// @param motions coefficients of the fields

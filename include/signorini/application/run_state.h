@@ -54,6 +54,8 @@ namespace Signorini
     std::vector<bool> turned;
     /// By bolt of the model.
     std::vector<SavedBolt> bolts;
+    /// Of the model.
+    std::vector<PointHold> holds;
     /// Of the cycles so far; whether all of them converged.
     std::vector<CycleResult> cycles;
     bool                     converged = true;

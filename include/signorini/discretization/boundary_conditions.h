@@ -35,6 +35,8 @@ namespace Signorini
     std::map<dealii::types::boundary_id, BoundaryShapePointer> shapes;
     /// Number of the set of nodes (NodalSpace::node_sets()) that it holds instead of a boundary.
     unsigned int node_set = StartNodes::none;
+    /// The single node (NodalSpace::start_vertices()) that it holds instead.
+    unsigned int start_vertex = StartNodes::none;
   };
 
   /// Forces on a boundary, as LoadDefinition::SurfaceForce has them.

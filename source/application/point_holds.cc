@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/algebra/gathered_lists.h>
+#include <signorini/algebra/input_error.h>
+#include <signorini/application/contact_evaluation.h>
+#include <signorini/application/free_bodies.h>
+#include <signorini/application/journal.h>
+#include <signorini/application/nodal_sums.h>
+#include <signorini/application/point_holds.h>
+
+#include <Eigen/QR>
+
+#include <iomanip>
+#include <sstream>
+
+namespace Signorini
+{
+  using namespace dealii;
+
+  namespace
+  {
+    struct PointHoldRule
+    {
+      /// Of nodes whose motions differ by less than this share the first one is taken: the choice must not
+      /// depend on rounding, on symmetric meshes.
+      double alike = 1e-3;
+      /// The largest moment of a hold, relative to that of the contact force with the size of the surfaces as
+      /// its arm. A ball in a socket: 1.3e-2 with 12 faces around it, 3e-3 with 40; a force that misses the
+      /// centre of the ball: its arm over the radius.
+      double largest_share = .05;
+    };
+
+    /// Where a node may be held.
+    struct Candidate
+    {
+      unsigned int start_vertex;
+      Point<3>     position;
+      int          part;
+    };
+
+    std::set<NodeIndex> nodes_of_boundaries(const NodalSpace &space, const std::set<types::boundary_id> &ids)
+    {
+      std::set<NodeIndex> nodes;
+      for (const NodalSpace::BoundaryFace &face : space.boundary_faces())
+        if (ids.count(face.id) > 0)
+          {
+            const NodalSpace::Cell &cell = space.cells()[face.cell];
+            for (const unsigned int v : CellShape::face(cell.n_vertices, face.face))
+              nodes.insert(space.nodes(cell)[v]);
+          }
+      return nodes;
+    }
+
+    std::set<types::boundary_id> contact_boundaries(const ContactModel &model)
+    {
+      std::set<types::boundary_id> ids;
+      for (const PairModel &pair : model.pairs())
+        for (const PairModel::Side &side : pair.sides)
+          ids.insert(side.ids.begin(), side.ids.end());
+      return ids;
+    }
+
+    /// Those on which something acts.
+    std::set<types::boundary_id> boundaries_in_use(const ContactModel &model)
+    {
+      std::set<types::boundary_id> ids = contact_boundaries(model);
+      for (const Traction &traction : model.loads().tractions)
+        ids.insert(traction.ids.begin(), traction.ids.end());
+      for (const RigidFaceCondition &rigid : model.loads().rigid_faces)
+        ids.insert(rigid.ids.begin(), rigid.ids.end());
+      return ids;
+    }
+
+    std::vector<Candidate> find_candidates(const ContactModel &model, const Discretization &d)
+    {
+      const NodalSpace         &space  = d.nodal();
+      const NodePlaces          places = node_places(model.bodies(), space);
+      const std::set<NodeIndex> in_use = nodes_of_boundaries(space, boundaries_in_use(model));
+      std::vector<Candidate>    result;
+      for (unsigned int i = 0; i < d.partition().n_owned(); ++i)
+        {
+          const NodeIndex    node   = d.partition().to_global(i);
+          const std::size_t  r      = space.relevant().index_within_set(node);
+          const unsigned int vertex = space.start_vertices()[r];
+          if (vertex != StartNodes::none && places.parts[i] >= 0 && !d.dirichlet().fixed[r].any() &&
+              !space.hanging_nodes().is_constrained(node) && in_use.count(node) == 0)
+            result.push_back({vertex, places.positions[i], places.parts[i]});
+        }
+      return result;
+    }
+
+    /// The displacements of motions at a point, by column.
+    Eigen::MatrixXd displacements(const std::vector<FreeMotion> &motions, const Eigen::MatrixXd &basis,
+                                  const Point<3> &x, const int part)
+    {
+      Eigen::MatrixXd each = Eigen::MatrixXd::Zero(dim, basis.rows());
+      for (Eigen::Index m = 0; m < basis.rows(); ++m)
+        if (static_cast<int>(motions[m].part) == part)
+          for (unsigned int c = 0; c < dim; ++c)
+            each(c, m) = motions[m](x)[c];
+      return each * basis;
+    }
+
+    /// Collective. The root mean square of motions on the surfaces of pairs that they move.
+    double size_at_contact(const ContactModel &model, const Discretization &d, const Eigen::MatrixXd &basis)
+    {
+      const NodePlaces places  = node_places(model.bodies(), d.nodal());
+      double           sums[2] = {0., 0.};
+      for (const NodeIndex node : nodes_of_boundaries(d.nodal(), contact_boundaries(model)))
+        if (d.partition().owns(node))
+          {
+            const unsigned int i = d.partition().to_local(node);
+            const double       square =
+                displacements(d.free_motions(), basis, places.positions[i], places.parts[i]).squaredNorm();
+            sums[0] += square;
+            sums[1] += square > 0.;
+          }
+      for (double &s : sums)
+        s = Utilities::MPI::sum(s, d.nodal().communicator());
+      return std::sqrt(sums[0] / std::max(sums[1], 1.));
+    }
+
+    struct Choice
+    {
+      Candidate    candidate;
+      unsigned int component;
+      /// The displacements of the motions along it.
+      Eigen::VectorXd row;
+    };
+
+    /// Collective. The node and the component in which the motions are largest; none if they are zero.
+    std::optional<Choice> choose(const std::vector<Candidate>  &candidates,
+                                 const std::vector<FreeMotion> &motions, const Eigen::MatrixXd &basis,
+                                 const MPI_Comm communicator)
+    {
+      constexpr PointHoldRule rule;
+      double                  largest = 0.;
+      for (const Candidate &one : candidates)
+        largest = std::max(
+            largest,
+            displacements(motions, basis, one.position, one.part).rowwise().squaredNorm().maxCoeff());
+      largest = Utilities::MPI::max(largest, communicator);
+      if (largest <= 0.)
+        return {};
+      const auto component_of = [&](const Candidate &one) {
+        const Eigen::VectorXd squares =
+            displacements(motions, basis, one.position, one.part).rowwise().squaredNorm();
+        for (unsigned int c = 0; c < dim; ++c)
+          if (squares[c] >= (1. - rule.alike) * largest)
+            return c;
+        return static_cast<unsigned int>(dim);
+      };
+      unsigned int first = StartNodes::none;
+      for (const Candidate &one : candidates)
+        if (one.start_vertex < first && component_of(one) < dim)
+          first = one.start_vertex;
+      first = Utilities::MPI::min(first, communicator);
+      std::vector<Candidate> chosen;
+      for (const Candidate &one : candidates)
+        if (one.start_vertex == first)
+          chosen.push_back(one);
+      chosen               = gather_lists(std::move(chosen), communicator, Receivers::all);
+      const unsigned int c = component_of(chosen[0]);
+      return Choice{chosen[0], c,
+                    displacements(motions, basis, chosen[0].position, chosen[0].part).row(c).transpose()};
+    }
+
+    /// The motions among those of a basis that a row leaves.
+    Eigen::MatrixXd without(const Eigen::MatrixXd &basis, const Eigen::VectorXd &row)
+    {
+      const Eigen::HouseholderQR<Eigen::MatrixXd> qr(row);
+      const Eigen::MatrixXd q = qr.householderQ() * Eigen::MatrixXd::Identity(row.size(), row.size());
+      return basis * q.rightCols(row.size() - 1);
+    }
+
+    /// An orthonormal basis of motions, by column.
+    Eigen::MatrixXd orthonormal(const std::vector<std::vector<double>> &motions)
+    {
+      Eigen::MatrixXd columns(motions[0].size(), motions.size());
+      for (std::size_t k = 0; k < motions.size(); ++k)
+        columns.col(k) = Eigen::Map<const Eigen::VectorXd>(motions[k].data(), columns.rows());
+      const Eigen::HouseholderQR<Eigen::MatrixXd> qr(columns);
+      return qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), columns.cols());
+    }
+  } // namespace
+
+
+
+  std::vector<PointHold> choose_point_holds(const ContactModel &model, const Discretization &d,
+                                            const std::vector<std::vector<double>> &motions)
+  {
+    const std::vector<FreeMotion> &free       = d.free_motions();
+    const std::vector<Candidate>   candidates = find_candidates(model, d);
+    Eigen::MatrixXd                basis      = orthonormal(motions);
+    const double                   size       = size_at_contact(model, d, basis);
+    std::vector<PointHold>         result;
+    while (basis.cols() > 0)
+      {
+        const std::optional<Choice> choice = choose(candidates, free, basis, d.nodal().communicator());
+        if (!choice)
+          break;
+        const Eigen::VectorXd held = basis * choice->row / choice->row.norm();
+        PointHold             hold;
+        hold.body         = model.bodies().part(choice->candidate.part).body;
+        hold.start_vertex = choice->candidate.start_vertex;
+        hold.component    = choice->component;
+        hold.position     = choice->candidate.position;
+        hold.motion       = describe_motion(free, std::vector<double>(held.data(), held.data() + held.size()),
+                                            model.bodies());
+        hold.arm          = size > 0. ? choice->row.norm() / size : 0.;
+        result.push_back(hold);
+        basis = without(basis, choice->row);
+      }
+    return result;
+  }
+
+
+
+  void leave_drift(const ContactModel &model, const Discretization &d, const ContactSolution &solution,
+                   Journal &journal)
+  {
+    if (solution.drifting.empty())
+      return;
+    if (solution.displacement.size() == 0)
+      refuse_flight(model, d.free_motions(), solution.drifting[0]);
+    warn_of_facets(model, d.free_motions(), solution.drifting, journal);
+  }
+
+
+
+  namespace
+  {
+    /// Sums of the contact forces on each body.
+    std::vector<double> contact_forces(const ContactModel &model, const Discretization &d,
+                                       const ContactSolution &solution)
+    {
+      std::vector<double> result(model.bodies().n_bodies(), 0.);
+      for (unsigned int p = 0; p < d.pairs.size(); ++p)
+        {
+          const double load = evaluate_pair(d, solution, p).load;
+          for (const PairModel::Side &side : model.pairs()[p].sides)
+            result[side.body] += load;
+        }
+      return result;
+    }
+  } // namespace
+
+
+
+  std::vector<std::string> check_point_holds(const ContactModel &model, const Discretization &d,
+                                             const ContactSolution &solution)
+  {
+    constexpr PointHoldRule  rule;
+    std::vector<std::string> remarks;
+    if (model.point_holds().empty())
+      return remarks;
+    const Equilibrium         equilibrium = evaluate_equilibrium(model, d, solution);
+    const std::vector<double> forces      = contact_forces(model, d, solution);
+    for (const PointHold &hold : model.point_holds())
+      {
+        const double       reaction = equilibrium.reactions[hold.condition].reaction.norm();
+        const double       share    = reaction * hold.arm / std::max(forces[hold.body], reaction);
+        std::ostringstream text;
+        text << std::setprecision(2);
+        if (share > rule.largest_share)
+          {
+            text << "The loads move " << hold.motion
+                 << ", which frictionless contact does not hold. A point that was held instead carries a "
+                    "moment of "
+                 << share
+                 << " times contact force and size of the surfaces. Prescribe a displacement, or change the "
+                    "loads.";
+            throw InputError(text.str());
+          }
+        text << hold.motion << ": frictionless contact of round surfaces does not hold it, so the point ("
+             << std::setprecision(4) << hold.position[0] << " " << hold.position[1] << " " << hold.position[2]
+             << ") is held in "
+             << "xyz"[hold.component] << " and carries a force of " << std::setprecision(2) << reaction
+             << ", whose moment is " << share
+             << " of contact force times size of the surfaces: an error of the facets, or a moment of the "
+                "loads.";
+        remarks.push_back(text.str());
+      }
+    return remarks;
+  }
+} // namespace Signorini

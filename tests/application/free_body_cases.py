@@ -1,0 +1,88 @@
+"""Cases of bodies that contact holds, but for rotations that round surfaces allow."""
+import os
+import re
+import subprocess
+import tempfile
+
+from harness import TOP, certificate, check, near
+
+SOCKET = '../tests/application/socket.prm'
+# Not the mesh of the socket turned about its axis.
+TETRAHEDRA = ['Body ball/Convert to tetrahedra=true', 'Body ball/Rotation axis=1,2,3', 'Body ball/Rotation angle=25']
+
+JOINT = """set Bodies        = ball, socket
+set Contact pairs = joint
+subsection Body ball
+  set Mesh          = joint.msh
+  set Volumes       = ball
+  set Young modulus = 210e3
+  set Poisson ratio = 0.3
+end
+subsection Body socket
+  set Mesh          = joint.msh
+  set Volumes       = socket
+  set Young modulus = 70e3
+  set Poisson ratio = 0.33
+  set Dirichlet     = foot: (0, 0, 0)
+end
+subsection Pair joint
+  set First  = ball: head
+  set Second = socket: bowl
+end
+"""
+
+
+def held_points(s):
+    """The shares of the moments that points carry, from the notes."""
+    words = (re.search(r'is held in [xyz] and carries a force of \S+, whose moment is (\S+) of contact force', note) for note in s['notes'])
+    return [float(w.group(1)) for w in words if w]
+
+
+def refused(p, path, *settings):
+    run = p.call(path, '--output', 'refused', *(w for s in settings for w in ('--set', s)))
+    check(run.returncode == 1 and not os.path.exists('refused'), f'{settings}: exit {run.returncode}')
+    return run.stderr
+
+
+def turning_ball(p):
+    """A ball of tetrahedra in a socket under its weight: what facets make of its moment is no reason to refuse it; a moment of the loads is."""
+    path = os.path.join(TOP, 'prm', SOCKET)
+    s = p.solve(SOCKET, *TETRAHEDRA)
+    shares = held_points(s)
+    print('moments of held points:', shares)
+    check(s['converged'] and len(shares) == 3 and max(shares) <= 1e-3, f'notes: {s["notes"]}')
+    certificate(s)
+    check(s['bodies'][0]['largest_displacement'] <= .1, f'displacement {s["bodies"][0]["largest_displacement"]}')
+    near(s['pairs'][0]['force'][2], .3911, 1e-3, 'weight')
+    check(max(c['nonlinear']['iterations'] for c in s['cycles']) <= 25, 'iterations')
+    text = refused(p, path, *TETRAHEDRA, 'Body ball/Volume force=(0.05*z, 0, -0.1)')
+    check('body ball, rotation about the axis' in text and 'would fly away' in text, text)
+    # A translation that surfaces allow is never held.
+    text = refused(p, os.path.join(TOP, 'prm', 'patch_test/patch_test.prm'), 'Body upper/Dirichlet=', 'Body upper/Pressures=top: 1',
+                   'Body upper/Tractions=-x: (1e-3, 0, 0)')
+    check('body upper, translation (1, 0, 0), would fly away' in text, text)
+
+
+def ball_joint(p):
+    """The mesh of a joint from gmsh: on its facets the ball would turn by thousands of degrees."""
+    with tempfile.TemporaryDirectory() as folder:
+        mesh = subprocess.run(['gmsh', '-3', '-format', 'msh41', os.path.join(TOP, 'tests', 'application', 'joint.geo'), '-o', os.path.join(folder, 'joint.msh')],
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True)
+        check(mesh.returncode == 0, f'gmsh: {mesh.stdout[-500:]}')
+        path = os.path.join(folder, 'joint.prm')
+        with open(path, 'w') as f:
+            f.write(JOINT)
+        upright = p.solve(path, 'Body ball/Rigid=end: force (0, 0, -10000), along (0, 0, 1)')
+        check(not held_points(upright), f'upright: {upright["notes"]}')
+        for loads in ('force (0, 0, -10000)', 'force (3000, 0, -10000), moment (0, -75000, 0)'):
+            s = p.solve(path, f'Body ball/Rigid=end: {loads}')
+            shares = held_points(s)
+            print(loads, 'moments of held points:', shares, 'iterations', s['cycles'][-1]['nonlinear']['iterations'])
+            check(s['converged'] and 1 <= len(shares) <= 3 and max(shares) <= .02, f'{loads}: {s["notes"]}')
+            certificate(s)
+            near(s['pairs'][0]['force'][2], -1e4 if 'socket' in s['pairs'][0]['nonmortar'] else 1e4, 1e-9, 'force')
+            check(s['bodies'][0]['largest_displacement'] <= .3, f'{loads}: displacement {s["bodies"][0]["largest_displacement"]}')
+            if 'moment' not in loads:
+                near(s['pairs'][0]['max_recovered_pressure'], upright['pairs'][0]['max_recovered_pressure'], .05, 'largest pressure')
+        text = refused(p, path, 'Body ball/Rigid=end: force (3000, 0, -10000)')
+        check('The loads move body ball, rotation about the axis' in text and 'Prescribe a displacement' in text, text)
