@@ -76,12 +76,24 @@ namespace Signorini
 
 
 
-  void DeckModelReader::read_friction(const Keyword &keyword, const unsigned int)
+  bool DeckModelReader::has_friction(const Keyword &keyword, const Deck &deck)
   {
     const Words words = keyword.lines.empty() ? Words() : deck_words(keyword.lines[0].text);
-    if (!words.empty() && !keyword.has("ROUGH") && deck.text().number(words[0], keyword.lines[0].place) == 0.)
+    return words.empty() || keyword.has("ROUGH") ||
+           deck.text().number(words[0], keyword.lines[0].place) != 0.;
+  }
+
+
+
+  void DeckModelReader::read_friction(const Keyword &keyword, const unsigned int)
+  {
+    if (!has_friction(keyword, deck))
       return;
-    model.refuse(keyword.place, "FRICTION", "contact is frictionless.");
+    // CalculiX wants the stiffness of what sticks there.
+    if (interactions[interaction].is_tied)
+      model.differ(keyword.place, "FRICTION of tied surfaces: these do not slide at all.");
+    else
+      model.refuse(keyword.place, "FRICTION", "contact is frictionless.");
   }
 
 

@@ -27,9 +27,21 @@ namespace Signorini
 
   void DeckModel::refuse(const DeckPlace &place, const std::string &keyword, const std::string &text) const
   {
-    if (the_options.ignore.count(keyword) == 0)
-      the_deck.text().fail(place,
-                           keyword + ": " + text + " To compute without it: --ignore \"" + keyword + "\".");
+    if (the_options.ignore.count(keyword) > 0)
+      return;
+    std::string others, all = keyword;
+    for (const std::string &name : DeckModelReader::refused_in(the_deck))
+      if (name != keyword && the_options.ignore.count(name) == 0)
+        {
+          others += (others.empty() ? "" : ", ") + name;
+          all += "," + name;
+        }
+    the_deck.text().fail(place,
+                         keyword + ": " + text + " To compute without it: --ignore \"" + keyword + "\"." +
+                             (others.empty()
+                                  ? ""
+                                  : " The file also has " + others +
+                                        ", refused as well; without all of them: --ignore \"" + all + "\"."));
   }
 
 
@@ -218,6 +230,22 @@ namespace Signorini
       model.refuse(keyword.place, name, advice->second);
     else
       model.refuse(keyword.place, name, "this keyword is not known.");
+  }
+
+
+
+  std::set<std::string> DeckModelReader::refused_in(const Deck &deck)
+  {
+    std::set<std::string> result;
+    for (const Deck::Other &other : deck.others())
+      {
+        const Keyword &keyword  = *other.keyword;
+        const bool     is_known = keyword.name == "RESTART" || passed_over().count(keyword.name) > 0 ||
+                              handlers().count(keyword.name) > 0;
+        if (keyword.name == "FRICTION" ? has_friction(keyword, deck) : !is_known)
+          result.insert(keyword.name);
+      }
+    return result;
   }
 
 

@@ -16,6 +16,9 @@ namespace Signorini
 
     void read();
 
+    /// Names of keywords that are refused whatever they say, FRICTION among them.
+    static std::set<std::string> refused_in(const Deck &deck);
+
   private:
     using Keyword = DeckKeyword;
     using Words   = std::vector<std::string>;
@@ -37,6 +40,9 @@ namespace Signorini
     static const std::map<std::string, Handler>     &handlers();
     static const std::map<std::string, std::string> &refused();
     static const std::set<std::string>              &passed_over();
+
+    /// Whether contact with it would have friction.
+    static bool has_friction(const Keyword &keyword, const Deck &deck);
 
     void handle(const Keyword &keyword, const unsigned int instance);
     /// Notes the keywords that were passed over.

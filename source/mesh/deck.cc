@@ -349,11 +349,11 @@ namespace Signorini
   {
     if (keyword.get(option).empty())
       source.fail(keyword.place, option + " needs a name: *" + option + ", " + option + "=NAME.");
-    if (option == "NSET" && keyword.has("ELSET"))
-      source.fail(keyword.place, "NSET from an ELSET is not supported; list the nodes.");
     // Numbers belong to the instance that is named, the name of the set to where it stands.
     const unsigned int of_numbers = instance_of_option(keyword, instance);
     RawSet            &set        = raw_set(sets, keyword.get(option), instance);
+    if (option == "NSET" && keyword.has("ELSET"))
+      set.of_elements.push_back({0, -1, 1, keyword.get("ELSET"), of_numbers, keyword.place});
     for (const DeckLine &line : keyword.lines)
       {
         const std::vector<std::string> words = deck_words(line.text);

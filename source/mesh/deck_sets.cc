@@ -36,10 +36,11 @@ namespace Signorini
   {
     node_set_list.resize(raw_node_sets.list.size());
     element_set_list.resize(raw_element_sets.list.size());
-    for (unsigned int s = 0; s < node_set_list.size(); ++s)
-      resolve(raw_node_sets, s, node_set_list, node_index, true);
+    // Sets of nodes may be those of elements.
     for (unsigned int s = 0; s < element_set_list.size(); ++s)
       resolve(raw_element_sets, s, element_set_list, element_index, false);
+    for (unsigned int s = 0; s < node_set_list.size(); ++s)
+      resolve(raw_node_sets, s, node_set_list, node_index, true);
   }
 
 
@@ -109,6 +110,9 @@ namespace Signorini
               missing = label;
             }
       }
+    for (const Entry &entry : raw.of_elements)
+      for (const unsigned int element : elements_of(entry.set, entry.place, entry.instance))
+        members.insert(members.end(), element_list[element].nodes.begin(), element_list[element].nodes.end());
     std::sort(members.begin(), members.end());
     members.erase(std::unique(members.begin(), members.end()), members.end());
     const bool is_range =
@@ -152,7 +156,11 @@ namespace Signorini
       }
     if (const DeckSet *set = find_node_set(word, instance))
       return set->members;
-    source.fail(place, "there is no NSET \"" + word + "\".");
+    source.fail(place, "there is no NSET \"" + word + "\"." +
+                           (find_element_set(word, instance) == nullptr
+                                ? ""
+                                : " There is an ELSET of that name: its nodes are *NSET, NSET=" + word +
+                                      ", ELSET=" + word + "."));
   }
 
 

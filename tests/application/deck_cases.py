@@ -404,6 +404,17 @@ def deck_refused(d):
 
     behind = '*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=HARD\n'
     refused(behind, behind + '*FRICTION\n0.1, 1e4\n', 'FRICTION', 'frictionless')
+    # All at once.
+    both = text.replace(behind, behind + '*FRICTION\n0.1, 1e4\n*GAP CONDUCTANCE\n1., 2.\n').replace('*STATIC', '*HEAT TRANSFER')
+    d.refuses(both, 'FRICTION: contact is frictionless', '--ignore "FRICTION"', 'also has GAP CONDUCTANCE, HEAT TRANSFER', '--ignore "FRICTION,GAP CONDUCTANCE,HEAT TRANSFER"')
+    d.solve(both, '--ignore', 'FRICTION,GAP CONDUCTANCE,HEAT TRANSFER')
+    # The stiffness of what sticks to tied surfaces.
+    s, _ = d.solve(text.replace(behind, behind.replace('HARD', 'TIED') + '*FRICTION\n0.1, 1e4\n'))
+    check(any('FRICTION of tied surfaces' in note for note in s['notes']), f'tied: {s["notes"]}')
+    # Nodes of elements.
+    d.refuses(text.replace('BOTTOM, 3, 3', 'Lower, 3, 3'), 'there is no NSET "Lower"', '*NSET, NSET=Lower, ELSET=Lower')
+    named = text.replace('*STEP', '*NSET, NSET=ALSO, ELSET=Upper\n*STEP').replace('*STATIC\n', '*STATIC\n*CLOAD\nALSO, 3, 0.\n')
+    constant_pressure(d.solve(named)[0], 5., 1e-8)
     refused('1000., 0.3\n', '1000., 0.3\n*PLASTIC\n5., 0.\n', 'PLASTIC', 'elastic')
     refused('1000., 0.3\n', '1000., 0.3\n*CREEP, LAW=NORTON\n1e-10, 5., 0.\n', 'CREEP')
     equation = f'*EQUATION\n2\n{top[0]}, 1, 1., {top[1]}, 1, -1.\n*STEP'

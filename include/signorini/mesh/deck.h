@@ -197,6 +197,8 @@ namespace Signorini
       std::vector<Entry> entries;
       unsigned int       instance;
       int                state = 0;
+      /// Of a set of nodes: sets of elements whose nodes belong to it.
+      std::vector<Entry> of_elements = {};
     };
 
     struct RawSets
