@@ -7,6 +7,7 @@ signorini_add_layer(application
   contact_evaluation.cc
   contact_model.cc
   contact_solve.cc
+  cycle_words.cc
   deck_adjust.cc
   deck_bodies.cc
   deck_bolts.cc
