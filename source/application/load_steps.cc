@@ -102,6 +102,8 @@ namespace Signorini
         for (std::size_t k = steps.size(); k + 1 < times.size() && converged; ++k)
           {
             const ContactSolution solution = solve(times[k]);
+            if (steps.empty())
+              note_if_constant(solution);
             steps.push_back(step_result(times[k], model, *discretization, solution, parameters.probes));
             journal.print(describe(steps.back()));
             converged = solution.report.converged;
@@ -116,11 +118,24 @@ namespace Signorini
         model.pretensions() = tightened;
       }
 
+      /// Relative difference of solutions that are the same to the tolerance of the solver.
+      static constexpr double same = 1e-7;
+
       /// Those that were solved.
       std::vector<StepResult> steps;
       bool                    converged = true;
 
     private:
+      /// Whoever wants steps wants them to differ.
+      void note_if_constant(const ContactSolution &first) const
+      {
+        Vector difference = first.displacement;
+        difference -= last.solution.displacement;
+        if (difference.l2_norm() <= same * last.solution.displacement.l2_norm())
+          journal.note("the first load step has the solution of the last: no condition and no load depends "
+                       "on t, it seems. Write for example (0, 0, -1000*t) for what grows from step to step.");
+      }
+
       /// The discretization is that of the conditions of the step.
       ContactSolution solve(const double time)
       {
