@@ -180,7 +180,9 @@ int
 main(int argc, char **argv)
 {
   TerminationWatch::start();
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  // Our options are none of PETSc's, which is a part of deal.II and would warn of them.
+  int                                      n_arguments = 1;
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(n_arguments, argv, 1);
   give_memory_back();
   const bool is_root = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
   MPI_Comm   for_errors;
