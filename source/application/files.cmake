@@ -28,6 +28,8 @@ signorini_add_layer(application
   linear_comparison.cc
   load_steps.cc
   nested_iteration.cc
+  output_parameters.cc
+  pair_parameters.cc
   parameters.cc
   paraview_files.cc
   point_holds.cc
