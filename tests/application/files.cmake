@@ -144,7 +144,8 @@ signorini_add_application_test(thermal_gradient 1 2)
 signorini_add_application_test(total_forces 1 2)
 signorini_add_application_test(verify 1 2)
 signorini_add_application_test(verify_options 1)
+signorini_add_application_test(verify_report 1)
 include(application/broken.cmake)
 
 # A browser is not everywhere: these tests say so and are skipped.
-set_tests_properties(application/report_hertz.np1 application/report_kinds.np1 PROPERTIES SKIP_REGULAR_EXPRESSION "SKIPPED: chromium")
+set_tests_properties(application/report_hertz.np1 application/report_kinds.np1 application/verify_report.np1 PROPERTIES SKIP_REGULAR_EXPRESSION "SKIPPED: chromium")
