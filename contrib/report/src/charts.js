@@ -49,12 +49,12 @@ function ticks(axis, isLog, n) {
   return all.length > 1 ? all.filter((_, i) => i % step === 0) : axis.ticks(3);
 }
 
-// lines: [{name, points: [[x, y]...], pieces (pairs of points that belong together), dots, dash}]; mark: an x to point at; xTicks: [[x, text]...] instead of round numbers.
-export function chart({lines, x, y, logX = false, logY = false, mark = null, label = '', xTicks = null}) {
+// lines: [{name, points: [[x, y]...], pieces (pairs of points that belong together), dots, dash}]; mark: an x to point at; xTicks: [[x, text]...] instead of round numbers; fromZero: y begins there, or below.
+export function chart({lines, x, y, logX = false, logY = false, mark = null, label = '', xTicks = null, fromZero = false}) {
   const points = lines.map(line => line.points);
   const {width, height, left, right, top, bottom} = size;
   const sx = scale(logX, range(points, 0, logX), [left, width - right], xTicks === null);
-  const sy = scale(logY, range(points, 1, logY), [height - bottom, top]);
+  const [low, high] = range(points, 1, logY), sy = scale(logY, [fromZero ? Math.min(low, 0) : low, high], [height - bottom, top]);
   const good = p => Number.isFinite(p[0]) && Number.isFinite(p[1]) && (!logX || p[0] > 0) && (!logY || p[1] > 0);
   const root = svg('svg', {viewBox: `0 0 ${width} ${height}`, class: 'chart', role: 'img', 'aria-label': label || `${y} over ${x}`});
   for (const [t, text] of xTicks || ticks(sx, logX, 6).map(t => [t, format(t, 4)])) {
