@@ -86,10 +86,10 @@ namespace Signorini
     if (!any() || !other.any())
       return {};
     // Each is a line or a plane: they have a line in common if it lies in the other one.
-    for (const auto &[line, other_one] : {std::make_pair(this, &other), std::make_pair(&other, this)})
-      if (const std::vector<Vector3> spanned = line->basis();
-          spanned.size() == 1 && other_one->contains(spanned[0]))
-        return *line;
-    return {};
+    const auto is_line_in = [](const FixedDirections &line, const FixedDirections &plane) {
+      const std::vector<Vector3> spanned = line.basis();
+      return spanned.size() == 1 && plane.contains(spanned[0]);
+    };
+    return is_line_in(*this, other) ? *this : is_line_in(other, *this) ? other : FixedDirections();
   }
 } // namespace Signorini

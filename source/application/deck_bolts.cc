@@ -71,9 +71,13 @@ namespace Signorini
         const unsigned int volume = mesh.cells[layer[0]].volume, added = mesh.volume_names.size();
         if (std::find(mesh.volume_names.begin(), mesh.volume_names.end(), name) != mesh.volume_names.end())
           refuse("there are two for this surface.");
+        const auto &others    = body.loads.pretensions;
+        const bool  is_in_use = std::any_of(others.begin(), others.end(), [&](const auto &other) {
+          return other.name == mesh.volume_names[volume];
+        });
         for (const unsigned int c : layer)
           {
-            if (mesh.cells[c].volume != volume)
+            if (is_in_use || mesh.cells[c].volume != volume)
               refuse("the elements behind the section have several materials, or belong to another section.");
             mesh.cells[c].volume = added;
           }

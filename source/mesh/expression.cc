@@ -26,6 +26,22 @@ namespace Signorini
     /// An expression is evaluated at every node: what is longer was not written by a person. (The parser has
     /// a bound of its own, and needs no recursion.)
     constexpr std::size_t longest_expression = 10000;
+
+    /// Whether one of the words of an expression is the parser's name of a random number, or of its seed.
+    bool is_random(const std::string &expression)
+    {
+      std::string word;
+      for (const char c : expression + ' ')
+        if (std::isalnum(static_cast<unsigned char>(c)) || c == '_')
+          word += c;
+        else
+          {
+            if (word == "rand" || word == "rand_seed")
+              return true;
+            word.clear();
+          }
+      return false;
+    }
   } // namespace
 
 
@@ -75,6 +91,11 @@ namespace Signorini
     if (source.size() > longest_expression)
       throw InputError(where + ": the expression " + in_quotes(source) + " is too long: at most " +
                        std::to_string(longest_expression) + " characters are read.");
+    if (is_random(source))
+      throw InputError(
+          where + ": " + in_quotes(source) +
+          " has random numbers: the problem would be another one at each evaluation, and on each "
+          "number of ranks. Write a function of x, y, z, t.");
     // deal.II tells what the parser found on the standard error: take it into our message instead.
     std::ostringstream    words;
     std::streambuf *const standard_error = std::cerr.rdbuf(words.rdbuf());

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <gmsh.h>
@@ -278,28 +279,58 @@ namespace Signorini
       bool                is_binary = false;
       std::map<int, Type> types;
     };
+
+    /// The ending of names of the format that a file has: its own, or that of gmsh's own format, which is
+    /// known by its first line.
+    std::string mesh_ending(const std::string &file)
+    {
+      std::string extension = std::filesystem::path(file).extension().string();
+      std::transform(extension.begin(), extension.end(), extension.begin(), ::tolower);
+      constexpr std::array<const char *, 11> known = {
+          {".mesh", ".meshb", ".vtk", ".unv", ".bdf", ".nas", ".med", ".cgns", ".neu", ".p3d", ".diff"}};
+      if (std::find(known.begin(), known.end(), extension) != known.end())
+        return extension;
+      std::ifstream in(file, std::ios::binary);
+      std::string   head(11, ' ');
+      in.read(head.data(), static_cast<std::streamsize>(head.size()));
+      for (const char *const word : {"$MeshFormat", "$NOD", "$Comments"})
+        if (head.compare(0, std::string(word).size(), word) == 0)
+          return ".msh";
+      throw InputError(
+          "Mesh file \"" + file + "\": it does not begin with $MeshFormat, as gmsh's files do" +
+          (extension == ".msh" ? "" : ", and \"" + extension + "\" is the ending of no format known here") +
+          ". Write the mesh as .msh.");
+    }
   } // namespace
 
 
 
-  void check_gmsh_format(const std::string &file)
+  GmshAlias::GmshAlias(const std::string &file)
   {
-    std::string extension = std::filesystem::path(file).extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(), ::tolower);
-    constexpr std::array<const char *, 11> known = {
-        {".mesh", ".meshb", ".vtk", ".unv", ".bdf", ".nas", ".med", ".cgns", ".neu", ".p3d", ".diff"}};
-    if (std::find(known.begin(), known.end(), extension) != known.end())
-      return;
-    std::ifstream in(file, std::ios::binary);
-    std::string   head(11, ' ');
-    in.read(head.data(), static_cast<std::streamsize>(head.size()));
-    for (const char *const word : {"$MeshFormat", "$NOD", "$Comments"})
-      if (head.compare(0, std::string(word).size(), word) == 0)
-        return;
-    throw InputError(
-        "Mesh file \"" + file + "\": it does not begin with $MeshFormat, as gmsh's files do" +
-        (extension == ".msh" ? "" : ", and \"" + extension + "\" is the ending of no format known here") +
-        ". Write the mesh as .msh.");
+    const std::string ending = mesh_ending(file);
+    std::error_code   error;
+    folder            = (std::filesystem::temp_directory_path(error) / "signorini-gmsh-XXXXXX").string();
+    const bool exists = !error && mkdtemp(&folder[0]) != nullptr;
+    link              = folder + "/mesh" + ending;
+    if (exists)
+      std::filesystem::create_symlink(std::filesystem::absolute(file), link, error);
+    if (!exists || error)
+      {
+        if (exists)
+          std::filesystem::remove(folder, error);
+        throw InputError("Mesh file \"" + file +
+                         "\": gmsh reads it through a link in a temporary folder, which cannot be made. Let "
+                         "TMPDIR be a folder that can be written to.");
+      }
+  }
+
+
+
+  GmshAlias::~GmshAlias()
+  {
+    std::error_code error;
+    std::filesystem::remove(link, error);
+    std::filesystem::remove(folder, error);
   }
 
 

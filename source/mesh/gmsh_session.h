@@ -4,21 +4,21 @@
 #ifndef signorini_mesh_gmsh_session_h
 #define signorini_mesh_gmsh_session_h
 
-#include <gmsh.h>
+#include <signorini/mesh/gmsh_file.h>
 
-#include <string>
+#include <gmsh.h>
 
 namespace Signorini
 {
-  /// gmsh's library is global: a file is open in it for as long as this lives. gmsh throws anything.
+  /// gmsh's library is global: a mesh is open in it for as long as this lives. gmsh throws anything.
   struct GmshSession
   {
-    explicit GmshSession(const std::string &file)
+    explicit GmshSession(const GmshAlias &file)
     {
       // Without the options that a user keeps for gmsh: they may change what is read.
       gmsh::initialize(0, nullptr, false);
       gmsh::option::setNumber("General.Terminal", 0);
-      gmsh::open(file);
+      gmsh::open(file.path());
     }
 
     ~GmshSession()

@@ -158,11 +158,10 @@ namespace Signorini
       std::unordered_map<std::size_t, unsigned int> number;
     };
 
-    VolumeMesh read_with_gmsh(const std::string &file)
+    VolumeMesh read_open_file(const std::string &file, const GmshAlias &alias)
     {
-      check_gmsh_format(file);
       const std::size_t n_in_file = count_volume_elements(file);
-      const GmshSession session(file);
+      const GmshSession session(alias);
       GmshNodes         gmsh_nodes(file);
       VolumeMesh        mesh;
       for (const auto &[entity, n, nodes] : elements(3, gmsh_tetrahedron, 4, gmsh_hexahedron, 8, file))
@@ -187,6 +186,13 @@ namespace Signorini
             named[*face] = group_name(2, entity, "unnamed");
       name_faces(mesh, named);
       return mesh;
+    }
+
+    /// The link is this process's: it is taken away also where the reader breaks down.
+    VolumeMesh read_with_gmsh(const std::string &file)
+    {
+      const GmshAlias alias(file);
+      return read_in_separate_process<VolumeMesh>(file, "gmsh", [&] { return read_open_file(file, alias); });
     }
   } // namespace
 
@@ -217,9 +223,7 @@ namespace Signorini
               throw InputError("Mesh file \"" + file + "\" cannot be opened.");
             std::string extension = std::filesystem::path(file).extension().string();
             std::transform(extension.begin(), extension.end(), extension.begin(), ::tolower);
-            mesh = extension == ".inp" ? read_abaqus_mesh(file)
-                                       : read_in_separate_process<VolumeMesh>(
-                                             file, "gmsh", [&file] { return read_with_gmsh(file); });
+            mesh = extension == ".inp" ? read_abaqus_mesh(file) : read_with_gmsh(file);
             mend_orientation(mesh, "Mesh file \"" + file + "\"");
           }
         catch (const InputError &e)

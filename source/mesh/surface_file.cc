@@ -148,14 +148,13 @@ namespace Signorini
       return mesh;
     }
 
-    SurfaceMesh read_gmsh(const std::string &file)
+    SurfaceMesh read_gmsh(const std::string &file, const GmshAlias &alias)
     {
       SurfaceMesh mesh;
       try
         {
-          check_gmsh_format(file);
           count_volume_elements(file);
-          const GmshSession        session(file);
+          const GmshSession        session(alias);
           std::vector<std::size_t> tags;
           std::vector<double>      coordinates, parametric;
           gmsh::model::mesh::getNodes(tags, coordinates, parametric);
@@ -196,15 +195,18 @@ namespace Signorini
       return mesh;
     }
 
-    Arrays read_separately(const std::string &file, const std::string &reader,
-                           SurfaceMesh (*const read)(const std::string &file))
+    Arrays read_separately(const std::string &file, const bool is_gmsh)
     {
+      const auto arrays = [](const SurfaceMesh &mesh) { return Arrays(mesh.vertices, mesh.triangles); };
       try
         {
-          return read_in_separate_process<Arrays>(file, reader, [&] {
-            const SurfaceMesh mesh = read(file);
-            return Arrays(mesh.vertices, mesh.triangles);
-          });
+          if (!is_gmsh)
+            return read_in_separate_process<Arrays>(file, "CGAL",
+                                                    [&] { return arrays(read_polygons(file)); });
+          // The link is this process's: it is taken away also where the reader breaks down.
+          const GmshAlias alias(file);
+          return read_in_separate_process<Arrays>(file, "gmsh",
+                                                  [&] { return arrays(read_gmsh(file, alias)); });
         }
       catch (const InputError &e)
         {
@@ -235,8 +237,7 @@ namespace Signorini
     if (extension == ".stl" && has_infinite_coordinates(file))
       throw InputError("Surface " + file + ": a vertex has no finite coordinates.");
     SurfaceMesh mesh;
-    std::tie(mesh.vertices, mesh.triangles) =
-        read_separately(file, is_gmsh ? "gmsh" : "CGAL", is_gmsh ? read_gmsh : read_polygons);
+    std::tie(mesh.vertices, mesh.triangles) = read_separately(file, is_gmsh);
     if (mesh.triangles.empty())
       throw InputError("Surface " + file + ": there are no triangles in it.");
     for (const Point<3> &p : mesh.vertices)

@@ -387,8 +387,9 @@ namespace Signorini
   {
     out << "x,y,z,area,pressure,recovered_pressure,gap,active,nx,ny,nz,node,mesh_node,side,pair\n"
         << std::setprecision(17);
-    for (const auto &[rows, side] :
-         {std::make_pair(&results.pressure, "nonmortar"), {&results.mortar_pressure, "mortar"}})
+    const std::pair<const std::vector<PressureRow> *, const char *> sides[] = {
+        {&results.pressure, "nonmortar"}, {&results.mortar_pressure, "mortar"}};
+    for (const auto &[rows, side] : sides)
       for (const PressureRow &row : *rows)
         out << row.position[0] << ',' << row.position[1] << ',' << row.position[2] << ',' << row.area << ','
             << row.pressure << ',' << row.recovered_pressure << ',' << row.gap << ',' << row.active << ','

@@ -285,8 +285,9 @@ namespace Signorini
     out << "<PUnstructuredGrid GhostLevel=\"0\">\n<PPoints>\n<PDataArray type=\""
         << (format.double_precision ? type_name<double>() : type_name<float>())
         << "\" NumberOfComponents=\"3\"/>\n</PPoints>\n";
-    for (const auto &[tag, list] :
-         {std::make_pair("PPointData", &fields.points), {"PCellData", &fields.cells}})
+    const std::pair<const char *, const std::vector<OutputField> *> lists[] = {{"PPointData", &fields.points},
+                                                                               {"PCellData", &fields.cells}};
+    for (const auto &[tag, list] : lists)
       {
         out << '<' << tag << attributes(*list) << ">\n";
         for (const OutputField &field : *list)

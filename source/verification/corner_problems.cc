@@ -9,14 +9,7 @@ namespace Signorini
 {
   namespace
   {
-    struct CornerBody
-    {
-      std::string              name, low, high, divisions;
-      double                   young, poisson;
-      std::vector<std::string> held;
-    };
-
-    const std::vector<CornerBody> corner_bodies = {
+    const std::vector<ManufacturedBlock> corner_bodies = {
         {"block", "0, 0, 0", "1, 1, 1", "3, 3, 3", 1000., .3, {"right", "front", "back", "top"}},
         {"floor", "0, 0, -1", "1, 1, 0", "4, 4, 4", 3000., .2, {"left", "right", "front", "back", "bottom"}},
         {"wall", "-1, 0, 0", "0, 1, 1", "2, 4, 5", 2000., .35, {"left", "bottom", "front", "back", "top"}}};
@@ -24,7 +17,7 @@ namespace Signorini
     constexpr double strain = 1e-3;
 
     /// lambda + mu of the block: the pressure is 2 e (lambda + mu) cos x cos y cos z in all bodies.
-    double stiffness(const CornerBody &body)
+    double stiffness(const ManufacturedBlock &body)
     {
       const LameConstants m(body.young, body.poisson);
       return m.lambda + m.mu;
@@ -32,29 +25,22 @@ namespace Signorini
 
     /// u = -e (sin x cos y cos z, 0, cos x cos y sin z) has no shear stress and no normal displacement on x =
     /// 0 and on z = 0: the bodies slide on each other.
-    std::string section(const CornerBody &body)
+    std::string section(const ManufacturedBlock &body)
     {
       const LameConstants m(body.young, body.poisson);
       const double        e = strain * stiffness(corner_bodies[0]) / stiffness(body);
       const std::string   u = "(" + number(-e) + "*sin(x)*cos(y)*cos(z), 0, " + number(-e) +
                             "*cos(x)*cos(y)*sin(z))",
                         f = number(-e * (2. * m.lambda + 5. * m.mu));
-      std::string held;
-      for (const std::string &side : body.held)
-        held += side + ": " + u + "; ";
-      return "subsection Body " + body.name + "\n set Mesh = block\n set Lower corner = " + body.low +
-             "\n set Upper corner = " + body.high + "\n set Divisions = " + body.divisions +
-             "\n set Young modulus = " + std::to_string(body.young) +
-             "\n set Poisson ratio = " + std::to_string(body.poisson) + "\n set Dirichlet = " + held +
-             "\n set Exact displacement = " + u + "\n set Volume force = (" + f + "*sin(x)*cos(y)*cos(z), " +
-             number(-2. * e * (m.lambda + m.mu)) + "*cos(x)*sin(y)*cos(z), " + f +
-             "*cos(x)*cos(y)*sin(z))\nend\n";
+      return block_section(body, u,
+                           "(" + f + "*sin(x)*cos(y)*cos(z), " + number(-2. * e * (m.lambda + m.mu)) +
+                               "*cos(x)*sin(y)*cos(z), " + f + "*cos(x)*cos(y)*sin(z))");
     }
 
     std::string corner()
     {
       std::string text = "set Bodies = block, floor, wall\nset Contact pairs = below, beside\n";
-      for (const CornerBody &body : corner_bodies)
+      for (const ManufacturedBlock &body : corner_bodies)
         text += section(body);
       return text + R"(
         subsection Pair below

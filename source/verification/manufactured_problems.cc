@@ -59,17 +59,16 @@ namespace Signorini
     {
       const LameConstants material(young, poisson);
       // The lower one rests where the gap is open.
-      const Field       in = pressed(material), out = lifted(material, is_above ? opening : 0.);
-      const std::string u = piecewise(in.displacement, out.displacement), z = is_above ? "0.5" : "0";
-      std::string       held;
-      for (const char *const side : {"left", "right", "front", "back", is_above ? "top" : "bottom"})
-        held += std::string(side) + ": " + u + "; ";
-      return "subsection Body " + name + "\n set Mesh = block\n set Lower corner = -1, -1, " +
-             (is_above ? "0" : "-0.5") + "\n set Upper corner = 1, 1, " + z +
-             "\n set Divisions = " + divisions + "\n set Young modulus = " + std::to_string(young) +
-             "\n set Poisson ratio = " + std::to_string(poisson) + "\n set Dirichlet = " + held +
-             "\n set Volume force = " + piecewise(in.force, out.force) + "\n set Exact displacement = " + u +
-             "\nend\n";
+      const Field             in = pressed(material), out = lifted(material, is_above ? opening : 0.);
+      const ManufacturedBlock block = {name,
+                                       is_above ? "-1, -1, 0" : "-1, -1, -0.5",
+                                       is_above ? "1, 1, 0.5" : "1, 1, 0",
+                                       divisions,
+                                       young,
+                                       poisson,
+                                       {"left", "right", "front", "back", is_above ? "top" : "bottom"}};
+      return block_section(block, piecewise(in.displacement, out.displacement),
+                           piecewise(in.force, out.force));
     }
 
     VerificationRun run(const MPI_Comm communicator, const std::string &text, const Settings &settings,

@@ -167,6 +167,21 @@ namespace Signorini
 
 
 
+  std::string block_section(const ManufacturedBlock &block, const std::string &displacement,
+                            const std::string &force)
+  {
+    std::string held;
+    for (const std::string &side : block.held)
+      held += side + ": " + displacement + "; ";
+    return "subsection Body " + block.name + "\n set Mesh = block\n set Lower corner = " + block.low +
+           "\n set Upper corner = " + block.high + "\n set Divisions = " + block.divisions +
+           "\n set Young modulus = " + std::to_string(block.young) +
+           "\n set Poisson ratio = " + std::to_string(block.poisson) + "\n set Dirichlet = " + held +
+           "\n set Volume force = " + force + "\n set Exact displacement = " + displacement + "\nend\n";
+  }
+
+
+
   std::vector<double> solve_dense(const std::vector<std::vector<double>> &matrix,
                                   const std::vector<double>              &right)
   {

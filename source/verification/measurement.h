@@ -68,6 +68,21 @@ namespace Signorini
     double lambda, mu;
   };
 
+  /// A block of a manufactured problem: all but its solution.
+  struct ManufacturedBlock
+  {
+    /// Corners and divisions as parameter files have them.
+    std::string name, low, high, divisions;
+    double      young, poisson;
+    /// The boundaries where the displacement is prescribed.
+    std::vector<std::string> held;
+  };
+
+  /// Its section of a parameter file: the displacement as condition and as exact solution, and the volume
+  /// force that belongs to it.
+  std::string block_section(const ManufacturedBlock &block, const std::string &displacement,
+                            const std::string &force);
+
   /// The solution of a small system of linear equations.
   std::vector<double> solve_dense(const std::vector<std::vector<double>> &matrix,
                                   const std::vector<double>              &right);

@@ -4,6 +4,7 @@
 #include <signorini/algebra/input_error.h>
 #include <signorini/application/write_results.h>
 #include <signorini/output/progress.h>
+#include <signorini/output/report_page.h>
 #include <signorini/verification/verification_report.h>
 #include <signorini/verification/verify_command.h>
 
@@ -20,17 +21,20 @@ namespace Signorini
 
   namespace
   {
-    const char *const usage = "usage: signorini verify [--quick] [--details] [--json FILE] [NAME]...\n"
+    const char *const usage = "usage: signorini verify [--quick] [--details] [--json FILE] [--report FILE] "
+                              "[NAME]...\n"
                               "       signorini verify --list   the problems\n"
                               "Solves problems with known solutions. NAME: of a problem, or how names begin "
                               "(hertz); all without it.\n"
-                              "--quick: the coarser meshes only; --details: errors on all meshes. Exit code "
-                              "0: all pass, 3: not all.\n";
+                              "--quick: the coarser meshes only; --details: errors on all meshes; --json: "
+                              "everything in numbers;\n"
+                              "--report: a page for browsers (FILE.html), with errors over refinement. Exit "
+                              "code 0: all pass, 3: not all.\n";
 
     struct VerifyOptions
     {
       bool                     quick = false, details = false, list = false, help = false;
-      std::string              json;
+      std::string              json, report;
       std::vector<std::string> names;
     };
 
@@ -48,11 +52,11 @@ namespace Signorini
             options.list = true;
           else if (argument == "--help" || argument == "-h")
             options.help = true;
-          else if (argument == "--json")
+          else if (argument == "--json" || argument == "--report")
             {
               if (i + 1 == arguments.size() || arguments[i + 1].empty())
-                throw InputError(std::string("verify --json needs the name of a file.\n") + usage);
-              options.json = arguments[++i];
+                throw InputError("verify " + argument + " needs the name of a file.\n" + usage);
+              (argument == "--json" ? options.json : options.report) = arguments[++i];
             }
           else if (!argument.empty() && argument[0] == '-')
             throw InputError("verify: unknown option \"" + argument + "\".\n" + usage);
@@ -80,12 +84,12 @@ namespace Signorini
       return selected;
     }
 
-    /// The file of the results, written beside it first: it is complete, or as it was.
-    class JsonFile
+    /// A file of results, written beside it first: it is complete, or as it was.
+    class ResultFile
     {
     public:
       /// Errors: InputError for a place where nothing can be written, before anything is computed.
-      JsonFile(const std::string &name)
+      ResultFile(const std::string &name)
         : name(name)
         , part(name + ".part")
         , out(part)
@@ -94,15 +98,15 @@ namespace Signorini
           throw InputError("verify: the file \"" + part + "\" cannot be written.");
       }
 
-      ~JsonFile()
+      ~ResultFile()
       {
         if (!is_complete)
           std::remove(part.c_str());
       }
 
-      void write(const std::vector<VerifiedProblem> &results, const VerificationSettings &settings)
+      void write(const std::function<void(std::ostream &)> &write_content)
       {
-        write_json(out, results, settings);
+        write_content(out);
         out.close();
         if (!out || std::rename(part.c_str(), name.c_str()) != 0)
           throw InputError("verify: the file \"" + name + "\" could not be written; is the disk full?");
@@ -115,15 +119,36 @@ namespace Signorini
       bool              is_complete = false;
     };
 
-    /// Made by the first rank only; what goes wrong there ends all.
-    std::unique_ptr<JsonFile> open(const std::string &name, const MPI_Comm communicator)
+    /// Those of the options, of the first rank only; null where nobody asked for one.
+    struct ResultFiles
     {
-      std::unique_ptr<JsonFile> file;
-      std::string               error;
-      if (!name.empty() && Utilities::MPI::this_mpi_process(communicator) == 0)
+      std::unique_ptr<ResultFile> json, report;
+
+      void write(const std::vector<VerifiedProblem> &results, const VerificationSettings &settings) const
+      {
+        if (json)
+          json->write([&](std::ostream &out) { write_json(out, results, settings); });
+        if (report)
+          report->write([&](std::ostream &out) {
+            std::ostringstream text;
+            write_json(text, results, settings);
+            write_verification_report(out, text.str());
+          });
+      }
+    };
+
+    /// Collective: what goes wrong on the first rank ends all.
+    ResultFiles open(const VerifyOptions &options, const MPI_Comm communicator)
+    {
+      ResultFiles files;
+      std::string error;
+      if (Utilities::MPI::this_mpi_process(communicator) == 0)
         try
           {
-            file = std::make_unique<JsonFile>(name);
+            if (!options.json.empty())
+              files.json = std::make_unique<ResultFile>(options.json);
+            if (!options.report.empty())
+              files.report = std::make_unique<ResultFile>(options.report);
           }
         catch (const InputError &e)
           {
@@ -132,7 +157,7 @@ namespace Signorini
       error = Utilities::MPI::broadcast(communicator, error);
       if (!error.empty())
         throw InputError(error);
-      return file;
+      return files;
     }
 
     void print_list(std::ostream &out, const std::vector<VerificationProblem> &problems)
@@ -183,10 +208,10 @@ namespace Signorini
         print_list(out, problems);
         return 0;
       }
-    const std::unique_ptr<JsonFile> file = open(options.json, communicator);
-    const Timer                     time;
-    const VerificationSettings      settings = {version_text(), Utilities::MPI::n_mpi_processes(communicator),
-                                                options.quick};
+    const ResultFiles          files = open(options, communicator);
+    const Timer                time;
+    const VerificationSettings settings = {version_text(), Utilities::MPI::n_mpi_processes(communicator),
+                                           options.quick};
     const std::vector<VerifiedProblem> results  = verify_all(problems, options, communicator, out);
     const auto                         n_passed = std::count_if(results.begin(), results.end(),
                                                                 [](const VerifiedProblem &result) { return result.passes(); });
@@ -194,8 +219,7 @@ namespace Signorini
         << (results.size() == 1 ? " problem passes" : " problems pass") << " (" << settings.version << ", "
         << settings.ranks << (settings.ranks == 1 ? " rank, " : " ranks, ") << std::fixed
         << std::setprecision(0) << time.wall_time() << " s)" << std::endl;
-    if (file)
-      file->write(results, settings);
+    files.write(results, settings);
     return n_passed == static_cast<std::ptrdiff_t>(results.size()) ? 0 : 3;
   }
 } // namespace Signorini

@@ -367,6 +367,24 @@ def checkpoint_refused(p):
         check(sorted(os.listdir(folder)) == ['case.prm', 'out', 'upper.inp'], f'left: {os.listdir(folder)}')
 
 
+def checkpoint_lacks_files(p):
+    """The files of load steps that a checkpoint speaks of: one that is gone, one that is shorter."""
+    with tempfile.TemporaryDirectory() as folder:
+        out = os.path.join(folder, 'out')
+        arguments = [PATCH_TEST, '--output', out, *[x for s in ('Refinement/Global cycles=0', 'Load steps=3') for x in ('--set', s)]]
+        limit = ['--set', 'Output/Wall time limit=0.01']
+        check(p.call(*arguments, *limit).returncode == 4, 'not stopped after the first solution')
+        check(p.call('--resume', *arguments, *limit).returncode == 4, 'not stopped after a load step')
+        lost = sorted(name for name in tree(folder) if not name.endswith('/state'))
+        check(lost, f'no files of load steps: {sorted(tree(folder))}')
+        content = tree(folder)[lost[0]]
+        for change in (os.remove, lambda name: write(name, content[:-1])):
+            change(lost[0])
+            refused(p, ['--resume', *arguments], ('lacks the file', os.path.basename(lost[0]), 'as a load step wrote it'))
+        write(lost[0], content)
+        check(p.call('--resume', *arguments).returncode == 0, 'does not go on')
+
+
 def checkpoint_and_signal(p):
     """SIGTERM: the last words say where the state is."""
     with tempfile.TemporaryDirectory() as folder:

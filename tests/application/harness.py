@@ -5,12 +5,14 @@ import os
 import re
 import shutil
 import subprocess
+import sys
 import tempfile
 
 TOP = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+sys.path.append(os.path.join(TOP, 'tests'))
+from run_environment import run_environment  # noqa: E402
+
 FAILURES = []
-# Folders of MPI: where runs share one, the end of one may take it away while another begins.
-SESSIONS = tempfile.TemporaryDirectory(prefix='mpi-')
 
 
 def check(condition, text):
@@ -28,11 +30,8 @@ class Program:
 
     @property
     def environment(self):
-        """For one run: memory alone, without a search for networks and a daemon at each start (0.3 s); ranks that wait leave the core to others."""
-        return dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT='1', OMPI_ALLOW_RUN_AS_ROOT_CONFIRM='1',
-                    OMPI_MCA_rmaps_base_oversubscribe='1', OMPI_MCA_btl_vader_single_copy_mechanism='none',
-                    OMPI_MCA_pml='ob1', OMPI_MCA_btl='self,vader', OMPI_MCA_mpi_yield_when_idle='1',
-                    OMPI_MCA_ess_singleton_isolated='1', OMPI_MCA_orte_tmpdir_base=tempfile.mkdtemp(dir=SESSIONS.name))
+        """For one run."""
+        return run_environment()
 
     def call(self, *arguments):
         # Where one rank ends with an error all do: mpirun would give the others a second.

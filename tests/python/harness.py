@@ -6,15 +6,14 @@ import json
 import os
 import re
 import subprocess
+import sys
 import tempfile
 
 TOP = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-# As application/harness.py.
-SESSIONS = tempfile.TemporaryDirectory(prefix='mpi-')
-ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT='1', OMPI_ALLOW_RUN_AS_ROOT_CONFIRM='1', OMPI_MCA_rmaps_base_oversubscribe='1',
-                   OMPI_MCA_btl_vader_single_copy_mechanism='none', OMPI_MCA_pml='ob1', OMPI_MCA_btl='self,vader',
-                   OMPI_MCA_mpi_yield_when_idle='1', OMPI_MCA_ess_singleton_isolated='1',
-                   OMPI_MCA_orte_tmpdir_base=SESSIONS.name)
+sys.path.append(os.path.join(TOP, 'tests'))
+from run_environment import run_environment  # noqa: E402
+
+ENVIRONMENT = run_environment()
 # Not the same in two runs of anything, or not of the same program.
 FLEETING = re.compile(r'.*_s|peak_memory_bytes|parameter_file')
 

@@ -195,6 +195,20 @@ class Processes(unittest.TestCase):
         return subprocess.run([*command, sys.executable, '-c', textwrap.dedent(script)], env=ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                               text=True, timeout=100, cwd=os.path.dirname(os.path.abspath(__file__)), check=False, **options)
 
+    def test_after_the_end_of_mpi(self):
+        """As other packages end it: by the library that this process has loaded."""
+        run = self.python('''
+            import ctypes, signorini
+            from harness import patch_test
+            mpi = ctypes.CDLL(next(line.split()[-1] for line in open("/proc/self/maps") if "/libmpi.so" in line))
+            mpi.MPI_Init(None, None)
+            mpi.MPI_Finalize()
+            try:
+                signorini.run(patch_test())
+            except signorini.InputError as error:
+                print(error)''')
+        self.assertEqual((run.returncode, run.stdout), (0, 'MPI has ended; nothing can be computed any more in this process.\n'), run.stderr)
+
     def test_interrupt(self):
         with tempfile.TemporaryDirectory() as folder:
             run = self.python(f'''

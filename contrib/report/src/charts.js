@@ -33,10 +33,12 @@ function range(points, c, isLog) {
   return [low, high];
 }
 
-function scale(isLog, values, pixels) {
+// An axis with ticks of its own ends where its values do.
+function scale(isLog, values, pixels, isRound = true) {
   if (!isLog) return scaleLinear().domain(padded(values)).range(pixels).nice();
   const [low, high] = values[0] <= values[1] ? values : [0.1, 1];
-  return scaleLog().domain(low < high ? [low, high] : [low / 2, high * 2]).range(pixels).nice();
+  const axis = scaleLog().domain(low < high ? [low, high] : [low / 2, high * 2]).range(pixels);
+  return isRound ? axis.nice() : axis;
 }
 
 // Logarithmic axes have a label at powers of ten alone.
@@ -47,17 +49,17 @@ function ticks(axis, isLog, n) {
   return all.length > 1 ? all.filter((_, i) => i % step === 0) : axis.ticks(3);
 }
 
-// lines: [{name, points: [[x, y]...], pieces (pairs of points that belong together), dots, dash}]; mark: an x to point at.
-export function chart({lines, x, y, logX = false, logY = false, mark = null, label = ''}) {
+// lines: [{name, points: [[x, y]...], pieces (pairs of points that belong together), dots, dash}]; mark: an x to point at; xTicks: [[x, text]...] instead of round numbers; fromZero: y begins there, or below.
+export function chart({lines, x, y, logX = false, logY = false, mark = null, label = '', xTicks = null, fromZero = false}) {
   const points = lines.map(line => line.points);
   const {width, height, left, right, top, bottom} = size;
-  const sx = scale(logX, range(points, 0, logX), [left, width - right]);
-  const sy = scale(logY, range(points, 1, logY), [height - bottom, top]);
+  const sx = scale(logX, range(points, 0, logX), [left, width - right], xTicks === null);
+  const [low, high] = range(points, 1, logY), sy = scale(logY, [fromZero ? Math.min(low, 0) : low, high], [height - bottom, top]);
   const good = p => Number.isFinite(p[0]) && Number.isFinite(p[1]) && (!logX || p[0] > 0) && (!logY || p[1] > 0);
   const root = svg('svg', {viewBox: `0 0 ${width} ${height}`, class: 'chart', role: 'img', 'aria-label': label || `${y} over ${x}`});
-  for (const t of ticks(sx, logX, 6)) {
+  for (const [t, text] of xTicks || ticks(sx, logX, 6).map(t => [t, format(t, 4)])) {
     root.append(svg('line', {x1: sx(t), x2: sx(t), y1: top, y2: height - bottom, class: 'grid'}));
-    root.append(svg('text', {x: sx(t), y: height - bottom + 16, class: 'tick middle'}, format(t, 4)));
+    root.append(svg('text', {x: sx(t), y: height - bottom + 16, class: 'tick middle'}, text));
   }
   for (const t of ticks(sy, logY, 6)) {
     root.append(svg('line', {x1: left, x2: width - right, y1: sy(t), y2: sy(t), class: 'grid'}));

@@ -37,6 +37,9 @@ function limitsOf(scene, surfaces, name, pairs) {
     const approach = Math.max(0, ...pairs.map(pair => pair.approach || 0));
     return [0, approach > 0 ? Math.min(high, 4 * approach) || high : high];
   }
+  // What contact presses on the other side with falls below zero at the border of the zone, by mortar matrices with negative entries; ties pull.
+  const pulls = pairs.some(pair => pair.min_pressure < -1e-6 * pair.max_pressure);
+  if (/pressure/.test(name) && !pulls) return [0, high];
   return [Math.min(low, 0), high];
 }
 
@@ -306,9 +309,9 @@ function profiles(scene, side, pair, units) {
     }
     place.replaceChildren(
       h('div', {}, h('h4', {}, `Along (${direction.map(x => format(Math.abs(x) < 1e-3 ? 0 : x, 3)).join(', ')}) through (${point.map(x => format(x, 4)).join(', ')})`),
-        chart({lines, x: `distance along the line${u(units.length)}`, y: `contact pressure${u(units.stress)}`})),
+        chart({lines, x: `distance along the line${u(units.length)}`, y: `contact pressure${u(units.stress)}`, fromZero: true})),
       h('div', {}, h('h4', {}, 'Over the distance from this point'),
-        chart({lines: [{points: dots, dots: true, colour: '#31688e'}], x: `distance${u(units.length)}`, y: `contact pressure${u(units.stress)}`})));
+        chart({lines: [{points: dots, dots: true, colour: '#31688e'}], x: `distance${u(units.length)}`, y: `contact pressure${u(units.stress)}`, fromZero: true})));
   };
   choices.append(
     select('Line through', [['centre', 'the centre of pressure'], ['largest', 'the largest pressure']], 'centre', value => {

@@ -9,9 +9,29 @@
 
 namespace Signorini
 {
-  /// Refuses what gmsh would not read as a mesh: it takes files without a head or an ending that it knows for
-  /// scripts, and runs them, commands to the shell included. Errors: InputError.
-  void check_gmsh_format(const std::string &file);
+  /// A name under which gmsh reads a mesh and does nothing else: that of a link, in a folder that goes with
+  /// the object. Beside a file gmsh runs FILE.opt as a script, commands to the shell included; so it does
+  /// with files that have no head and no ending that it knows. Files of some other endings it hands to a
+  /// shell.
+  class GmshAlias
+  {
+  public:
+    /// Errors: InputError for what gmsh would not read as a mesh, and where no folder can be made.
+    explicit GmshAlias(const std::string &file);
+    ~GmshAlias();
+
+    GmshAlias(const GmshAlias &)            = delete;
+    GmshAlias &operator=(const GmshAlias &) = delete;
+
+    /// The name of the link.
+    const std::string &path() const
+    {
+      return link;
+    }
+
+  private:
+    std::string folder, link;
+  };
 
   /// How many elements of dimension 3 a file in gmsh's own format (2 and 4, text and binary) contains; all
   /// versions of others, and files in other formats: `unknown_number`. gmsh reads as many elements as a file

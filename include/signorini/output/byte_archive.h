@@ -199,7 +199,7 @@ namespace Signorini
     {
       if (n > text.size() - position)
         fail();
-      std::memcpy(to, text.data() + position, n);
+      text.copy(static_cast<char *>(to), n, position);
       position += n;
     }
 

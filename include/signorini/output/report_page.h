@@ -44,7 +44,7 @@ namespace Signorini
   void write_report_page(std::ostream &out, const std::string &title,
                          const std::function<void(ReportBlocks &)> &write);
 
-  /// The page of a verification (`signorini verify --json`): the same template, which shows problems with
+  /// The page of a verification (`signorini verify --report`): the same template, which shows problems with
   /// errors, orders and verdicts. Keys: doc/output.md.
   /// @param json the text of the results
   void write_verification_report(std::ostream &out, const std::string &json);

@@ -233,4 +233,39 @@ TEST(BodyDefinition, RefusesWhatItCannotUse)
   mesh.begin_active()->set_refine_flag();
   mesh.execute_coarsening_and_refinement();
   EXPECT_THROW(make_body("cube", mesh), InputError);
+  Triangulation<3> wedge;
+  dealii::GridGenerator::reference_cell(wedge, dealii::ReferenceCells::Wedge);
+  EXPECT_THROW(make_body("wedge", wedge), InputError);
+}
+
+
+
+// Loads that only a program can hand over: parameter files are refused before.
+TEST(ProblemDefinition, RefusesLoadsWithoutNumbers)
+{
+  const auto error = [](const std::function<void(LoadDefinition &)> &change) -> std::string {
+    ProblemDefinition problem = patch_test();
+    change(problem.bodies[0].loads);
+    try
+      {
+        const ContactModel model(MPI_COMM_WORLD, std::move(problem));
+      }
+    catch (const InputError &e)
+      {
+        return e.what();
+      }
+    return "none";
+  };
+  const std::string strain = error([](LoadDefinition &loads) {
+    loads.initial_strains.push_back({"", zero, std::numeric_limits<double>::quiet_NaN()});
+  });
+  EXPECT_NE(strain.find("the coefficient is not a finite number"), std::string::npos) << strain;
+  const std::string bolt = error([](LoadDefinition &loads) {
+    loads.pretensions.push_back({"shank", Vector3({0., 0., 1.}), ScalarField()});
+  });
+  EXPECT_NE(bolt.find("there is no force"), std::string::npos) << bolt;
+  const std::string normal = error([](LoadDefinition &loads) {
+    loads.displacements.push_back({"top", {{zero, zero, free_component}}, ConditionFrame::normal()});
+  });
+  EXPECT_NE(normal.find("along a normal there is one component"), std::string::npos) << normal;
 }

@@ -118,18 +118,40 @@ TEST(DamagedFiles, CountsMakeSense)
       const std::string   error = mesh_error(file.path);
       EXPECT_NE(error.find("count of -"), std::string::npos) << error;
     }
-  // A block of -1 elements, of binary files: type, number, tags.
-  std::string head = "$MeshFormat\n2.2 1 8\n";
-  const auto  add  = [&head](const int number) {
-    head.append(reinterpret_cast<const char *>(&number), sizeof(int));
+}
+
+
+
+// Elements of binary files stand in blocks: type, number, tags of each; then number, tags and nodes of the
+// elements.
+TEST(DamagedFiles, BinaryElementsAreAsManyAsAnnounced)
+{
+  const auto elements = [](const unsigned int announced, const std::vector<int> &numbers,
+                           const std::string &end = "$EndElements\n") {
+    std::string text = "$MeshFormat\n2.2 1 8\n";
+    const auto  add  = [&text](const int number) {
+      text.append(reinterpret_cast<const char *>(&number), sizeof(int));
+    };
+    add(1);
+    text += "\n$EndMeshFormat\n$Elements\n" + std::to_string(announced) + "\n";
+    for (const int number : numbers)
+      add(number);
+    return text + end;
   };
-  add(1);
-  head += "\n$EndMeshFormat\n$Elements\n5\n";
-  for (const int number : {4, -1, 2})
-    add(number);
-  const TemporaryFile file(head);
-  const std::string   error = mesh_error(file.path);
-  EXPECT_NE(error.find("count of -1"), std::string::npos) << error;
+  const std::vector<int> one                         = {4, 1, 2, 1, 1, 1, 1, 2, 3, 4},
+                         two                         = {4, 2, 2, 1, 1, 1, 1, 2, 3, 4, 2, 1, 1, 1, 2, 3, 5},
+                         too_long                    = {4, 1, 2, 1, 1, 1, 1, 2, 3, 4, 7};
+  const std::pair<std::string, const char *> cases[] = {
+      {elements(5, {4, -1, 2}), "count of -1"},
+      {elements(5, one, ""), "ends within its elements"},
+      {elements(1, two), "announces 1 elements and has 2"},
+      {elements(1, too_long), "goes on after the 1 elements"}};
+  for (const auto &[text, words] : cases)
+    {
+      const TemporaryFile file(text);
+      const std::string   error = mesh_error(file.path);
+      EXPECT_NE(error.find(words), std::string::npos) << error;
+    }
 }
 
 
@@ -146,4 +168,41 @@ TEST(DamagedFiles, SurfacesDoNotAnnounceMoreThanTheyHave)
       {
         EXPECT_NE(std::string(e.what()).find("announces"), std::string::npos) << e.what();
       }
+}
+
+
+
+// gmsh runs FILE.opt beside a file that it opens, and hands files of some endings to a shell.
+TEST(DamagedFiles, ScriptsBesideAMeshAreNotRun)
+{
+  if (Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
+    GTEST_SKIP() << "one rank reads the files";
+  const TemporaryFile marker("", ".marker");
+  std::filesystem::remove(marker.path);
+  const std::string volume  = gmsh_text(cube(), {"5 2 7 1 1 2 3 4 5 6 7 8"}),
+                    surface = gmsh_text(cube(), {"3 2 7 1 1 2 3 4"});
+  for (const std::string ending : {".msh", ".gz", ".geo"})
+    {
+      const TemporaryFile mesh(volume, ending), boundary(surface),
+          script("SystemCall \"touch " + marker.path + "\";\n");
+      for (const std::string &file : {mesh.path, boundary.path})
+        std::filesystem::copy_file(script.path, file + ".opt");
+      EXPECT_EQ(read_volume_mesh(mesh.path, MPI_COMM_WORLD).cells.size(), 1u);
+      EXPECT_EQ(read_surface(boundary.path).triangles.size(), 2u);
+      EXPECT_FALSE(std::filesystem::exists(marker.path)) << ending;
+      for (const std::string &file : {mesh.path, boundary.path})
+        std::filesystem::remove(file + ".opt");
+    }
+}
+
+
+
+TEST(DamagedFiles, NoFolderForLinksIsOneMessage)
+{
+  const TemporaryFile mesh(gmsh_text(cube(), {"5 2 7 1 1 2 3 4 5 6 7 8"}));
+  const char *const   before = std::getenv("TMPDIR");
+  const std::string   kept   = before == nullptr ? "" : before;
+  setenv("TMPDIR", "/no/such/folder", 1);
+  EXPECT_NE(mesh_error(mesh.path).find("TMPDIR"), std::string::npos) << mesh_error(mesh.path);
+  before == nullptr ? unsetenv("TMPDIR") : setenv("TMPDIR", kept.c_str(), 1);
 }

@@ -39,6 +39,14 @@ TEST(Expression, NamesTheParameterInErrors)
 
 
 
+TEST(Expression, RefusesRandomNumbers)
+{
+  for (const char *text : {"rand()", "x + 0.1*rand()", "rand_seed(3)", "if(x > 0, rand(), 1)"})
+    EXPECT_THROW(Expression(text, "Body first/Pressures"), InputError) << text;
+}
+
+
+
 TEST(Expression, RefusesValuesThatAreNotFinite)
 {
   const Expression inverse("1/x", "Body first/Pressures");

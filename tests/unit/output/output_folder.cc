@@ -80,6 +80,11 @@ TEST_F(OutputFolders, CommitReplacesOldResultsAsAWhole)
   EXPECT_EQ(n_entries(), 1u);
 }
 
+TEST_F(OutputFolders, NeedANameOfTheirOwn)
+{
+  EXPECT_THROW(OutputFolder("", MPI_COMM_WORLD), InputError);
+}
+
 TEST_F(OutputFolders, ForeignFoldersAndFilesAreNotTouched)
 {
   if (is_root())
