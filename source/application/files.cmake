@@ -28,6 +28,7 @@ signorini_add_layer(application
   linear_comparison.cc
   load_steps.cc
   nested_iteration.cc
+  pair_pieces.cc
   parameters.cc
   paraview_files.cc
   point_holds.cc
