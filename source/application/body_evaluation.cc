@@ -228,7 +228,8 @@ namespace Signorini
       std::vector<std::pair<unsigned int, Vector3>> result;
       if (pair.obstacle)
         for (unsigned int v = 0; v < nonmortar.size(); ++v)
-          result.emplace_back(v, nonmortar[v]);
+          if (pair.halo->owns(v))
+            result.emplace_back(v, nonmortar[v]);
       if (!pair.mapping)
         return result;
       const SurfaceValues on_mortar(pair.mortar.surface);

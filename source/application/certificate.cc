@@ -109,12 +109,8 @@ namespace Signorini
             is_near[v] = 1;
           pair.halo->update(is_near);
         }
-      const SurfaceTopology &topology = pair.mapping->nonmortar_topology();
-      const bool             here     = !report.lost_edges.empty() ||
-                        std::any_of(report.wrong_triangles.begin(), report.wrong_triangles.end(),
-                                    [&](const unsigned int t) { return touches(topology.triangles[t]); }) ||
-                        std::any_of(report.torn_edges.begin(), report.torn_edges.end(),
-                                    [&](const unsigned int e) { return touches(topology.edges[e]); });
+      const bool here = !report.lost_edges.empty() ||
+                        std::any_of(pair.wrong_places.begin(), pair.wrong_places.end(), touches);
       const bool any = Utilities::MPI::max(static_cast<int>(here), d.nodal().communicator()) > 0;
       return any ? describe_errors(report) : "";
     }

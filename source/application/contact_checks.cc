@@ -344,12 +344,13 @@ namespace Signorini
     void for_each_gap(const ContactPair &pair, const F &f)
     {
       const ContactSurface &non = pair.nonmortar.surface, &mor = pair.mortar.surface;
+      const double          size = non.extent();
       if (pair.obstacle)
         for (std::size_t v = 0; v < non.mesh.vertices.size(); ++v)
           {
             const Point<3> &x = non.mesh.vertices[v];
             const Vector3  &n = non.mesh.vertex_normals[v];
-            if (double gap; pair.obstacle->gap(gap, x, n, surface_size(non)))
+            if (double gap; pair.obstacle->gap(gap, x, n, size))
               f(x, n, gap);
           }
       if (!pair.mapping)

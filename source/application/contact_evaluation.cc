@@ -387,7 +387,8 @@ namespace Signorini
 
   namespace
   {
-    void find_largest_recovered(PairResult &pair, const std::vector<PressureRow> &rows)
+    /// Collective. @param rows those of all ranks, on rank 0
+    void find_largest_recovered(PairResult &pair, const std::vector<PressureRow> &rows, const MPI_Comm comm)
     {
       for (const PressureRow &row : rows)
         if (row.recovered_pressure > pair.max_recovered_pressure)
@@ -395,6 +396,8 @@ namespace Signorini
             pair.max_recovered_pressure    = row.recovered_pressure;
             pair.max_recovered_pressure_at = row.position;
           }
+      std::tie(pair.max_recovered_pressure, pair.max_recovered_pressure_at) = Utilities::MPI::broadcast(
+          comm, std::make_tuple(pair.max_recovered_pressure, pair.max_recovered_pressure_at), 0);
     }
   } // namespace
 
@@ -408,7 +411,7 @@ namespace Signorini
       {
         result.pairs.push_back(evaluate_pair(d, solution, p));
         const auto rows = pressure_rows(model.bodies(), d, solution.stress, p);
-        find_largest_recovered(result.pairs.back(), rows);
+        find_largest_recovered(result.pairs.back(), rows, model.communicator());
         result.pressure.insert(result.pressure.end(), rows.begin(), rows.end());
         const auto mortar = mortar_pressure_rows(model.bodies(), d, solution.stress, p);
         result.mortar_pressure.insert(result.mortar_pressure.end(), mortar.begin(), mortar.end());

@@ -6,6 +6,7 @@
 #include <signorini/application/contact_checks.h>
 #include <signorini/application/discretization.h>
 #include <signorini/application/journal.h>
+#include <signorini/application/pair_pieces.h>
 #include <signorini/application/ties.h>
 #include <signorini/mesh/surface_extraction.h>
 #include <signorini/mortar/face_shares.h>
@@ -174,7 +175,7 @@ namespace Signorini
       const ContactSurface &nonmortar = pair.nonmortar.surface;
       {
         PhaseTimes::Scope time = journal.measure(Phase::mapping);
-        pair.mapping           = std::make_unique<const ContactMapping>(
+        pair.mapping           = std::make_shared<const ContactMapping>(
             nonmortar.mesh, pair.mortar.surface.mesh,
             [&](const unsigned int t) { return nonmortar.faces[nonmortar.triangle_face[t]].worker == rank; },
             comm);
@@ -301,7 +302,7 @@ namespace Signorini
 
     void use_nodal_gaps(PairCoupling &coupling, const ContactPair &pair)
     {
-      const double size = surface_size(pair.nonmortar.surface);
+      const double size = pair.nonmortar.surface.extent();
       for (std::size_t row = 0; row < coupling.gaps.size(); ++row)
         if (pair.prescribed_gap)
           coupling.gaps[row] = pair.prescribed_gap(coupling.positions[row]);
@@ -392,6 +393,8 @@ namespace Signorini
         if (cycle == 0)
           note_overlap(coupled, p, journal);
       }
+    for (unsigned int p = 0; p < pairs.size(); ++p)
+      keep_piece(pairs[p], couplings[p], model.communicator());
     return std::make_unique<const Discretization>(constrained, std::move(pairs), std::move(couplings),
                                                   std::move(turned));
   }

@@ -62,11 +62,11 @@ namespace Signorini
       ListsByRank<FaceValue> parcels;
       for (unsigned int f = 0; f < of_faces.size(); ++f)
         if (halo.owns_face(f))
-          parcels[surface.faces[f].owner].push_back({f, of_faces[f]});
+          parcels[surface.faces[f].owner].push_back({surface.number_of_face(f), of_faces[f]});
       std::vector<T> result(of_faces.size());
       for (const auto &[sender, values] : send_lists(parcels, halo.communicator()))
         for (const auto &[face, value] : values)
-          result[face] = value;
+          result[surface.face_of_number(face)] = value;
       return result;
     }
 

@@ -30,6 +30,7 @@ signorini_add_layer(application
   nested_iteration.cc
   output_parameters.cc
   pair_parameters.cc
+  pair_pieces.cc
   parameters.cc
   paraview_files.cc
   point_holds.cc

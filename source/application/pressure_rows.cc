@@ -4,6 +4,7 @@
 // The contact nodes of both sides with what acts on them, for pressure.csv.
 
 #include <signorini/algebra/gathered_lists.h>
+#include <signorini/algebra/interface_rows.h>
 #include <signorini/application/contact_evaluation.h>
 #include <signorini/mortar/contact_forces.h>
 
@@ -16,36 +17,32 @@ namespace Signorini
 
   namespace
   {
-    /// Collective. The rows of all ranks, by rising node.
+    /// Collective. The rows of all ranks, by rising node, on rank 0.
     std::vector<PressureRow> gather_by_node(std::vector<PressureRow> rows, const MPI_Comm comm)
     {
-      rows = gather_lists(std::move(rows), comm, Receivers::all);
+      rows = gather_lists(std::move(rows), comm, Receivers::rank_zero);
       std::stable_sort(rows.begin(), rows.end(),
                        [](const PressureRow &a, const PressureRow &b) { return a.node < b.node; });
       return rows;
     }
 
-    /// The number in the mesh file of a node that this rank knows, or none.
-    long number_in_file(const Bodies &bodies, const NodalSpace &space, const NodeIndex node)
-    {
-      return space.relevant().is_element(node)
-                 ? bodies.node_number(space.start_vertices()[space.relevant().index_within_set(node)])
-                 : VolumeMesh::no_number;
-    }
-
-    /// A rank may have rows at nodes that it does not know otherwise: their numbers are those that the owners
-    /// of the nodes give.
+    /// Collective. A rank may have rows at nodes that it does not know otherwise: their numbers in the mesh
+    /// file are those that the owners of the nodes give.
     void set_numbers_in_file(std::vector<PressureRow> &rows, const Bodies &bodies, const Discretization &d)
     {
       if (!bodies.has_node_numbers())
         return;
-      std::vector<long> numbers(rows.size(), VolumeMesh::no_number);
-      for (std::size_t i = 0; i < rows.size(); ++i)
-        if (d.nodal().owned().is_element(rows[i].node))
-          numbers[i] = number_in_file(bodies, d.nodal(), rows[i].node);
-      Utilities::MPI::max(numbers, d.nodal().communicator(), numbers);
-      for (std::size_t i = 0; i < rows.size(); ++i)
-        rows[i].mesh_node = numbers[i];
+      std::vector<NodeIndex> nodes;
+      for (const PressureRow &row : rows)
+        nodes.push_back(row.node);
+      const NodeRequest       request(d.partition(), sorted_nodes(std::move(nodes)));
+      const std::vector<long> numbers = request.fetch([&](const unsigned int local) {
+        const NodeIndex node = d.partition().to_global(local);
+        return bodies.node_number(d.nodal().start_vertices()[d.nodal().relevant().index_within_set(node)]);
+      });
+      for (PressureRow &row : rows)
+        row.mesh_node = numbers[std::lower_bound(request.nodes().begin(), request.nodes().end(), row.node) -
+                                request.nodes().begin()];
     }
 
     /// What one row of a pair does to a node of the mortar side, or the sum of several.
@@ -136,9 +133,8 @@ namespace Signorini
         row.normal = coupling.normals[i];
         rows.push_back(row);
       }
-    rows = gather_by_node(std::move(rows), d.nodal().communicator());
     set_numbers_in_file(rows, bodies, d);
-    return rows;
+    return gather_by_node(std::move(rows), d.nodal().communicator());
   }
 
 
@@ -164,9 +160,9 @@ namespace Signorini
           row.normal = normal;
           parts.push_back(row);
         }
+    set_numbers_in_file(parts, bodies, d);
     std::vector<PressureRow> rows = sum_by_node(gather_by_node(std::move(parts), d.nodal().communicator()));
     divide_by_area(rows);
-    set_numbers_in_file(rows, bodies, d);
     return rows;
   }
 } // namespace Signorini

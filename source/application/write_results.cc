@@ -80,12 +80,12 @@ namespace Signorini
     {
       const ContactSurface &non = pair.nonmortar.surface, &mor = pair.mortar.surface;
       std::vector<Vector3>  images(non.mesh.vertices.size());
+      const double          size = non.extent();
       if (pair.obstacle)
         for (std::size_t v = 0; v < images.size(); ++v)
           {
             const Vector3 &direction = non.mesh.vertex_normals[v];
-            if (double distance;
-                pair.obstacle->gap(distance, non.mesh.vertices[v], direction, surface_size(non)))
+            if (double distance; pair.obstacle->gap(distance, non.mesh.vertices[v], direction, size))
               images[v] = distance * direction;
           }
       if (pair.mapping)
@@ -153,8 +153,8 @@ namespace Signorini
   {
     const ContactSurface &surface = d.pairs[p].mortar.surface;
     const auto           &normals = surface.mesh.vertex_normals;
-    const auto stress = mortar_stress(surface, d.couplings[p], stress_of_pair(d, solution.stress, p).traction,
-                                      d.nodal().communicator());
+    const auto            stress =
+        mortar_stress(surface, d.couplings[p], stress_of_pair(d, solution.stress, p).traction, d.partition());
     OutputField pressure{"pressure", 1, {}};
     for (std::size_t v = 0; v < stress.size(); ++v)
       pressure.values.push_back(-(stress[v] * normals[v]));
@@ -174,8 +174,11 @@ namespace Signorini
           write_file(folder.path() + "mapping-" + file_name(pair.name) + "." +
                          Utilities::int_to_string(rank) + ".vtu",
                      [&](std::ostream &o) {
-                       write_overlay(o, pair.nonmortar.surface.mesh, pair.mortar.surface.mesh,
-                                     pair.mapping->overlay());
+                       const ContactSurface &non = pair.nonmortar.surface, &mor = pair.mortar.surface;
+                       write_overlay(
+                           o, non.mesh, mor.mesh, pair.mapping->overlay(),
+                           [&](const unsigned int t) { return non.number_of_triangle(t); },
+                           [&](const unsigned int t) { return mor.number_of_triangle(t); });
                      });
     }
 

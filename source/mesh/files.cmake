@@ -35,6 +35,7 @@ signorini_add_layer(mesh
   surface_extraction.cc
   surface_file.cc
   surface_normals.cc
+  surface_piece.cc
   symmetry_planes.cc
   tetrahedral_forest.cc
   tetrahedron_bisection.cc

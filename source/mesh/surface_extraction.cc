@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/algebra/gathered_lists.h>
 #include <signorini/algebra/replicated_data.h>
 #include <signorini/mesh/surface_extraction.h>
 #include <signorini/mesh/surface_normals.h>
@@ -17,14 +18,12 @@ namespace Signorini
     /// One face as it travels: where it comes from, corners and hanging vertices on its edges.
     struct PackedFace
     {
-      std::uint64_t      coarse_cell, path, face_number;
+      std::uint64_t      coarse_cell, path;
       types::boundary_id boundary;
+      unsigned int       face_number, owner, material;
       /// Corners counterclockwise from outside; behind each its successor edge's hanging vertex or
       /// invalid_node.
-      std::array<NodeIndex, 8>             nodes;
-      std::array<std::array<double, 3>, 8> points;
-      std::array<FixedDirections, 8>       fixed;
-      unsigned int                         owner, material;
+      std::array<NodeIndex, 8> nodes;
 
       bool operator<(const PackedFace &other) const
       {
@@ -42,10 +41,8 @@ namespace Signorini
     /// One entry of the constraint of a hanging node of a face.
     struct PackedParent
     {
-      NodeIndex             hanging, parent;
-      double                weight;
-      std::array<double, 3> point;
-      FixedDirections       fixed;
+      NodeIndex hanging, parent;
+      double    weight;
 
       bool operator<(const PackedParent &other) const
       {
@@ -58,8 +55,25 @@ namespace Signorini
       }
     };
 
-    PackedFace pack(const NodalSpace::BoundaryFace &face, const NodalSpace &space,
-                    const std::function<FixedDirections(const NodeIndex)> &fixed)
+    /// What is known of a node of faces, or of a parent of one.
+    struct PackedVertex
+    {
+      NodeIndex             node;
+      std::array<double, 3> point;
+      FixedDirections       fixed;
+
+      bool operator<(const PackedVertex &other) const
+      {
+        return node < other.node;
+      }
+
+      bool operator==(const PackedVertex &other) const
+      {
+        return node == other.node;
+      }
+    };
+
+    PackedFace pack(const NodalSpace::BoundaryFace &face, const NodalSpace &space)
     {
       const NodalSpace::Cell &cell = space.cells()[face.cell];
       PackedFace              packed;
@@ -77,55 +91,45 @@ namespace Signorini
           packed.nodes[2 * v]     = nodes[corners[v]];
           packed.nodes[2 * v + 1] = face.hanging[v];
         }
-      for (unsigned int v = 0; v < 8; ++v)
-        if (packed.nodes[v] != invalid_node)
-          {
-            const Point<3> &p = space.position(packed.nodes[v]);
-            packed.points[v]  = {{p[0], p[1], p[2]}};
-            packed.fixed[v]   = fixed(packed.nodes[v]);
-          }
-        else
-          {
-            packed.points[v] = {{0., 0., 0.}};
-            packed.fixed[v]  = 0;
-          }
       return packed;
     }
 
-    void pack_parents(std::vector<PackedParent> &parents, const PackedFace &face, const NodalSpace &space,
-                      const std::function<FixedDirections(const NodeIndex)> &fixed)
+    void pack_parents(std::vector<PackedParent> &parents, const PackedFace &face, const NodalSpace &space)
     {
       for (const NodeIndex node : face.nodes)
         if (node != invalid_node)
           if (const auto *entries = space.hanging_nodes().get_constraint_entries(node))
             for (const auto &[parent, weight] : *entries)
-              {
-                const Point<3> &p = space.position(parent);
-                parents.push_back({node, parent, weight, {{p[0], p[1], p[2]}}, fixed(parent)});
-              }
+              parents.push_back({node, parent, weight});
+    }
+
+    std::vector<PackedVertex> pack_vertices(const std::vector<PackedFace>   &faces,
+                                            const std::vector<PackedParent> &parents, const NodalSpace &space,
+                                            const std::function<FixedDirections(const NodeIndex)> &fixed)
+    {
+      std::vector<NodeIndex> nodes;
+      for (const PackedFace &face : faces)
+        std::copy_if(face.nodes.begin(), face.nodes.end(), std::back_inserter(nodes),
+                     [](const NodeIndex node) { return node != invalid_node; });
+      for (const PackedParent &entry : parents)
+        nodes.push_back(entry.parent);
+      std::sort(nodes.begin(), nodes.end());
+      nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+      std::vector<PackedVertex> vertices;
+      for (const NodeIndex node : nodes)
+        {
+          const Point<3> &p = space.position(node);
+          vertices.push_back({node, {{p[0], p[1], p[2]}}, fixed(node)});
+        }
+      return vertices;
     }
 
     /// What all ranks have, sorted and without copies.
     template <typename T>
-    std::vector<T> gather_sorted(const std::vector<T> &mine, const MPI_Comm communicator)
+    std::vector<T> gather_sorted(std::vector<T> mine, const MPI_Comm communicator)
     {
-      std::vector<T> all;
-      if (Utilities::MPI::n_mpi_processes(communicator) == 1)
-        all = mine;
-      else
-        {
-          const char *const begin = reinterpret_cast<const char *>(mine.data());
-          for (const auto &bytes : Utilities::MPI::all_gather(
-                   communicator, std::vector<char>(begin, begin + mine.size() * sizeof(T))))
-            {
-              const std::size_t n = all.size();
-              all.resize(n + bytes.size() / sizeof(T));
-              // Nothing to copy may come without an address.
-              if (!bytes.empty())
-                std::memcpy(static_cast<void *>(all.data() + n), bytes.data(), bytes.size());
-            }
-        }
-      std::sort(all.begin(), all.end());
+      std::vector<T> all = gather_lists(std::move(mine), communicator, Receivers::all);
+      std::stable_sort(all.begin(), all.end());
       all.erase(std::unique(all.begin(), all.end()), all.end());
       return all;
     }
@@ -198,13 +202,14 @@ namespace Signorini
     };
 
     /// Whether a corner of a face or its centre lies in a region.
-    bool touches(const PackedFace &face, const std::function<bool(const Point<3> &point)> &region)
+    bool touches(const PackedFace &face, const NodalSpace &space,
+                 const std::function<bool(const Point<3> &point)> &region)
     {
       const unsigned int n_corners = face.nodes[6] == invalid_node ? 3 : 4;
       Point<3>           centre;
       for (unsigned int v = 0; v < 2 * n_corners; v += 2)
         {
-          const Point<3> corner(face.points[v][0], face.points[v][1], face.points[v][2]);
+          const Point<3> &corner = space.position(face.nodes[v]);
           if (region(corner))
             return true;
           centre += Tensor<1, 3>(corner) / n_corners;
@@ -216,6 +221,13 @@ namespace Signorini
     class SurfaceAssembly
     {
     public:
+      /// @param nodes what is known of all nodes, sorted
+      explicit SurfaceAssembly(const std::vector<PackedVertex> &nodes)
+        : nodes(nodes)
+        , number(nodes.size(), none)
+      {
+      }
+
       void add_face(const PackedFace &face)
       {
         polygon.clear();
@@ -227,7 +239,7 @@ namespace Signorini
         for (unsigned int v = 0; v < 8; ++v)
           if (face.nodes[v] != invalid_node)
             {
-              polygon.push_back(add_vertex(face.nodes[v], face.points[v], face.fixed[v]));
+              polygon.push_back(add_vertex(face.nodes[v]));
               if (v % 2 == 0)
                 added.corners[v / 2] = polygon.back();
             }
@@ -245,30 +257,35 @@ namespace Signorini
       /// After all faces.
       void add_parent(const PackedParent &entry)
       {
-        const unsigned int parent = add_vertex(entry.parent, entry.point, entry.fixed);
+        const unsigned int parent = add_vertex(entry.parent);
         surface.hanging.resize(surface.vertex_node.size());
-        surface.hanging[number[entry.hanging]].emplace_back(parent, entry.weight);
+        surface.hanging[add_vertex(entry.hanging)].emplace_back(parent, entry.weight);
       }
 
       ContactSurface surface;
 
     private:
-      unsigned int add_vertex(const NodeIndex node, const std::array<double, 3> &p,
-                              const FixedDirections &mask)
+      static constexpr unsigned int none = numbers::invalid_unsigned_int;
+
+      /// The number of a node, a new one where it is mentioned first.
+      unsigned int add_vertex(const NodeIndex node)
       {
-        const auto [it, is_new] =
-            number.insert({node, static_cast<unsigned int>(surface.vertex_node.size())});
-        if (is_new)
+        const auto it = std::lower_bound(
+            nodes.begin(), nodes.end(), node,
+            [](const PackedVertex &vertex, const NodeIndex wanted) { return vertex.node < wanted; });
+        unsigned int &v = number[it - nodes.begin()];
+        if (v == none)
           {
+            v = static_cast<unsigned int>(surface.vertex_node.size());
             surface.vertex_node.push_back(node);
-            surface.vertex_fixed.push_back(mask);
-            surface.mesh.vertices.emplace_back(p[0], p[1], p[2]);
+            surface.vertex_fixed.push_back(it->fixed);
+            surface.mesh.vertices.emplace_back(it->point[0], it->point[1], it->point[2]);
           }
-        return it->second;
+        return v;
       }
 
-      std::unordered_map<NodeIndex, unsigned int> number;
-      std::vector<unsigned int>                   polygon;
+      const std::vector<PackedVertex> &nodes;
+      std::vector<unsigned int>        number, polygon;
     };
 
     TrueShape true_shape_of(const ContactSurface &surface, const SurfaceShapes &shapes)
@@ -305,18 +322,19 @@ namespace Signorini
     std::vector<PackedParent> my_parents;
     for (const NodalSpace::BoundaryFace &face : space.boundary_faces())
       if (space.cells()[face.cell].is_owned && ids.count(face.id) > 0)
-        if (const PackedFace packed = pack(face, space, fixed); !region || touches(packed, region))
+        if (const PackedFace packed = pack(face, space); !region || touches(packed, space, region))
           {
             mine.push_back(packed);
-            pack_parents(my_parents, packed, space, fixed);
+            pack_parents(my_parents, packed, space);
           }
-
-    SurfaceAssembly assembly;
-    for (const PackedFace &face : gather_sorted(mine, space.communicator()))
+    const std::vector<PackedVertex> vertices =
+        gather_sorted(pack_vertices(mine, my_parents, space, fixed), space.communicator());
+    SurfaceAssembly assembly(vertices);
+    for (const PackedFace &face : gather_sorted(std::move(mine), space.communicator()))
       assembly.add_face(face);
     // The constraints come from the mesh, not from the faces: the coarser neighbour of a hanging vertex may
     // lie outside of the region or belong to another boundary. Its corners then are vertices without faces.
-    for (const PackedParent &entry : gather_sorted(my_parents, space.communicator()))
+    for (const PackedParent &entry : gather_sorted(std::move(my_parents), space.communicator()))
       assembly.add_parent(entry);
     ContactSurface surface = std::move(assembly.surface);
     surface.hanging.resize(surface.vertex_node.size());
@@ -333,7 +351,7 @@ namespace Signorini
   {
     std::vector<NodeIndex> nodes(surface.vertex_node);
     std::sort(nodes.begin(), nodes.end());
-    const std::vector<Vector3> values = replicate_values(partition, field, nodes);
+    const std::vector<Vector3> values = import_values(partition, field, nodes);
     std::vector<Vector3>       result;
     result.reserve(nodes.size());
     for (const NodeIndex node : surface.vertex_node)

@@ -68,6 +68,36 @@ namespace Signorini
 
 
 
+  TrueShape::TrueShape(const TrueShape &whole, const Renumbering &triangles)
+    : shapes(whole.shapes)
+    , shape_of_triangle(shapes.empty() ? std::vector<unsigned int>()
+                                       : triangles.select(whole.shape_of_triangle))
+    , is_used(whole.is_used)
+    , known(shapes.size())
+    , index_of_cubic(shape_of_triangle.size(), no_shape)
+  {
+    if (shapes.empty())
+      return;
+    for (unsigned int t = 0; t < index_of_cubic.size(); ++t)
+      if (const unsigned int cubic = whole.index_of_cubic[triangles.kept()[t]]; cubic != no_shape)
+        {
+          index_of_cubic[t] = static_cast<unsigned int>(cubics.size());
+          cubics.push_back(whole.cubics[cubic]);
+        }
+  }
+
+
+
+  std::size_t TrueShape::memory_consumption() const
+  {
+    std::size_t bytes = list_bytes(shape_of_triangle) + list_bytes(index_of_cubic) + list_bytes(cubics);
+    for (const auto &values : known)
+      bytes += values.size() * (sizeof(LatticePoint) + sizeof(Vector3));
+    return bytes;
+  }
+
+
+
   Vector3 TrueShape::lattice_value(const SurfaceMesh &mesh, const unsigned int triangle,
                                    LatticePoint point) const
   {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/algebra/node_request.h>
 #include <signorini/mortar/contact_forces.h>
 
 #include <deal.II/base/exceptions.h>
@@ -154,33 +155,82 @@ namespace Signorini
 
 
 
-  std::vector<Vector3> mortar_stress(const ContactSurface &mortar, const PairCoupling &pair,
-                                     const std::vector<Vector3> &traction, const MPI_Comm communicator)
+  namespace
   {
-    const std::size_t                           n = mortar.mesh.vertices.size();
-    std::unordered_map<NodeIndex, unsigned int> vertex;
+    /// What rows do to a node of the mortar side.
+    struct NodeForce
+    {
+      NodeIndex node;
+      Vector3   force;
+      double    area = 0.;
+    };
+
+    /// What the rows of this rank do to the nodes of a surface, by rising node.
+    std::vector<NodeForce> forces_of_rows(const std::vector<NodeIndex> &nodes, const PairCoupling &pair,
+                                          const std::vector<Vector3> &traction)
+    {
+      std::vector<NodeForce> result;
+      for (const NodeIndex node : nodes)
+        result.push_back({node, Vector3(), 0.});
+      for (std::size_t row = 0; row < traction.size(); ++row)
+        for (const auto *entry = pair.coupling.begin(row); entry != pair.coupling.end(row); ++entry)
+          if (const auto it = std::lower_bound(nodes.begin(), nodes.end(), entry->node);
+              it != nodes.end() && *it == entry->node)
+            {
+              const double weight = entry->weight * pair.coupling.weight[row];
+              NodeForce   &sum    = result[it - nodes.begin()];
+              sum.force += weight * traction[row];
+              sum.area += weight;
+            }
+      return result;
+    }
+
+    /// Collective. The sums over all ranks, by owned node.
+    std::unordered_map<unsigned int, NodeForce> sums_of_owners(const std::vector<NodeForce> &forces,
+                                                               const NodePartition          &partition)
+    {
+      ListsByRank<NodeForce> parcels;
+      for (const NodeForce &part : forces)
+        if (part.area != 0. || part.force.norm_square() != 0.)
+          parcels[partition.owner(part.node)].push_back(part);
+      std::unordered_map<unsigned int, NodeForce> sums;
+      for (const auto &[sender, list] : send_lists(parcels, partition.communicator()))
+        for (const NodeForce &part : list)
+          {
+            NodeForce &sum = sums[partition.to_local(part.node)];
+            sum.force += part.force;
+            sum.area += part.area;
+          }
+      return sums;
+    }
+  } // namespace
+
+
+
+  std::vector<Vector3> mortar_stress(const ContactSurface &mortar, const PairCoupling &pair,
+                                     const std::vector<Vector3> &traction, const NodePartition &partition)
+  {
+    const std::size_t      n = mortar.mesh.vertices.size();
+    std::vector<NodeIndex> nodes;
     for (unsigned int v = 0; v < n; ++v)
       if (mortar.hanging[v].empty())
-        vertex[mortar.vertex_node[v]] = v;
-    std::vector<double> forces(dim * n, 0.), area(n, 0.);
-    for (std::size_t row = 0; row < traction.size(); ++row)
-      for (const auto *entry = pair.coupling.begin(row); entry != pair.coupling.end(row); ++entry)
-        if (const auto it = vertex.find(entry->node); it != vertex.end())
-          {
-            const double weight = entry->weight * pair.coupling.weight[row];
-            for (unsigned int c = 0; c < dim; ++c)
-              forces[dim * it->second + c] += weight * traction[row][c];
-            area[it->second] += weight;
-          }
-    Utilities::MPI::sum(forces, communicator, forces);
-    Utilities::MPI::sum(area, communicator, area);
-    std::vector<Vector3> stress(n);
+        nodes.push_back(mortar.vertex_node[v]);
+    std::sort(nodes.begin(), nodes.end());
+    const auto sums    = sums_of_owners(forces_of_rows(nodes, pair, traction), partition);
+    double     largest = 0.;
+    for (const auto &entry : sums)
+      largest = std::max(largest, entry.second.area);
+    largest                           = Utilities::MPI::max(largest, partition.communicator());
+    const std::vector<Vector3> values = NodeRequest(partition, nodes).fetch([&](const unsigned int local) {
+      const auto it = sums.find(local);
+      return it != sums.end() && it->second.area > 1e-6 * largest ? it->second.force / it->second.area
+                                                                  : Vector3();
+    });
+    std::vector<Vector3>       stress(n);
     for (std::size_t v = 0; v < n; ++v)
-      for (unsigned int c = 0; c < dim; ++c)
-        stress[v][c] = forces[dim * v + c];
-    const double largest = n == 0 ? 0. : *std::max_element(area.begin(), area.end());
-    for (std::size_t v = 0; v < n; ++v)
-      stress[v] = area[v] > 1e-6 * largest ? stress[v] / area[v] : Vector3();
+      if (mortar.hanging[v].empty())
+        stress[v] =
+            values[std::lower_bound(nodes.begin(), nodes.end(), mortar.vertex_node[v]) - nodes.begin()];
     for (std::size_t v = 0; v < n; ++v)
       for (const auto &[parent, share] : mortar.hanging[v])
         stress[v] += share * stress[parent];

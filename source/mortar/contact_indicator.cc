@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/algebra/sent_lists.h>
 #include <signorini/mortar/contact_indicator.h>
 #include <signorini/mortar/surface_values.h>
 #include <signorini/surface/contact_mapping.h>
@@ -111,16 +112,47 @@ namespace Signorini
 
 
 
+  namespace
+  {
+    /// Collective. The sums over all ranks of the tractions of faces, on the ranks that own their cells.
+    std::vector<FaceTraction> sums_of_owners(const std::vector<FaceTraction> &tractions,
+                                             const ContactSurface &surface, const MPI_Comm communicator)
+    {
+      struct SentTraction
+      {
+        unsigned int number;
+        FaceTraction traction;
+      };
+      ListsByRank<SentTraction> parcels;
+      for (unsigned int f = 0; f < tractions.size(); ++f)
+        if (const auto &moments = tractions[f].moments;
+            tractions[f].square != 0. || std::any_of(moments.begin(), moments.end(),
+                                                     [](const Vector3 &m) { return m.norm_square() > 0.; }))
+          parcels[surface.faces[f].owner].push_back({surface.number_of_face(f), tractions[f]});
+      std::vector<FaceTraction> result(tractions.size());
+      for (const auto &[sender, list] : send_lists(parcels, communicator))
+        for (const SentTraction &sent : list)
+          {
+            FaceTraction &sum = result[surface.face_of_number(sent.number)];
+            sum.square += sent.traction.square;
+            for (unsigned int a = 0; a < sum.moments.size(); ++a)
+              sum.moments[a] += sent.traction.moments[a];
+          }
+      return result;
+    }
+  } // namespace
+
+
+
   std::vector<FaceTraction> mortar_tractions(const ContactSurface &nonmortar, const ContactSurface &mortar,
                                              const std::vector<OverlayTriangle> &overlay,
                                              const std::vector<Vector3> &stress, const MPI_Comm communicator)
   {
-    const SurfaceValues    non(nonmortar), mor(mortar);
-    constexpr unsigned int n_numbers = 13;
-    std::vector<double>    sums(n_numbers * mortar.faces.size(), 0.);
+    const SurfaceValues       non(nonmortar), mor(mortar);
+    std::vector<FaceTraction> sums(mortar.faces.size());
     for (const OverlayTriangle &cell : overlay)
       {
-        const unsigned int      f = mortar.triangle_face[cell.mortar_triangle];
+        FaceTraction           &sum = sums[mortar.triangle_face[cell.mortar_triangle]];
         std::array<Point<3>, 3> y;
         for (unsigned int c = 0; c < 3; ++c)
           y[c] = evaluate(mortar.mesh, cell.mortar_triangle, cell.mortar[c]);
@@ -135,22 +167,12 @@ namespace Signorini
                                                            non.shape(cell.nonmortar_triangle, x));
             const auto     theta = mor.shape(cell.mortar_triangle, image);
             for (unsigned int a = 0; a < 4; ++a)
-              for (unsigned int c = 0; c < dim; ++c)
-                sums[n_numbers * f + dim * a + c] += theta[a] * force[c];
+              sum.moments[a] += theta[a] * force;
             if (image_area > 0.)
-              sums[n_numbers * f + 12] += 3. * force.norm_square() / image_area;
+              sum.square += 3. * force.norm_square() / image_area;
           }
       }
-    Utilities::MPI::sum(sums, communicator, sums);
-    std::vector<FaceTraction> result(mortar.faces.size());
-    for (unsigned int f = 0; f < result.size(); ++f)
-      {
-        for (unsigned int a = 0; a < 4; ++a)
-          for (unsigned int c = 0; c < dim; ++c)
-            result[f].moments[a][c] = sums[n_numbers * f + dim * a + c];
-        result[f].square = sums[n_numbers * f + 12];
-      }
-    return result;
+    return sums_of_owners(sums, mortar, communicator);
   }
 
 

@@ -316,6 +316,16 @@ namespace Signorini
 
 
 
+  std::size_t PairCoupling::memory_consumption() const
+  {
+    return list_bytes(coupling.rows) + list_bytes(coupling.row_start) + list_bytes(coupling.entries) +
+           list_bytes(coupling.weight) + list_bytes(normals) + list_bytes(gaps) + list_bytes(positions) +
+           list_bytes(areas) + list_bytes(shares) + list_bytes(fixed) + list_bytes(vertices) +
+           list_bytes(r_nodes) + list_bytes(dropped) + list_bytes(lost_faces);
+  }
+
+
+
   double width_of_rows(const PairCoupling &pair, const MPI_Comm communicator)
   {
     struct First

@@ -248,23 +248,9 @@ namespace Signorini
 
 
 
-  double surface_size(const ContactSurface &surface)
-  {
-    Point<3> low = surface.mesh.vertices.at(0), high = low;
-    for (const Point<3> &x : surface.mesh.vertices)
-      for (unsigned int c = 0; c < dim; ++c)
-        {
-          low[c]  = std::min(low[c], x[c]);
-          high[c] = std::max(high[c], x[c]);
-        }
-    return low.distance(high);
-  }
-
-
-
   ImageFunction rigid_images(const ContactSurface &surface, const RigidObstacle &obstacle)
   {
-    const double size = surface_size(surface);
+    const double size = surface.extent();
     return [size, &obstacle](Vector3 &gap, const Point<3> &x, const Vector3 &normal) {
       double     distance;
       const bool hit =
@@ -297,7 +283,7 @@ namespace Signorini
                                                            {{0., .5, .5}},
                                                            {{.5, 0., .5}},
                                                            {{1. / 3., 1. / 3., 1. / 3.}}}};
-    const double                               size    = surface_size(surface);
+    const double                               size    = surface.extent();
     const unsigned int                         rank    = Utilities::MPI::this_mpi_process(communicator);
     double min_initial = std::numeric_limits<double>::infinity(), min_gap = min_initial;
     for (unsigned int t = 0; t < surface.mesh.triangles.size(); ++t)

@@ -114,10 +114,43 @@ namespace Signorini
 
 
 
+  SurfaceHalo::SurfaceHalo(const SurfaceHalo &whole, const SurfacePiece &piece)
+    : comm(whole.comm)
+    , rank(whole.rank)
+    , is_own_face(piece.faces.select(whole.is_own_face))
+    , owner(piece.part.vertices.select(whole.owner))
+  {
+    for (const unsigned int v : whole.function_vertices)
+      function_vertices.push_back(piece.part.vertices[v]);
+    vertices = std::make_unique<const ItemExchange>(
+        *whole.vertices, [&](const unsigned int v) { return piece.part.vertices[v]; });
+  }
+
+
+
+  std::size_t SurfaceHalo::memory_consumption() const
+  {
+    return is_own_face.capacity() / 8 + list_bytes(owner) + list_bytes(function_vertices) +
+           (faces ? faces->memory_consumption() : 0) + vertices->memory_consumption();
+  }
+
+
+
+  std::vector<unsigned int> SurfaceHalo::ghost_faces() const
+  {
+    std::vector<unsigned int> result;
+    for (const auto &entry : faces->wanted_items())
+      result.insert(result.end(), entry.second.begin(), entry.second.end());
+    return result;
+  }
+
+
+
   std::vector<FaceMoments> SurfaceHalo::add_ghosts(std::vector<FaceMoments> moments) const
   {
     if (Utilities::MPI::n_mpi_processes(comm) == 1)
       return moments;
+    Assert(faces != nullptr, ExcMessage("a piece has no ghosts to ask for"));
     const auto          by_face = [](const FaceMoments &a, const FaceMoments &b) { return a.face < b.face; };
     ListsByRank<double> parcels;
     for (const auto &[receiver, list] : faces->asked_items())

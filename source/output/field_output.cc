@@ -168,8 +168,13 @@ namespace Signorini
 
 
   void write_overlay(std::ostream &out, const SurfaceMesh &nonmortar, const SurfaceMesh &mortar,
-                     const std::vector<OverlayTriangle> &overlay)
+                     const std::vector<OverlayTriangle>                    &overlay,
+                     const std::function<unsigned int(const unsigned int)> &nonmortar_number,
+                     const std::function<unsigned int(const unsigned int)> &mortar_number)
   {
+    const auto number_of = [](const unsigned int triangle, const auto &number) {
+      return number ? number(triangle) : triangle;
+    };
     std::vector<DataOutBase::Patch<2, 3>> patches;
     patches.reserve(overlay.size());
     for (const OverlayTriangle &cell : overlay)
@@ -191,8 +196,8 @@ namespace Signorini
             for (unsigned int k = 0; k < 3; ++k)
               patch.data(k, c) = way[k];
             patch.data(3, c) = (way * normal) / normal.norm();
-            patch.data(4, c) = cell.nonmortar_triangle;
-            patch.data(5, c) = cell.mortar_triangle;
+            patch.data(4, c) = number_of(cell.nonmortar_triangle, nonmortar_number);
+            patch.data(5, c) = number_of(cell.mortar_triangle, mortar_number);
           }
       }
     using Range = std::tuple<unsigned int, unsigned int, std::string,

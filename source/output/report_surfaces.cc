@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Signorini authors
 
 #include <signorini/algebra/gathered_lists.h>
+#include <signorini/mesh/surface_piece.h>
 #include <signorini/output/json_writer.h>
 #include <signorini/output/report_surfaces.h>
 
@@ -74,11 +75,11 @@ namespace Signorini
     class ContactFaces
     {
     public:
-      explicit ContactFaces(const std::vector<ReportSide> &sides)
+      ContactFaces(const std::vector<ReportSide> &sides, const std::vector<ContactSurface> &surfaces)
       {
-        for (const ReportSide &side : sides)
-          members.emplace_back(side.ids, std::unordered_set<NodeIndex>(side.surface->vertex_node.begin(),
-                                                                       side.surface->vertex_node.end()));
+        for (std::size_t s = 0; s < sides.size(); ++s)
+          members.emplace_back(sides[s].ids, std::unordered_set<NodeIndex>(surfaces[s].vertex_node.begin(),
+                                                                           surfaces[s].vertex_node.end()));
       }
 
       bool contain(const PackedFace &face) const
@@ -189,7 +190,7 @@ namespace Signorini
       const unsigned int       rank = Utilities::MPI::this_mpi_process(comm), n = field.n_components;
       std::vector<VertexValue> mine;
       const auto               add = [&](const unsigned int vertex, const unsigned int is_on_edge) {
-        VertexValue value = {vertex, is_on_edge, rank, {}};
+        VertexValue value = {surface.number_of_vertex(vertex), is_on_edge, rank, {}};
         std::copy_n(field.values.begin() + n * vertex, n, value.values);
         mine.push_back(value);
       };
@@ -207,7 +208,7 @@ namespace Signorini
                  mine.end());
       std::vector<VertexValue> all = gather_lists(std::move(mine), comm, Receivers::rank_zero);
       std::sort(all.rbegin(), all.rend());
-      std::vector<double> result(is_root(comm) ? n * surface.mesh.vertices.size() : 0, nothing);
+      std::vector<double> result(is_root(comm) ? n * surface.n_vertices_of_whole() : 0, nothing);
       for (const VertexValue &value : all)
         std::copy_n(value.values, n, result.begin() + n * value.vertex);
       return result;
@@ -248,22 +249,26 @@ namespace Signorini
     const std::size_t n_triangles = rule.n_triangles(n_states);
     for (unsigned int b = 0; b < bodies.n_bodies(); ++b)
       body_names.push_back(bodies.body_name(b));
-    draw_sides(sides, n_triangles / 4);
-    draw_bodies(space, bodies, sides, n_triangles);
+    std::vector<ContactSurface> whole_sides;
+    for (const ReportSide &side : sides)
+      whole_sides.push_back(join_pieces(*side.surface, space.communicator(), Receivers::rank_zero));
+    draw_sides(whole_sides, n_triangles / 4);
+    draw_bodies(space, bodies, whole_sides, n_triangles);
     for (ReportSide &side : this->sides)
       side.surface = nullptr;
   }
 
 
 
-  void ReportSurfaces::draw_sides(const std::vector<ReportSide> &sides, const std::size_t n_triangles)
+  void ReportSurfaces::draw_sides(const std::vector<ContactSurface> &whole_sides,
+                                  const std::size_t                  n_triangles)
   {
     std::size_t n = 0;
-    for (const ReportSide &side : sides)
-      n += side.surface->mesh.triangles.size();
-    for (const ReportSide &side : sides)
+    for (const ContactSurface &side : whole_sides)
+      n += side.mesh.triangles.size();
+    for (const ContactSurface &side : whole_sides)
       {
-        Drawn drawn{mesh_of(*side.surface), {}, side.surface->mesh.triangles.size()};
+        Drawn drawn{mesh_of(side), {}, side.mesh.triangles.size()};
         drawn.source = thin(drawn.mesh, share_of(drawn.n_triangles, n, n_triangles));
         if (drawn.source.empty())
           {
@@ -325,9 +330,10 @@ namespace Signorini
 
 
   void ReportSurfaces::draw_bodies(const NodalSpace &space, const Bodies &bodies,
-                                   const std::vector<ReportSide> &sides, const std::size_t n_triangles)
+                                   const std::vector<ContactSurface> &whole_sides,
+                                   const std::size_t                  n_triangles)
   {
-    const ContactFaces       contact(sides);
+    const ContactFaces       contact(sides, whole_sides);
     std::vector<BodySurface> surfaces(bodies.n_bodies());
     for (const PackedFace &face : gather_faces(space, bodies))
       surfaces[face.body].add(face, contact.contain(face));

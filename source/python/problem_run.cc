@@ -55,8 +55,9 @@ namespace Signorini
       outcome.converged      = results.converged;
       outcome.objections     = results.certificate.objections;
       outcome.summary        = text_of([&](std::ostream &out) { write_summary(out, results); });
-      outcome.pressure       = text_of([&](std::ostream &out) { write_pressure(out, results); });
-      outcome.parameters     = text_of([&](std::ostream &out) { file.print(out, false); });
+      outcome.pressure       = Utilities::MPI::broadcast(
+                model.communicator(), text_of([&](std::ostream &out) { write_pressure(out, results); }), 0);
+      outcome.parameters = text_of([&](std::ostream &out) { file.print(out, false); });
       if (!results.steps.empty())
         outcome.curve = text_of([&](std::ostream &out) { write_load_curve(out, results); });
       const Discretization &d = *nested.discretization;

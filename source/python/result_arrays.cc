@@ -4,6 +4,7 @@
 #include "result_arrays.h"
 
 #include <signorini/algebra/gathered_lists.h>
+#include <signorini/mesh/surface_piece.h>
 
 namespace Signorini
 {
@@ -125,41 +126,64 @@ namespace Signorini
 
   namespace
   {
-    /// Replaces the values by those that each rank has at the corners of the faces on which it works.
-    void gather_at_corners(FieldArrays &fields, const ContactSurface &surface, const MPI_Comm communicator)
+    /// Vertices of the faces on which this rank works, or the parents of those that hang.
+    std::vector<unsigned int> vertices_to_send(const ContactSurface &surface, const unsigned int rank,
+                                               const bool parents)
     {
-      const unsigned int rank = Utilities::MPI::this_mpi_process(communicator);
+      const std::vector<bool> is_corner = vertices_of_worker(surface, rank);
+      std::vector<bool>       is_parent(is_corner.size(), false);
+      for (std::size_t v = 0; v < is_corner.size(); ++v)
+        if (is_corner[v])
+          for (const auto &parent : surface.hanging[v])
+            is_parent[parent.first] = true;
+      return Renumbering(parents ? is_parent : is_corner).kept();
+    }
+
+    /// Copies what all ranks have at some vertices to values by vertex of the whole surface.
+    void gather_at(std::vector<double> &all, const OutputField &field, const ContactSurface &surface,
+                   const std::vector<unsigned int> &vertices, const MPI_Comm communicator)
+    {
+      const unsigned int        n = field.n_components;
+      std::vector<double>       mine;
+      std::vector<unsigned int> numbers;
+      for (const unsigned int v : vertices)
+        {
+          mine.insert(mine.end(), field.values.begin() + n * v, field.values.begin() + n * (v + 1));
+          numbers.push_back(surface.number_of_vertex(v));
+        }
+      numbers = gather_lists(std::move(numbers), communicator, Receivers::all);
+      mine    = gather_lists(std::move(mine), communicator, Receivers::all);
+      for (std::size_t i = 0; i < numbers.size(); ++i)
+        std::copy_n(mine.begin() + n * i, n, all.begin() + n * numbers[i]);
+    }
+
+    /// From values by vertex of the piece of this rank to those of the whole surface: what each rank has at
+    /// the corners of the faces on which it works; elsewhere what it has at the parents of these.
+    void gather_from_pieces(FieldArrays &fields, const ContactSurface &surface, const MPI_Comm communicator)
+    {
       if (Utilities::MPI::n_mpi_processes(communicator) == 1)
         return;
-      std::set<unsigned int> corners;
-      for (std::size_t t = 0; t < surface.mesh.triangles.size(); ++t)
-        if (surface.faces[surface.triangle_face[t]].worker == rank)
-          corners.insert(surface.mesh.triangles[t].begin(), surface.mesh.triangles[t].end());
-      const std::vector<unsigned int> all = gather_lists(
-          std::vector<unsigned int>(corners.begin(), corners.end()), communicator, Receivers::all);
+      const unsigned int rank = Utilities::MPI::this_mpi_process(communicator);
       for (OutputField &field : fields)
         {
-          const unsigned int  n = field.n_components;
-          std::vector<double> mine;
-          for (const unsigned int vertex : corners)
-            mine.insert(mine.end(), field.values.begin() + n * vertex,
-                        field.values.begin() + n * (vertex + 1));
-          const std::vector<double> values = gather_lists(std::move(mine), communicator, Receivers::all);
-          for (std::size_t i = 0; i < all.size(); ++i)
-            std::copy_n(values.begin() + n * i, n, field.values.begin() + n * all[i]);
+          std::vector<double> all(field.n_components * surface.n_vertices_of_whole(), 0.);
+          for (const bool parents : {true, false})
+            gather_at(all, field, surface, vertices_to_send(surface, rank, parents), communicator);
+          field.values = std::move(all);
         }
     }
 
-    SurfaceArrays surface_arrays(const ContactSide &side)
+    SurfaceArrays surface_arrays(const ContactSide &side, const MPI_Comm communicator)
     {
-      SurfaceArrays result;
+      const ContactSurface surface = join_pieces(side.surface, communicator, Receivers::all);
+      SurfaceArrays        result;
       result.name = side.name;
-      for (const Point<3> &vertex : side.surface.mesh.vertices)
+      for (const Point<3> &vertex : surface.mesh.vertices)
         for (unsigned int c = 0; c < dim; ++c)
           result.vertices.push_back(vertex[c]);
-      for (const ContactSurface::Face &face : side.surface.faces)
+      for (const ContactSurface::Face &face : surface.faces)
         result.faces.insert(result.faces.end(), face.corners.begin(), face.corners.end());
-      for (const auto &triangle : side.surface.mesh.triangles)
+      for (const auto &triangle : surface.mesh.triangles)
         result.triangles.insert(result.triangles.end(), triangle.begin(), triangle.end());
       return result;
     }
@@ -176,8 +200,8 @@ namespace Signorini
     FieldArrays fields = of_mortar ? mortar_fields(d, solution, p) : nonmortar_fields(d, solution, p);
     if (!of_mortar)
       fields.push_back({"area", 1, spread_rows(d.couplings[p], *pair.halo, d.couplings[p].areas)});
-    gather_at_corners(fields, of_mortar ? pair.mortar.surface : pair.nonmortar.surface,
-                      d.nodal().communicator());
+    gather_from_pieces(fields, of_mortar ? pair.mortar.surface : pair.nonmortar.surface,
+                       d.nodal().communicator());
     return fields;
   }
 
@@ -189,11 +213,12 @@ namespace Signorini
     for (unsigned int p = 0; p < d.pairs.size(); ++p)
       {
         const ContactPair &pair = d.pairs[p];
-        result.push_back({pair.name, surface_arrays(pair.nonmortar), {}});
+        const MPI_Comm     comm = d.nodal().communicator();
+        result.push_back({pair.name, surface_arrays(pair.nonmortar, comm), {}});
         result.back().nonmortar.fields = pair_values(d, solution, p, false);
         if (pair.obstacle)
           continue;
-        result.back().mortar        = surface_arrays(pair.mortar);
+        result.back().mortar        = surface_arrays(pair.mortar, comm);
         result.back().mortar.fields = pair_values(d, solution, p, true);
       }
     return result;

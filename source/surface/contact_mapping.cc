@@ -207,6 +207,63 @@ namespace Signorini
 
 
 
+  namespace
+  {
+    /// A place that lies in a part of a surface.
+    SurfacePoint place_in_part(SurfacePoint place, const SurfacePart &part, const Renumbering &edges)
+    {
+      if (place.on == SurfacePoint::On::vertex)
+        place.index = part.vertices[place.index];
+      else if (place.on == SurfacePoint::On::edge)
+        place.index = edges[place.index];
+      else if (place.on == SurfacePoint::On::triangle)
+        place.index = part.triangles[place.index];
+      return place;
+    }
+  } // namespace
+
+
+
+  ContactMapping::ContactMapping(const ContactMapping &whole, const SurfacePart &nonmortar_part,
+                                 const SurfacePart &mortar_part)
+    : polygon_triangles(whole.polygon_triangles)
+    , polygon_start(whole.polygon_start)
+    , polygon_corners(whole.polygon_corners)
+    , nonmortar(whole.nonmortar, nonmortar_part, whole.nonmortar.edges_of(nonmortar_part.triangles))
+    , mortar(whole.mortar, mortar_part, whole.mortar.edges_of(mortar_part.triangles))
+    , summary(whole.summary)
+  {
+    for (auto &[t, m] : polygon_triangles)
+      {
+        t = nonmortar_part.triangles[t];
+        m = mortar_part.triangles[m];
+        Assert(t != Renumbering::none && m != Renumbering::none, ExcInternalError());
+      }
+    keep_nodes(
+        whole, {{&nonmortar_part, &mortar_part}},
+        {{whole.nonmortar.edges_of(nonmortar_part.triangles), whole.mortar.edges_of(mortar_part.triangles)}});
+  }
+
+
+
+  void ContactMapping::keep_nodes(const ContactMapping                     &whole,
+                                  const std::array<const SurfacePart *, 2> &parts,
+                                  const std::array<Renumbering, 2>         &edges_of_parts)
+  {
+    std::vector<bool> is_used(whole.graph_nodes.size(), false);
+    for (const unsigned int node : polygon_corners)
+      is_used[node] = true;
+    const Renumbering numbers(is_used);
+    graph_nodes = numbers.select(whole.graph_nodes);
+    for (unsigned int &node : polygon_corners)
+      node = numbers[node];
+    for (MappingNode &node : graph_nodes)
+      node = {place_in_part(node.nonmortar, *parts[0], edges_of_parts[0]),
+              place_in_part(node.mortar, *parts[1], edges_of_parts[1])};
+  }
+
+
+
   void ContactMapping::triangulate(std::vector<OverlayTriangle> &triangles, const std::size_t polygon) const
   {
     const auto [t, m] = polygon_triangles[polygon];

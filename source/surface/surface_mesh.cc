@@ -34,6 +34,49 @@ namespace Signorini
     , fan_start(n_vertices + 1, 0)
     , fan(3 * triangles.size())
   {
+    make_fans();
+    make_edges();
+  }
+
+
+
+  SurfaceTopology::SurfaceTopology(const SurfaceTopology &whole, const SurfacePart &part,
+                                   const Renumbering &kept_edges)
+    : triangles(part.triangles.select(whole.triangles))
+    , triangle_edges(part.triangles.select(whole.triangle_edges))
+    , edges(kept_edges.select(whole.edges))
+    , edge_triangles(kept_edges.select(whole.edge_triangles))
+    , fan_start(part.vertices.kept().size() + 1, 0)
+    , fan(3 * triangles.size())
+    , n_conflicts(whole.n_conflicts)
+  {
+    const auto renumber = [](auto &list, const Renumbering &numbers) {
+      for (auto &entry : list)
+        for (unsigned int &i : entry)
+          i = i == none ? none : numbers[i];
+    };
+    renumber(triangles, part.vertices);
+    renumber(edges, part.vertices);
+    renumber(triangle_edges, kept_edges);
+    renumber(edge_triangles, part.triangles);
+    make_fans();
+  }
+
+
+
+  Renumbering SurfaceTopology::edges_of(const Renumbering &some_triangles) const
+  {
+    std::vector<bool> is_kept(edges.size(), false);
+    for (const unsigned int t : some_triangles.kept())
+      for (const unsigned int edge : triangle_edges[t])
+        is_kept[edge] = true;
+    return Renumbering(is_kept);
+  }
+
+
+
+  void SurfaceTopology::make_fans()
+  {
     for (const auto &triangle : triangles)
       for (const unsigned int v : triangle)
         ++fan_start[v + 1];
@@ -42,8 +85,6 @@ namespace Signorini
     for (unsigned int t = 0; t < triangles.size(); ++t)
       for (const unsigned int v : triangles[t])
         fan[next[v]++] = t;
-
-    make_edges();
   }
 
 

@@ -9,6 +9,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <cstring>
+#include <functional>
 #include <map>
 #include <vector>
 
@@ -153,10 +154,33 @@ namespace Signorini
     {
     }
 
+    /// The same items under the new numbers that this rank gives them; other ranks have numbers of their own.
+    /// @param number by old number
+    ItemExchange(const ItemExchange &other, const std::function<unsigned int(const unsigned int)> &number)
+      : wanted(other.wanted)
+      , asked(other.asked)
+      , communicator(other.communicator)
+    {
+      for (ListsByRank<unsigned int> *const lists : {&wanted, &asked})
+        for (auto &entry : *lists)
+          for (unsigned int &item : entry.second)
+            item = number(item);
+    }
+
     /// Items that others want of this rank, by the rank that wants them.
     const ListsByRank<unsigned int> &asked_items() const
     {
       return asked;
+    }
+
+    /// Bytes of the lists.
+    std::size_t memory_consumption() const
+    {
+      std::size_t bytes = 0;
+      for (const auto *const lists : {&wanted, &asked})
+        for (const auto &entry : *lists)
+          bytes += entry.second.capacity() * sizeof(unsigned int);
+      return bytes;
     }
 
     /// Items that this rank wants, by the rank that owns them.

@@ -42,8 +42,8 @@ namespace Signorini
   PairResult evaluate_pair(const Discretization &discretization, const ContactSolution &solution,
                            const unsigned int pair);
 
-  /// Collective. Pressures at the contact nodes of one pair, in the order of the nodes; the same on all
-  /// ranks. Numbers of the mesh file are those of `bodies`.
+  /// Collective. Pressures at the contact nodes of one pair, in the order of the nodes; on rank 0.
+  /// Numbers of the mesh file are those of `bodies`.
   std::vector<PressureRow> pressure_rows(const Bodies &bodies, const Discretization &discretization,
                                          const ContactStress &stress, const unsigned int pair);
 
@@ -62,7 +62,7 @@ namespace Signorini
   {
     /// By pair; the same on all ranks.
     std::vector<PairResult> pairs;
-    /// By contact node, pair after pair; the same on all ranks.
+    /// By contact node, pair after pair; on rank 0.
     std::vector<PressureRow> pressure, mortar_pressure;
     /// Reactions, and what is left of the forces.
     Equilibrium equilibrium;

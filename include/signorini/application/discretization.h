@@ -30,7 +30,8 @@ namespace Signorini
     /// "body: boundary"; the numbers of that boundary on the mesh.
     std::string                          name;
     std::set<dealii::types::boundary_id> ids;
-    /// Its triangles and faces, the same on all ranks.
+    /// Its triangles and faces: the whole surface until the pair is mapped and coupled, then the piece of
+    /// this rank (keep_piece()).
     ContactSurface surface;
     /// Of the cells behind the surface, the mean over its area.
     IsotropicMaterial material;
@@ -51,6 +52,8 @@ namespace Signorini
     std::shared_ptr<const ContactMapping> mapping;
     /// Seconds it took.
     double mapping_time = 0.;
+    /// Where it has errors, on any rank: vertices of the nonmortar surface, as far as they are known here.
+    std::vector<std::vector<unsigned int>> wrong_places;
     /// How the ranks share the nonmortar side.
     std::shared_ptr<const SurfaceHalo> halo;
     /// Integrals over own and ghost faces of the nonmortar side, sorted by face.

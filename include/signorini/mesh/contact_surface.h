@@ -9,15 +9,15 @@
 #include <signorini/surface/surface_mesh.h>
 
 #include <array>
+#include <optional>
 #include <utility>
 #include <vector>
 
 namespace Signorini
 {
-  /// One side of a contact pair, gathered on all ranks: the faces, their triangles and nodes.
-  ///
-  /// A surface has the size N^(2/3) of the mesh; every rank holds the whole of it, in an order that
-  /// does not depend on the number of ranks.
+  /// One side of a contact pair: the faces, their triangles and nodes. The whole of it, the same on all
+  /// ranks, while it is mapped; then each rank keeps the piece that it needs (SurfacePiece), a surface of its
+  /// own in the order of the whole. That order does not depend on the number of ranks.
   struct ContactSurface
   {
     /// A boundary face of a cell: a bilinear quadrilateral or a triangle.
@@ -55,6 +55,51 @@ namespace Signorini
     std::vector<std::vector<std::pair<unsigned int, double>>> hanging;
     /// The true surface over the facets.
     TrueShape true_shape;
+
+    /// What a piece knows of the surface that it was cut out of: the numbers there of its faces, triangles
+    /// and vertices, ascending; the number of vertices; the diagonal of the box around it (length).
+    struct Origin
+    {
+      /// As above.
+      std::vector<unsigned int> faces, triangles, vertices;
+      std::size_t               n_vertices;
+      double                    extent;
+    };
+    /// Nothing if this is a whole surface.
+    std::optional<Origin> origin;
+
+    /// Numbers in the whole surface.
+    unsigned int number_of_face(const unsigned int face) const
+    {
+      return origin ? origin->faces[face] : face;
+    }
+
+    /// The same of a triangle.
+    unsigned int number_of_triangle(const unsigned int triangle) const
+    {
+      return origin ? origin->triangles[triangle] : triangle;
+    }
+
+    /// The same of a vertex.
+    unsigned int number_of_vertex(const unsigned int vertex) const
+    {
+      return origin ? origin->vertices[vertex] : vertex;
+    }
+
+    /// The face of a number in the whole surface, which must be here.
+    unsigned int face_of_number(const unsigned int number) const;
+
+    /// Number of vertices of the whole surface.
+    std::size_t n_vertices_of_whole() const
+    {
+      return origin ? origin->n_vertices : mesh.vertices.size();
+    }
+
+    /// Diagonal of the box around the whole surface (length).
+    double extent() const;
+
+    /// Bytes of what is here.
+    std::size_t memory_consumption() const;
 
     /// From the point of a triangle with given barycentric coordinates to the true surface (length).
     Vector3 offset(const unsigned int triangle, const std::array<double, 3> &weights) const

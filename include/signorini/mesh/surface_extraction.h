@@ -23,7 +23,7 @@ namespace Signorini
                                          const std::function<bool(const dealii::Point<3> &point)> &region,
                                          const SurfaceShapes &shapes = {});
 
-  /// Collective. Values of a nodal field at all vertices of a surface, on all ranks.
+  /// Collective. Values of a nodal field at the vertices of a surface, of which every rank may have a piece.
   std::vector<Vector3> vertex_values(const ContactSurface &surface, const NodePartition &partition,
                                      const Vector &field);
 } // namespace Signorini

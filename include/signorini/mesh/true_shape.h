@@ -41,6 +41,9 @@ namespace Signorini
     TrueShape(std::vector<BoundaryShapePointer> shapes, std::vector<unsigned int> shape_of_triangle,
               const bool is_used);
 
+    /// That of the triangles of a part of the surface.
+    TrueShape(const TrueShape &whole, const Renumbering &triangles);
+
     /// Whether offsets are not all zero for want of a shape.
     bool has_offsets() const
     {
@@ -64,6 +67,9 @@ namespace Signorini
 
     /// By how much the shape itself may be wrong over a triangle (length).
     double doubt(const SurfaceMesh &mesh, const unsigned int triangle) const;
+
+    /// Bytes of this surface, without the shapes.
+    std::size_t memory_consumption() const;
 
   private:
     static constexpr unsigned int n_terms = 10;

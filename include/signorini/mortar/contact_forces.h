@@ -63,8 +63,9 @@ namespace Signorini
 
   /// Collective. The contact stress on the mortar side, by vertex of its surface: sum_p M_pq lambda_p n_p /
   /// sum_p M_pq (force per area), zero where nothing is covered.
+  /// @param partition of the nodes: their owners sum up
   std::vector<Vector3> mortar_stress(const ContactSurface &mortar, const PairCoupling &pair,
-                                     const std::vector<Vector3> &traction, const MPI_Comm communicator);
+                                     const std::vector<Vector3> &traction, const NodePartition &partition);
 } // namespace Signorini
 
 #endif

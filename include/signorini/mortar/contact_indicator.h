@@ -47,7 +47,7 @@ namespace Signorini
                                                 const std::vector<Vector3>     &stress);
 
   /// Collective. The tractions lambda n dA_non / dA_mor that the mapping brings to the faces of the mortar
-  /// surface.
+  /// surface: known on the ranks that own the cells of these faces.
   /// @param overlay of this rank's own nonmortar faces
   std::vector<FaceTraction> mortar_tractions(const ContactSurface &nonmortar, const ContactSurface &mortar,
                                              const std::vector<OverlayTriangle> &overlay,

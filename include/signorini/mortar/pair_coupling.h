@@ -87,6 +87,9 @@ namespace Signorini
       return areas[row] > .1 * weight ? value * weight / areas[row] : value;
     }
 
+    /// Bytes.
+    std::size_t memory_consumption() const;
+
     /// A face of which no node has a multiplier although it is covered, and what took them away.
     struct LostFace
     {

@@ -103,9 +103,6 @@ namespace Signorini
   GeometricPenetration sample_rigid_penetration(const ContactSurface &surface, const RigidObstacle &obstacle,
                                                 const std::vector<Vector3> &displacement,
                                                 const MPI_Comm              communicator);
-
-  /// The diagonal of the box around a surface: a length of the problem.
-  double surface_size(const ContactSurface &surface);
 } // namespace Signorini
 
 #endif

@@ -5,6 +5,7 @@
 #define signorini_mortar_surface_halo_h
 
 #include <signorini/algebra/sent_lists.h>
+#include <signorini/mesh/surface_piece.h>
 #include <signorini/mortar/face_moments.h>
 
 #include <vector>
@@ -20,6 +21,10 @@ namespace Signorini
   public:
     /// Collective.
     SurfaceHalo(const ContactSurface &surface, const MPI_Comm communicator);
+
+    /// The same for a piece of the surface, which has the own and ghost faces, and the parents of their
+    /// corners. Ghosts of moments it cannot add any more.
+    SurfaceHalo(const SurfaceHalo &whole, const SurfacePiece &piece);
 
     /// Whether the row of a vertex is finished on this rank. Vertices without faces are nobody's.
     bool owns(const unsigned int vertex) const
@@ -45,6 +50,9 @@ namespace Signorini
       return function_vertices;
     }
 
+    /// Faces of other ranks whose moments this rank needs.
+    std::vector<unsigned int> ghost_faces() const;
+
     /// Collective. The moments of own and ghost faces, sorted by face, from those of the own ones.
     std::vector<FaceMoments> add_ghosts(std::vector<FaceMoments> own) const;
 
@@ -55,6 +63,9 @@ namespace Signorini
     {
       vertices->update(values);
     }
+
+    /// Bytes.
+    std::size_t memory_consumption() const;
 
     /// The ranks that share the surface.
     MPI_Comm communicator() const

@@ -42,8 +42,11 @@ namespace Signorini
   /// Writes the overlay of two surfaces as one .vtu stream: its triangles on the nonmortar side with the
   /// number of both triangles and, at the corners, the way to the image ("image") and its part along the
   /// normal ("gap").
+  /// @param nonmortar_number,mortar_number what number a triangle gets; its own if left out
   void write_overlay(std::ostream &out, const SurfaceMesh &nonmortar, const SurfaceMesh &mortar,
-                     const std::vector<OverlayTriangle> &overlay);
+                     const std::vector<OverlayTriangle>                    &overlay,
+                     const std::function<unsigned int(const unsigned int)> &nonmortar_number = {},
+                     const std::function<unsigned int(const unsigned int)> &mortar_number    = {});
 
   /// Collective. Volume weighted nodal averages of the stress: fields "stress" (xx, yy, zz, xy, yz, zx),
   /// "von Mises" and "principal stress" (3, largest first), in the unit of E.

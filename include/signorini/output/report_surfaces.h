@@ -26,7 +26,7 @@ namespace Signorini
     bool         is_mortar = false;
     std::string  name;
     unsigned int body = 0;
-    /// Its triangles; it must outlive the use of this object. Ids of its boundaries.
+    /// What this rank has of it; it must outlive the use of this object. Ids of its boundaries.
     const ContactSurface                *surface = nullptr;
     std::set<dealii::types::boundary_id> ids;
     /// By vertex of the surface, right at the corners of the faces that this rank works on.
@@ -74,9 +74,9 @@ namespace Signorini
     };
 
     void write_scene(std::ostream &out) const;
-    void draw_sides(const std::vector<ReportSide> &sides, const std::size_t n_triangles);
-    void draw_bodies(const NodalSpace &space, const Bodies &bodies, const std::vector<ReportSide> &sides,
-                     const std::size_t n_triangles);
+    void draw_sides(const std::vector<ContactSurface> &whole_sides, const std::size_t n_triangles);
+    void draw_bodies(const NodalSpace &space, const Bodies &bodies,
+                     const std::vector<ContactSurface> &whole_sides, const std::size_t n_triangles);
 
     /// What the page says of the sides, without surfaces.
     std::vector<ReportSide>  sides;

@@ -254,7 +254,7 @@ namespace Signorini
     /// Norm of the nodal forces before reactions and contact forces are taken off (force).
     double largest_nodal_force = 0.;
     /// At the nodes with a multiplier, which lie on the nonmortar surfaces; what arrives at the nodes of the
-    /// mortar surfaces.
+    /// mortar surfaces. On rank 0.
     std::vector<PressureRow> pressure, mortar_pressure;
     /// Remarks and warnings for the user.
     std::vector<std::string> notes;

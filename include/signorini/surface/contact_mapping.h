@@ -66,6 +66,11 @@ namespace Signorini
                    const std::function<bool(const unsigned int)> &is_selected  = {},
                    const MPI_Comm                                 communicator = MPI_COMM_SELF);
 
+    /// The same mapping with the surfaces cut down to parts, which have all triangles of its polygons. What
+    /// the report says of triangles, edges and vertices has the numbers of the whole surfaces.
+    ContactMapping(const ContactMapping &whole, const SurfacePart &nonmortar_part,
+                   const SurfacePart &mortar_part);
+
     /// Number of polygons in which triangles meet.
     std::size_t n_polygons() const
     {
@@ -101,6 +106,14 @@ namespace Signorini
       return mortar;
     }
 
+    /// Bytes, without the report.
+    std::size_t memory_consumption() const
+    {
+      return nonmortar.memory_consumption() + mortar.memory_consumption() + list_bytes(graph_nodes) +
+             list_bytes(polygon_triangles) + list_bytes(polygon_start) + list_bytes(polygon_corners) +
+             list_bytes(by_mortar_start) + list_bytes(by_mortar);
+    }
+
     /// Nodes of the plane graph.
     const std::vector<MappingNode> &nodes() const
     {
@@ -114,6 +127,10 @@ namespace Signorini
     std::vector<unsigned int>                          polygon_start, polygon_corners;
 
   private:
+    /// @param edges_of_parts of the nonmortar and of the mortar part
+    void keep_nodes(const ContactMapping &whole, const std::array<const SurfacePart *, 2> &parts,
+                    const std::array<Renumbering, 2> &edges_of_parts);
+
     SurfacePoint locate(const std::vector<unsigned int> &order, const std::size_t first,
                         const std::size_t last, const std::array<double, 3> &weights,
                         const bool to_mortar) const;

@@ -4,6 +4,8 @@
 #ifndef signorini_surface_surface_mesh_h
 #define signorini_surface_surface_mesh_h
 
+#include <signorini/surface/surface_part.h>
+
 #include <deal.II/base/point.h>
 
 #include <array>
@@ -36,6 +38,14 @@ namespace Signorini
     /// Vertex numbers below n_vertices.
     SurfaceTopology(std::vector<std::array<unsigned int, 3>> triangles, const std::size_t n_vertices);
 
+    /// A part of another one. Its edges are edges of the whole, in their order; where the whole goes on the
+    /// part has borders.
+    /// @param kept_edges edges_of() of the part
+    SurfaceTopology(const SurfaceTopology &whole, const SurfacePart &part, const Renumbering &kept_edges);
+
+    /// The edges of some triangles.
+    Renumbering edges_of(const Renumbering &some_triangles) const;
+
     /// Of an edge the local number (corner i to corner i + 1) in one of its triangles.
     unsigned int local_edge(const unsigned int triangle, const unsigned int edge) const
     {
@@ -56,6 +66,13 @@ namespace Signorini
       return edge_triangles[edge][0] == none || edge_triangles[edge][1] == none;
     }
 
+    /// Bytes.
+    std::size_t memory_consumption() const
+    {
+      return list_bytes(triangles) + list_bytes(triangle_edges) + list_bytes(edges) +
+             list_bytes(edge_triangles) + list_bytes(fan_start) + list_bytes(fan);
+    }
+
     /// Vertex numbers of the triangles.
     std::vector<std::array<unsigned int, 3>> triangles;
     /// Edge i of a triangle goes from corner i to corner i + 1.
@@ -72,6 +89,7 @@ namespace Signorini
     std::size_t n_conflicts = 0;
 
   private:
+    void make_fans();
     void make_edges();
     /// The edge whose given side is free among those from `first` on; a new one if there is none.
     unsigned int find_edge(const unsigned int low, const unsigned int high, const unsigned int side,

@@ -8,6 +8,7 @@
 #include "replicated_coupling.h"
 
 #include <signorini/algebra/gathered_lists.h>
+#include <signorini/mesh/surface_piece.h>
 #include <signorini/mortar/contact_forces.h>
 #include <signorini/mortar/face_shares.h>
 
@@ -103,6 +104,56 @@ namespace
         EXPECT_EQ(x->weight, y->weight);
       }
   }
+
+  /// The own and ghost faces of a surface alone, with what belongs to them.
+  struct OwnPiece
+  {
+    OwnPiece(const ContactSurface &whole, const SurfaceHalo &whole_halo,
+             const std::vector<FaceMoments> &some_moments, const PairCoupling &whole_coupling)
+      : piece(make_piece(whole, whole_halo, some_moments))
+      , surface(cut_out(whole, piece))
+      , halo(whole_halo, piece)
+      , moments(some_moments)
+      , coupling(whole_coupling)
+    {
+      for (FaceMoments &m : moments)
+        m.face = piece.faces[m.face];
+      for (unsigned int &v : coupling.vertices)
+        v = piece.part.vertices[v];
+    }
+
+    static SurfacePiece make_piece(const ContactSurface &whole, const SurfaceHalo &halo,
+                                   const std::vector<FaceMoments> &moments)
+    {
+      std::vector<bool> faces(whole.faces.size(), false), vertices(whole.mesh.vertices.size(), false);
+      for (const FaceMoments &m : moments)
+        faces[m.face] = true;
+      for (const unsigned int v : halo.functions())
+        vertices[v] = true;
+      return SurfacePiece(whole, faces, std::move(vertices));
+    }
+
+    const SurfacePiece       piece;
+    const ContactSurface     surface;
+    const SurfaceHalo        halo;
+    std::vector<FaceMoments> moments;
+    PairCoupling             coupling;
+  };
+
+  void expect_joined(const ContactSurface &piece, const ContactSurface &whole, const MPI_Comm comm)
+  {
+    const ContactSurface joined = join_pieces(piece, comm, Receivers::all);
+    EXPECT_EQ(joined.mesh.triangles, whole.mesh.triangles);
+    EXPECT_EQ(joined.triangle_face, whole.triangle_face);
+    EXPECT_EQ(joined.mesh.vertices, whole.mesh.vertices);
+    EXPECT_EQ(joined.vertex_node, whole.vertex_node);
+    ASSERT_EQ(joined.faces.size(), whole.faces.size());
+    for (unsigned int f = 0; f < whole.faces.size(); ++f)
+      {
+        EXPECT_EQ(joined.faces[f].corners, whole.faces[f].corners);
+        EXPECT_EQ(joined.faces[f].worker, whole.faces[f].worker);
+      }
+  }
 } // namespace
 
 
@@ -169,6 +220,17 @@ TEST(InterfaceParts, RowsAreThoseOfTheWhole)
             continue;
           for (const unsigned int v : interface.non.faces[f].corners)
             EXPECT_EQ(recovered[v], expected[v]);
+        }
+      const OwnPiece piece(interface.non, halo, ghosted, part);
+      expect_joined(piece.surface, interface.non, comm);
+      const auto of_piece =
+          recover_pressure(piece.surface, piece.halo, piece.moments, piece.coupling, of_part);
+      for (unsigned int f = 0; f < piece.surface.faces.size(); ++f)
+        {
+          if (!piece.halo.owns_face(f))
+            continue;
+          for (const unsigned int v : piece.surface.faces[f].corners)
+            EXPECT_EQ(of_piece[v], expected[piece.surface.number_of_vertex(v)]);
         }
     }
   EXPECT_GT(n_dropped, 200u);
