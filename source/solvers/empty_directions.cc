@@ -83,4 +83,18 @@ namespace Signorini
     originals.clear();
     return rows;
   }
+
+
+
+  void EmptyDirections::leave_out(Vector &residual, const NodeBlockMatrix &matrix, const Vector &v) const
+  {
+    for (const auto &[row, original] : originals)
+      {
+        const Block   filling = read_block(matrix.block(matrix.diagonal(row))) - original;
+        const Vector3 load    = filling * Vector3({v.local_element(dim * row), v.local_element(dim * row + 1),
+                                                   v.local_element(dim * row + 2)});
+        for (unsigned int c = 0; c < dim; ++c)
+          residual.local_element(dim * row + c) += load[c];
+      }
+  }
 } // namespace Signorini

@@ -78,6 +78,7 @@ namespace Signorini
     const MultigridLevel &coarse   = hierarchy.level(level - 1);
     Vector               &residual = work[level].residual;
     smoother.smooth_from_zero(solution, rhs, work[level].free, smoothing, residual);
+    hierarchy.level(level).empty.leave_out(residual, hierarchy.level(level).matrix, solution);
     work[level - 1].rhs = 0.;
     restrict_defect(coarse, work[level - 1].rhs, residual);
     correct(level - 1, work[level - 1].solution, work[level - 1].rhs, nullptr);

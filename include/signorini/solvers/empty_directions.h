@@ -24,6 +24,11 @@ namespace Signorini
     /// Takes out of the matrix what was filled in. Returns the rows, to be filled again.
     std::vector<unsigned int> restore(NodeBlockMatrix &matrix);
 
+    /// Makes residual = b - A v of the filled matrix that of the matrix without: the equations of the levels
+    /// below. What the filling leaves of a residual there would be a load that nothing opposes.
+    /// @param matrix the filled one
+    void leave_out(Vector &residual, const NodeBlockMatrix &matrix, const Vector &v) const;
+
   private:
     /// The blocks as they are without.
     std::map<unsigned int, Block> originals;

@@ -317,6 +317,33 @@ TEST(EmptyDirections, FillsThoseWithHardlyAnyStiffness)
 
 
 
+// The levels below know the matrix without what fills its empty directions. So the residual that they get is
+// that of the matrix without.
+TEST(EmptyDirections, AreLeftOutOfResiduals)
+{
+  NodeBlockMatrix matrix = CubeProblem::stiffness(CubeProblem::Grid(2));
+  const Vector3   normal = Vector3({.5, -.6, .7}) / std::sqrt(1.1);
+  write_block(matrix.block(matrix.diagonal(0)),
+              7. * dealii::unit_symmetric_tensor<3>() - 7. * outer_product(normal, normal));
+  Vector v, expected, residual;
+  for (Vector *const vector : {&v, &expected, &residual})
+    matrix.partition().reinit(*vector);
+  for (unsigned int i = 0; i < v.locally_owned_size(); ++i)
+    v.local_element(i) = i < 3 ? normal[i] : std::sin(1. + i);
+  matrix.vmult(expected, v);
+  expected *= -1.;
+  EmptyDirections empty;
+  empty.fill(matrix, {0}, 7.);
+  matrix.vmult(residual, v);
+  residual *= -1.;
+  EXPECT_GT(std::abs(residual.local_element(0) - expected.local_element(0)), .1);
+  empty.leave_out(residual, matrix, v);
+  residual -= expected;
+  EXPECT_LT(residual.linfty_norm(), 1e-13 * expected.linfty_norm());
+}
+
+
+
 // Levels without contact, in which the function of a node in the middle of the second one has hardly any
 // values.
 class LevelsWithAnEmptyFunction : public LevelSource
