@@ -38,6 +38,11 @@ def held_points(s):
     return [float(w.group(1)) for w in words if w]
 
 
+def make_mesh(geometry, mesh):
+    run = subprocess.run(['gmsh', '-3', '-format', 'msh41', geometry, '-o', mesh], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True)
+    check(run.returncode == 0, f'gmsh: {run.stdout[-500:]}')
+
+
 def refused(p, path, *settings):
     run = p.call(path, '--output', 'refused', *(w for s in settings for w in ('--set', s)))
     check(run.returncode == 1 and not os.path.exists('refused'), f'{settings}: exit {run.returncode}')
@@ -66,9 +71,7 @@ def turning_ball(p):
 def ball_joint(p):
     """The mesh of a joint from gmsh: on its facets the ball would turn by thousands of degrees."""
     with tempfile.TemporaryDirectory() as folder:
-        mesh = subprocess.run(['gmsh', '-3', '-format', 'msh41', os.path.join(TOP, 'tests', 'application', 'joint.geo'), '-o', os.path.join(folder, 'joint.msh')],
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True)
-        check(mesh.returncode == 0, f'gmsh: {mesh.stdout[-500:]}')
+        make_mesh(os.path.join(TOP, 'tests', 'application', 'joint.geo'), os.path.join(folder, 'joint.msh'))
         path = os.path.join(folder, 'joint.prm')
         with open(path, 'w') as f:
             f.write(JOINT)
@@ -86,3 +89,20 @@ def ball_joint(p):
                 near(s['pairs'][0]['max_recovered_pressure'], upright['pairs'][0]['max_recovered_pressure'], .05, 'largest pressure')
         text = refused(p, path, 'Body ball/Rigid=end: force (3000, 0, -10000)')
         check('The loads move body ball, rotation about the axis' in text and 'Prescribe a displacement' in text, text)
+
+
+def lug_by_force(p):
+    """The example of the pin in a lug, on one finished mesh from gmsh: forces take as many iterations as a displacement, whatever their size."""
+    with tempfile.TemporaryDirectory() as folder:
+        mesh = os.path.join(folder, 'lug.msh')
+        make_mesh(os.path.join(TOP, 'prm', 'lug', 'lug.geo'), mesh)
+        settings = ['Body lug/Mesh=' + mesh, 'Body pin/Mesh=' + mesh, 'Refinement/Adaptive cycles=0']
+        s = p.solve('lug/lug.prm', *settings, 'Body lug/Dirichlet=pull: (0.05, 0, 0)', 'Body lug/Forces=')
+        prescribed = s['cycles'][0]['nonlinear']['iterations']
+        for force in (1e3, 1e4, 1e5):
+            s = p.solve('lug/lug.prm', *settings, f'Body lug/Forces=pull: ({force}, 0, 0)')
+            n = s['cycles'][0]['nonlinear']['iterations']
+            print(f'force {force}: {n} iterations, prescribed displacement {prescribed}')
+            check(n <= 1.5 * prescribed, f'force {force}: {n} iterations, prescribed displacement {prescribed}')
+            near(abs(s['pairs'][0]['force'][0]), force, 1e-8, 'force')
+            certificate(s)
