@@ -5,6 +5,13 @@
 
 #include <mpi.h>
 
+// PETSc, which comes with deal.II, counts messages by macros of these names.
+#undef MPI_Recv
+#undef MPI_Irecv
+#undef MPI_Allgather
+#undef MPI_Allgatherv
+#undef MPI_Allreduce
+
 namespace
 {
   std::size_t received = 0;
