@@ -385,6 +385,8 @@ namespace Signorini
     foretell_pretension(model, d);
     ContactSolver   solver(model, d, coarser, start, how_to, journal);
     ContactSolution result = solve_with_pretension(model, solver, d, journal);
+    if (result.displacement.size() == 0)
+      return result;
     if (parameters.measure_sweeps)
       result.sweeps = solver.measure();
     if (parameters.compare_linear && has_tied_part)

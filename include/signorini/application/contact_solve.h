@@ -79,7 +79,8 @@ namespace Signorini
     /// Of the multigrid hierarchy.
     unsigned int n_levels = 0;
     /// Motions along which it slides far although only facets oppose them, as coefficients of the free
-    /// motions: no property of the true bodies.
+    /// motions: no property of the true bodies. Or one that nothing opposes, which has to be held before
+    /// anything can be solved: then all but this is empty.
     std::vector<std::vector<double>> drifting;
     /// If they were to be measured.
     SweepMeasurement sweeps;
