@@ -62,7 +62,8 @@ def turning_ball(p):
     check(max(c['nonlinear']['iterations'] for c in s['cycles']) <= 25, 'iterations')
     # The first attempt has no displacement that a linear problem could be compared with.
     compared = p.solve(SOCKET, *TETRAHEDRA, 'Solver/Compare linear multigrid=true')
-    check(compared['cycles'][0]['difference'] <= 1e-10, f'difference to the linear problem: {compared["cycles"][0]["difference"]}')
+    for c in compared['cycles']:
+        check(c['linear_cg']['difference'] <= 1e-9, f'linear solution differs by {c["linear_cg"]["difference"]}')
     text = refused(p, path, *TETRAHEDRA, 'Body ball/Volume force=(0.05*z, 0, -0.1)')
     check('body ball, rotation about the axis' in text and 'would fly away' in text, text)
     # A translation that surfaces allow is never held.
