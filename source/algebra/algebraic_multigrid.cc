@@ -44,16 +44,18 @@ namespace Signorini
       for (unsigned int i = 0; i < matrix.n_rows(); ++i)
         {
           columns.clear();
-          for (const BlockRange &range : matrix.ranges(i))
-            for (std::size_t k = range.begin; k < range.end; ++k)
-              for (unsigned int d = 0; d < dim; ++d)
-                columns.push_back(dim * partition.to_global(matrix.column(k)) + d);
+          matrix.visit_row(i, [&](const RowEntry &entry) {
+            for (unsigned int d = 0; d < dim; ++d)
+              columns.push_back(dim * partition.to_global(entry.column) + d);
+          });
           for (unsigned int c = 0; c < dim; ++c)
             {
               values.clear();
-              for (const BlockRange &range : matrix.ranges(i))
-                for (std::size_t k = range.begin; k < range.end; ++k)
-                  values.insert(values.end(), matrix.block(k) + dim * c, matrix.block(k) + dim * (c + 1));
+              matrix.visit_row(i, [&](const RowEntry &entry) {
+                const Block block = entry.block();
+                for (unsigned int d = 0; d < dim; ++d)
+                  values.push_back(block[c][d]);
+              });
               result->set(dim * partition.to_global(i) + c, columns.size(), columns.data(), values.data());
             }
         }

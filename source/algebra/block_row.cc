@@ -63,6 +63,31 @@ namespace Signorini
               y[c] -= c0 * a[c] + c1 * a[3 + c] + c2 * a[6 + c];
           }
       }
+
+      void multiply_mirrored(double *const sums, const MirroredBlocks &row, const double *const x)
+      {
+        double s[3] = {0., 0., 0.};
+        for (std::size_t m = 0; m < row.n; ++m)
+          {
+            const double *const a = row.blocks + 9 * static_cast<std::size_t>(row.positions[m]);
+            const double *const y = x + 3 * static_cast<std::size_t>(row.columns[m]);
+            for (unsigned int c = 0; c < 3; ++c)
+              s[c] += a[c] * y[0] + a[3 + c] * y[1] + a[6 + c] * y[2];
+          }
+        std::memcpy(sums, s, sizeof(s));
+      }
+
+      void subtract_mirrored(double *const values, const MirroredBlocks &row, const double *const change)
+      {
+        const double c0 = change[0], c1 = change[1], c2 = change[2];
+        for (std::size_t m = 0; m < row.n; ++m)
+          {
+            const double *const a = row.blocks + 9 * static_cast<std::size_t>(row.positions[m]);
+            double *const       y = values + 3 * static_cast<std::size_t>(row.columns[m]);
+            for (unsigned int c = 0; c < 3; ++c)
+              y[c] -= a[3 * c] * c0 + a[3 * c + 1] * c1 + a[3 * c + 2] * c2;
+          }
+      }
     } // namespace Plain
 
 
@@ -75,6 +100,12 @@ namespace Signorini
       SIGNORINI_AVX2 inline __m256d load(const double *const x)
       {
         return _mm256_maskload_pd(x, _mm256_setr_epi64x(-1, -1, -1, 0));
+      }
+
+      SIGNORINI_AVX2 inline void store(double *const x, const __m256d numbers)
+      {
+        _mm_storeu_pd(x, _mm256_castpd256_pd128(numbers));
+        _mm_store_sd(x + 2, _mm256_extractf128_pd(numbers, 1));
       }
 
       /// Products with the rows of blocks, number by number.
@@ -148,8 +179,40 @@ namespace Signorini
             sum                     = _mm256_fnmadd_pd(c0, _mm256_loadu_pd(a), sum);
             sum                     = _mm256_fnmadd_pd(c1, _mm256_loadu_pd(a + 3), sum);
             sum                     = _mm256_fnmadd_pd(c2, _mm256_loadu_pd(a + 6), sum);
-            _mm_storeu_pd(y, _mm256_castpd256_pd128(sum));
-            _mm_store_sd(y + 2, _mm256_extractf128_pd(sum, 1));
+            store(y, sum);
+          }
+      }
+
+      /// The sum of products with the columns of blocks, added up over the numbers of x.
+      SIGNORINI_AVX2 void multiply_mirrored(double *const sums, const MirroredBlocks &row,
+                                            const double *const x)
+      {
+        __m256d one = _mm256_setzero_pd(), two = one, three = one;
+        for (std::size_t m = 0; m < row.n; ++m)
+          {
+            const double *const a = row.blocks + 9 * static_cast<std::size_t>(row.positions[m]);
+            const double *const y = x + 3 * static_cast<std::size_t>(row.columns[m]);
+            one                   = _mm256_fmadd_pd(_mm256_loadu_pd(a), _mm256_broadcast_sd(y), one);
+            two                   = _mm256_fmadd_pd(_mm256_loadu_pd(a + 3), _mm256_broadcast_sd(y + 1), two);
+            three = _mm256_fmadd_pd(_mm256_loadu_pd(a + 6), _mm256_broadcast_sd(y + 2), three);
+          }
+        store(sums, _mm256_add_pd(_mm256_add_pd(one, two), three));
+      }
+
+      SIGNORINI_AVX2 void subtract_mirrored(double *const values, const MirroredBlocks &row,
+                                            const double *const change)
+      {
+        for (std::size_t m = 0; m < row.n; ++m)
+          {
+            RowSum product, nothing;
+            product.reset();
+            nothing.reset();
+            product.add(row.blocks + 9 * static_cast<std::size_t>(row.positions[m]), change);
+            double sum[3];
+            product.write(sum, nothing);
+            double *const y = values + 3 * static_cast<std::size_t>(row.columns[m]);
+            for (unsigned int c = 0; c < 3; ++c)
+              y[c] -= sum[c];
           }
       }
     } // namespace Avx2
@@ -222,5 +285,27 @@ namespace Signorini
       return Avx2::subtract_transposed(values, blocks, columns, range, change);
 #endif
     Plain::subtract_transposed(values, blocks, columns, range, change);
+  }
+
+
+
+  void multiply_mirrored_blocks(double *const sums, const MirroredBlocks &row, const double *const x)
+  {
+#ifdef SIGNORINI_AVX2
+    if (avx2_is_used)
+      return Avx2::multiply_mirrored(sums, row, x);
+#endif
+    Plain::multiply_mirrored(sums, row, x);
+  }
+
+
+
+  void subtract_mirrored_blocks(double *const values, const MirroredBlocks &row, const double *const change)
+  {
+#ifdef SIGNORINI_AVX2
+    if (avx2_is_used)
+      return Avx2::subtract_mirrored(values, row, change);
+#endif
+    Plain::subtract_mirrored(values, row, change);
   }
 } // namespace Signorini

@@ -23,19 +23,16 @@ namespace Signorini
       for (unsigned int i = 0; i < matrix.n_rows(); ++i)
         {
           unsigned int n = 0;
-          for (const BlockRange &range : matrix.ranges(i))
-            for (std::size_t k = range.begin; k < range.end; ++k)
+          matrix.visit_row(i, [&](const RowEntry &entry) {
+            for (std::size_t l = transfer.row_begin(entry.column); l < transfer.row_end(entry.column); ++l)
               {
-                const unsigned int j = matrix.column(k);
-                for (std::size_t l = transfer.row_begin(j); l < transfer.row_end(j); ++l)
-                  {
-                    // Written in any case: cheaper than a branch that is hard to predict.
-                    const unsigned int column = transfer.column(l);
-                    row[n]                    = column;
-                    n += seen[column] != i;
-                    seen[column] = i;
-                  }
+                // Written in any case: cheaper than a branch that is hard to predict.
+                const unsigned int column = transfer.column(l);
+                row[n]                    = column;
+                n += seen[column] != i;
+                seen[column] = i;
               }
+          });
           columns.insert(columns.end(), row.begin(), row.begin() + n);
           start.push_back(columns.size());
         }
@@ -143,31 +140,50 @@ namespace Signorini
       return block;
     }
 
-    /// Blocks of a matrix with their columns, all rows of a scalar transfer.
+    /// Consecutive blocks of a row of a matrix, with their columns.
+    struct Blocks
+    {
+      const double       *numbers;
+      const unsigned int *columns;
+      std::size_t         n;
+    };
+
+    /// Blocks of a matrix, all rows of a scalar transfer.
     struct Factors
     {
-      const double       *blocks;
-      const unsigned int *columns;
+      Blocks              blocks;
       const std::size_t  *row_start;
       const unsigned int *p_columns;
       const double       *p_weights;
     };
 
-    /// row += Σ_k A_k P_k: the blocks of a range of a row of A times scalar rows of P. Returns the number of
-    /// columns, n_columns of which were there before.
+    /// Writes n blocks that are in memory transposed one behind the other.
     SIGNORINI_VECTORIZED
-    unsigned int multiply_scalar_rows(Row &row, unsigned int n_columns, const Factors &factors,
-                                      const BlockRange range)
+    void copy_mirrored(double *to, const MirroredBlocks &from)
+    {
+      for (std::size_t m = 0; m < from.n; ++m, to += n_entries)
+        {
+          const double *const a = from.blocks + n_entries * static_cast<std::size_t>(from.positions[m]);
+          for (unsigned int c = 0; c < dim; ++c)
+            for (unsigned int d = 0; d < dim; ++d)
+              to[dim * c + d] = a[dim * d + c];
+        }
+    }
+
+    /// row += Σ_k A_k P_k: blocks of a row of A times scalar rows of P. Returns the number of columns,
+    /// n_columns of which were there before.
+    SIGNORINI_VECTORIZED
+    unsigned int multiply_scalar_rows(Row &row, unsigned int n_columns, const Factors &factors)
     {
       // Copies: what is written to the row could change what is behind a reference.
       const Factors       f       = factors;
       double *const       blocks  = row.blocks.data();
       int *const          place   = row.place.data();
       unsigned int *const columns = row.columns.data();
-      for (std::size_t k = range.begin; k < range.end; ++k)
-        for (std::size_t l = f.row_start[f.columns[k]]; l < f.row_start[f.columns[k] + 1]; ++l)
+      for (std::size_t k = 0; k < f.blocks.n; ++k)
+        for (std::size_t l = f.row_start[f.blocks.columns[k]]; l < f.row_start[f.blocks.columns[k] + 1]; ++l)
           add_scaled_block(find(blocks, place, columns, n_columns, f.p_columns[l]), f.p_weights[l],
-                           f.blocks + n_entries * k);
+                           f.blocks.numbers + n_entries * k);
       return n_columns;
     }
 
@@ -217,34 +233,30 @@ namespace Signorini
       void compute(const NodeBlockMatrix &matrix, const NodalTransfer &transfer, const unsigned int i)
       {
         clear(matrix, transfer, i);
-        const GalerkinKernels::Factors factors{matrix.block_data(), matrix.column_data(),
-                                               transfer.row_start_data(), transfer.column_data(),
-                                               transfer.weight_data()};
-        unsigned int                   n_columns = 0;
-        for (const BlockRange &range : matrix.ranges(i))
-          for (std::size_t k = range.begin; k < range.end;)
-            {
-              std::size_t end = k;
-              while (end < range.end && is_scalar(transfer, matrix.column(end)))
-                ++end;
-              if (end > k)
-                n_columns = GalerkinKernels::multiply_scalar_rows(row, n_columns, factors, {k, end});
-              if (end < range.end)
-                multiply_row(n_columns, matrix, transfer, end++);
-              k = end;
-            }
+        const MirroredBlocks mirrored = matrix.mirrored_blocks(i);
+        turned.resize(n_entries * mirrored.n);
+        GalerkinKernels::copy_mirrored(turned.data(), mirrored);
+        const auto   stored    = matrix.stored(i);
+        unsigned int n_columns = 0;
+        add_blocks(n_columns, blocks_of(matrix, stored[0]), transfer);
+        add_blocks(n_columns, blocks_of(matrix, stored[1]), transfer);
+        add_blocks(n_columns, {turned.data(), mirrored.columns, mirrored.n}, transfer);
+        add_blocks(n_columns, blocks_of(matrix, stored[2]), transfer);
         row.columns.resize(n_columns);
         if (const Vector3 *const n = transfer.plane(i))
           restrict_to_plane(*n);
       }
 
-      /// Adds weight * this row, or pᵀ times this row, to a row of the coarse matrix: its upper half if it is
-      /// an owned one.
+      /// Adds weight * this row, or pᵀ times this row, to what a row of the coarse matrix has in memory.
       void add_to(NodeBlockMatrix &coarse, const unsigned int coarse_row, const double weight,
                   const Block *p) const
       {
-        const bool is_sparse = coarse.row_length(coarse_row) > 4 * row.columns.size();
-        for (const BlockRange &range : coarse.upper_half(coarse_row))
+        const auto  stored   = coarse.stored(coarse_row);
+        std::size_t n_blocks = 0;
+        for (const BlockRange &range : stored)
+          n_blocks += range.size();
+        const bool is_sparse = n_blocks > 2 * row.columns.size();
+        for (const BlockRange &range : stored)
           if (p == nullptr)
             (is_sparse ? GalerkinKernels::add_sparse_row : GalerkinKernels::add_row)(
                 coarse.block(range.begin), coarse.column_data() + range.begin, range.size(), weight,
@@ -283,15 +295,41 @@ namespace Signorini
         return transfer.row_blocks(row) == nullptr && transfer.plane(row) == nullptr;
       }
 
+      static GalerkinKernels::Blocks blocks_of(const NodeBlockMatrix &matrix, const BlockRange &range)
+      {
+        return {matrix.block(range.begin), matrix.column_data() + range.begin, range.size()};
+      }
+
+      void add_blocks(unsigned int &n_columns, const GalerkinKernels::Blocks &blocks,
+                      const NodalTransfer &transfer)
+      {
+        for (std::size_t k = 0; k < blocks.n;)
+          {
+            std::size_t end = k;
+            while (end < blocks.n && is_scalar(transfer, blocks.columns[end]))
+              ++end;
+            if (end > k)
+              n_columns = GalerkinKernels::multiply_scalar_rows(
+                  row, n_columns,
+                  {{blocks.numbers + n_entries * k, blocks.columns + k, end - k},
+                   transfer.row_start_data(),
+                   transfer.column_data(),
+                   transfer.weight_data()});
+            if (end < blocks.n)
+              multiply_row(n_columns, blocks.columns[end], blocks.numbers + n_entries * end, transfer);
+            k = end + 1;
+          }
+      }
+
       /// Forgets the last row, with room for row i.
       void clear(const NodeBlockMatrix &matrix, const NodalTransfer &transfer, const unsigned int i)
       {
         for (const unsigned int column : row.columns)
           row.place[column] = 0;
         std::size_t n_terms = 0;
-        for (const BlockRange &range : matrix.ranges(i))
-          for (std::size_t k = range.begin; k < range.end; ++k)
-            n_terms += transfer.row_end(matrix.column(k)) - transfer.row_begin(matrix.column(k));
+        matrix.visit_row(i, [&](const RowEntry &entry) {
+          n_terms += transfer.row_end(entry.column) - transfer.row_begin(entry.column);
+        });
         row.columns.resize(n_terms);
         // Never made shorter: growing again would fill it with zeros.
         if (row.blocks.size() < n_entries * (n_terms + 1))
@@ -311,13 +349,12 @@ namespace Signorini
             }
       }
 
-      /// Adds the product of the block at position k with a row of P that has blocks or a plane.
-      void multiply_row(unsigned int &n_columns, const NodeBlockMatrix &matrix, const NodalTransfer &transfer,
-                        const std::size_t k)
+      /// Adds the product of a block with row j of P, which has blocks or a plane.
+      void multiply_row(unsigned int &n_columns, const unsigned int j, const double *const block,
+                        const NodalTransfer &transfer)
       {
-        const unsigned int j = matrix.column(k);
-        double             a[n_entries];
-        std::copy_n(matrix.block(k), n_entries, a);
+        double a[n_entries];
+        std::copy_n(block, n_entries, a);
         if (const Vector3 *const n = transfer.plane(j))
           for (unsigned int c = 0; c < dim; ++c)
             project_to_plane(*n, a + dim * c);
@@ -348,6 +385,8 @@ namespace Signorini
       }
 
       GalerkinKernels::Row row;
+      /// The mirrored blocks of a row of A.
+      std::vector<double> turned;
     };
   } // namespace
 
@@ -378,7 +417,6 @@ namespace Signorini
                            b == nullptr ? nullptr : b + (k - transfer.row_begin(i)));
       }
     coarse_matrix.compress();
-    coarse_matrix.mirror_upper_part(marked);
   }
 
 

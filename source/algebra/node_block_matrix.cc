@@ -7,6 +7,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
 #include <numeric>
 
@@ -16,6 +17,9 @@ namespace Signorini
 
   namespace
   {
+    /// The position of what another row has in memory.
+    constexpr std::size_t not_stored = static_cast<std::size_t>(-1);
+
     /// Packs foreign rows for their owners: node, length, columns.
     std::map<unsigned int, std::vector<NodeIndex>>
     pack_foreign_rows(const NodePattern &pattern, const unsigned int n_owned, const NodePartition &numbering)
@@ -79,33 +83,32 @@ namespace Signorini
       SplitRows(const NodePattern &pattern, const Additions &additions, const NodePartition &nodes)
         : nodes(nodes)
       {
-        std::vector<unsigned int> lower, upper;
-        for (auto *part : {&lower, &upper})
-          part->reserve(pattern.columns.size() / 2);
-        for (std::size_t r = 0; r + 1 < pattern.row_start.size(); ++r)
-          split(lower, upper, pattern, additions, r);
-        // So far lengths; all diagonal blocks come first, then the lower, then the upper parts.
-        const unsigned int n_owned = nodes.n_owned();
-        for (std::size_t &start : lower_start)
-          start += n_owned;
-        for (std::size_t &start : upper_start)
-          start += lower_start.back();
-        columns.reserve(upper_start.back());
+        const unsigned int        n_owned = nodes.n_owned();
+        std::vector<unsigned int> outer;
+        columns.reserve(n_owned + pattern.columns.size() / 2);
         for (unsigned int r = 0; r < n_owned; ++r)
           columns.push_back(r);
-        for (auto *part : {&lower, &upper})
+        lower_start = {n_owned};
+        for (std::size_t r = 0; r + 1 < pattern.row_start.size(); ++r)
           {
-            columns.insert(columns.end(), part->begin(), part->end());
-            *part = std::vector<unsigned int>();
+            collect(pattern, additions, r);
+            if (r < n_owned)
+              split_owned(static_cast<unsigned int>(r), outer);
+            else
+              outer.insert(outer.end(), row.begin(), row.end());
+            outer_start.push_back(outer.size());
           }
+        for (std::size_t &start : outer_start)
+          start += columns.size();
+        columns.insert(columns.end(), outer.begin(), outer.end());
       }
 
-      std::vector<std::size_t>  lower_start = {0}, upper_start = {0};
+      std::vector<std::size_t>  lower_start, outer_start = {0};
       std::vector<unsigned int> columns;
 
     private:
-      void split(std::vector<unsigned int> &lower, std::vector<unsigned int> &upper,
-                 const NodePattern &pattern, const Additions &additions, const std::size_t r)
+      /// Makes `row` the local columns of a row, with the diagonal.
+      void collect(const NodePattern &pattern, const Additions &additions, const std::size_t r)
       {
         row.clear();
         for (std::size_t k = pattern.row_start[r]; k < pattern.row_start[r + 1]; ++k)
@@ -115,24 +118,27 @@ namespace Signorini
         if (const auto it = additions.find(r); is_owned && it != additions.end())
           for (const NodeIndex column : it->second)
             row.push_back(nodes.to_local(column));
-        const unsigned int diagonal = is_owned ? r : nodes.to_local(pattern.foreign_rows[r - n_owned]);
-        row.push_back(diagonal);
+        row.push_back(is_owned ? r : nodes.to_local(pattern.foreign_rows[r - n_owned]));
         std::sort(row.begin(), row.end());
         row.erase(std::unique(row.begin(), row.end()), row.end());
-        auto begin_of_upper = row.begin();
-        if (is_owned)
-          {
-            const auto place = std::lower_bound(row.begin(), row.end(), diagonal);
-            lower.insert(lower.end(), row.begin(), place);
-            lower_start.push_back(lower.size());
-            begin_of_upper = place + 1;
-          }
-        upper.insert(upper.end(), begin_of_upper, row.end());
-        upper_start.push_back(upper.size());
+      }
+
+      void split_owned(const unsigned int r, std::vector<unsigned int> &outer)
+      {
+        const auto diagonal = std::lower_bound(row.begin(), row.end(), r);
+        const auto ghosts   = std::lower_bound(diagonal, row.end(), nodes.n_owned());
+        columns.insert(columns.end(), row.begin(), diagonal);
+        lower_start.push_back(columns.size());
+        n_above += ghosts - diagonal - 1;
+        outer.insert(outer.end(), ghosts, row.end());
       }
 
       const NodePartition      &nodes;
       std::vector<unsigned int> row;
+
+    public:
+      /// Blocks above the diagonal: as many as below.
+      std::size_t n_above = 0;
     };
   } // namespace
 
@@ -149,8 +155,9 @@ namespace Signorini
                                             communicator);
 
     SplitRows rows(pattern, additions, *nodes);
+    AssertDimension(rows.n_above, rows.lower_start.back() - n_owned);
     lower_start = std::move(rows.lower_start);
-    upper_start = std::move(rows.upper_start);
+    outer_start = std::move(rows.outer_start);
     columns     = std::move(rows.columns);
     // One more than there are: see block_row.h.
     values.assign(9 * columns.size() + 1, 0.);
@@ -159,8 +166,33 @@ namespace Signorini
     for (std::size_t f = 0; f < pattern.foreign_rows.size(); ++f)
       foreign_row_of_ghost[nodes->to_local(pattern.foreign_rows[f]) - n_owned] = n_owned + f;
 
+    mirror_lower_parts();
     collect_ghost_columns();
     plan_compression(pattern);
+  }
+
+
+
+  void NodeBlockMatrix::mirror_lower_parts()
+  {
+    // Positions are kept in 32 bits: blocks of 300 GB on one rank.
+    AssertThrow(columns.size() <= numbers::invalid_unsigned_int,
+                ExcMessage("More than 4.29e9 blocks of a matrix on one rank: use more ranks."));
+    const unsigned int n = n_rows();
+    mirrored_start.assign(n + 1, 0);
+    for (std::size_t k = n; k < lower_start[n]; ++k)
+      ++mirrored_start[columns[k] + 1];
+    std::partial_sum(mirrored_start.begin(), mirrored_start.end(), mirrored_start.begin());
+    mirrored_columns.resize(mirrored_start[n]);
+    mirrored.resize(mirrored_start[n]);
+    std::vector<std::size_t> next(mirrored_start.begin(), mirrored_start.end() - 1);
+    for (unsigned int row = 0; row < n; ++row)
+      for (std::size_t k = lower_start[row]; k < lower_start[row + 1]; ++k)
+        {
+          const std::size_t m = next[columns[k]]++;
+          mirrored_columns[m] = row;
+          mirrored[m]         = static_cast<unsigned int>(k);
+        }
   }
 
 
@@ -169,8 +201,8 @@ namespace Signorini
   {
     const auto for_all = [&](const auto &action) {
       for (unsigned int row = 0; row < n_rows(); ++row)
-        for (std::size_t k = upper_start[row + 1]; k > upper_start[row] && columns[k - 1] >= n_rows(); --k)
-          action(row, k - 1, columns[k - 1] - n_rows());
+        for (std::size_t k = outer_start[row]; k < outer_start[row + 1]; ++k)
+          action(row, k, columns[k] - n_rows());
     };
     ghost_start.assign(nodes->ghosts().size() + 1, 0);
     for_all(
@@ -198,8 +230,8 @@ namespace Signorini
         send_rows.back().second.second = n_owned + f + 1;
         auto &header                   = headers[rank];
         header.push_back(pattern.foreign_rows[f]);
-        header.push_back(row_length(n_owned + f));
-        for (std::size_t k = upper_start[n_owned + f]; k < upper_start[n_owned + f + 1]; ++k)
+        header.push_back(outer(n_owned + f).size());
+        for (std::size_t k = outer_start[n_owned + f]; k < outer_start[n_owned + f + 1]; ++k)
           header.push_back(nodes->to_global(columns[k]));
       }
     receive_positions.clear();
@@ -210,8 +242,11 @@ namespace Signorini
         receive_positions.push_back({rank, {}});
         for (std::size_t i = 0; i < header.size(); i += 2 + header[i + 1])
           for (std::size_t k = 0; k < header[i + 1]; ++k)
-            receive_positions.back().second.push_back(
-                find(header[i] - nodes->first_owned(), nodes->to_local(header[i + 2 + k])));
+            {
+              const auto         row    = static_cast<unsigned int>(header[i] - nodes->first_owned());
+              const unsigned int column = nodes->to_local(header[i + 2 + k]);
+              receive_positions.back().second.push_back(stores(row, column) ? find(row, column) : not_stored);
+            }
       }
   }
 
@@ -221,7 +256,7 @@ namespace Signorini
   {
     if (row < n_rows() && local_column == row)
       return diagonal(row);
-    const BlockRange range = row < n_rows() && local_column < row ? lower(row) : upper(row);
+    const BlockRange range = row < n_rows() && local_column < row ? lower(row) : outer(row);
     const auto       end   = columns.begin() + range.end;
     const auto       it    = std::lower_bound(columns.begin() + range.begin, end, local_column);
     Assert(it != end && *it == local_column, ExcInternalError());
@@ -232,7 +267,7 @@ namespace Signorini
 
   void NodeBlockMatrix::clear_row(const unsigned int row)
   {
-    for (const BlockRange &range : ranges(row))
+    for (const BlockRange &range : stored(row))
       std::fill(values.begin() + 9 * range.begin, values.begin() + 9 * range.end, 0.);
   }
 
@@ -245,8 +280,8 @@ namespace Signorini
     std::map<unsigned int, std::vector<double>> packets;
     for (const auto &[rank, rows] : send_rows)
       {
-        const auto begin = values.begin() + 9 * upper_start[rows.first];
-        const auto end   = values.begin() + 9 * upper_start[rows.second];
+        const auto begin = values.begin() + 9 * outer_start[rows.first];
+        const auto end   = values.begin() + 9 * outer_start[rows.second];
         packets[rank].assign(begin, end);
         std::fill(begin, end, 0.);
       }
@@ -256,66 +291,47 @@ namespace Signorini
         const std::vector<double> &data = received.at(rank);
         AssertDimension(data.size(), 9 * positions.size());
         for (std::size_t k = 0; k < positions.size(); ++k)
-          for (unsigned int c = 0; c < 9; ++c)
-            values[9 * positions[k] + c] += data[9 * k + c];
+          if (positions[k] != not_stored)
+            for (unsigned int c = 0; c < 9; ++c)
+              values[9 * positions[k] + c] += data[9 * k + c];
       }
-  }
-
-
-
-  void NodeBlockMatrix::mirror_upper_part(const std::vector<unsigned char> &is_wanted)
-  {
-    // Rows come in ascending order, as the columns of a lower part do.
-    std::vector<std::size_t> next(lower_start.begin(), lower_start.end() - 1);
-    for (unsigned int i = 0; i < n_rows(); ++i)
-      for (std::size_t k = upper_start[i]; k < upper_start[i + 1]; ++k)
-        if (const unsigned int j = columns[k]; j < n_rows())
-          {
-            const std::size_t place = next[j]++;
-            AssertDimension(columns[place], i);
-            if (is_wanted.empty() || is_wanted[j])
-              for (unsigned int c = 0; c < dim; ++c)
-                for (unsigned int d = 0; d < dim; ++d)
-                  values[9 * place + dim * d + c] = values[9 * k + dim * c + d];
-          }
   }
 
 
 
   void NodeBlockMatrix::multiply_row(double *const product, const unsigned int row, const Vector &src) const
   {
-    const auto here = ranges(row);
-    double     sums[9];
+    const auto here = stored(row);
+    double     sums[9], mirrored_sums[dim];
     multiply_block_ranges(sums, values.data(), columns.data(), here.data(), here.size(), src.begin());
+    multiply_mirrored_blocks(mirrored_sums, mirrored_blocks(row), src.begin());
     for (unsigned int c = 0; c < dim; ++c)
-      product[c] = sums[c] + sums[3 + c] + sums[6 + c];
+      product[c] = sums[c] + sums[3 + c] + mirrored_sums[c] + sums[6 + c];
   }
 
 
 
   void NodeBlockMatrix::vmult(Vector &dst, const Vector &src) const
   {
-    src.update_ghost_values();
-    for (unsigned int i = 0; i < n_rows(); ++i)
-      multiply_row(dst.begin() + dim * static_cast<std::size_t>(i), i, src);
+    double *const     y = dst.begin();
+    const std::size_t n = dim * static_cast<std::size_t>(n_rows());
+    std::fill_n(y, n, 0.);
+    subtract_product(dst, src);
+    std::transform(y, y + n, y, std::negate<double>());
   }
 
 
 
-  void NodeBlockMatrix::subtract_symmetric_product(Vector &dst, const Vector &src) const
+  void NodeBlockMatrix::subtract_product(Vector &dst, const Vector &src) const
   {
     src.update_ghost_values();
     for (unsigned int i = 0; i < n_rows(); ++i)
       {
-        // Ghosts are the last columns.
-        BlockRange ghosts = {upper_start[i + 1], upper_start[i + 1]};
-        while (ghosts.begin > upper_start[i] && columns[ghosts.begin - 1] >= n_rows())
-          --ghosts.begin;
-        const BlockRange    here[3] = {{i, i + std::size_t(1)}, lower(i), ghosts};
-        const double *const x       = src.begin() + dim * static_cast<std::size_t>(i);
-        double *const       y       = dst.begin() + dim * static_cast<std::size_t>(i);
+        const auto          here = stored(i);
+        const double *const x    = src.begin() + dim * static_cast<std::size_t>(i);
+        double *const       y    = dst.begin() + dim * static_cast<std::size_t>(i);
         double              sums[9];
-        multiply_block_ranges(sums, values.data(), columns.data(), here, 3, src.begin());
+        multiply_block_ranges(sums, values.data(), columns.data(), here.data(), here.size(), src.begin());
         for (unsigned int c = 0; c < dim; ++c)
           y[c] -= sums[c] + sums[3 + c] + sums[6 + c];
         subtract_transposed_blocks(dst.begin(), values.data(), columns.data(), here[1], x);
@@ -327,7 +343,7 @@ namespace Signorini
   void NodeBlockMatrix::symmetric_residual(Vector &residual, const Vector &src, const Vector &rhs) const
   {
     residual.copy_locally_owned_data_from(rhs);
-    subtract_symmetric_product(residual, src);
+    subtract_product(residual, src);
   }
 
 

@@ -126,10 +126,10 @@ namespace Signorini
     for (unsigned int i = 0; i < n; ++i)
       {
         const std::size_t begin = own_columns.size();
-        for (const BlockRange &range : {matrix.lower(order[i]), matrix.upper(order[i])})
-          for (std::size_t k = range.begin; k < range.end; ++k)
-            if (const unsigned int j = matrix.column(k); j < n && positions[j] < i)
-              own_columns.push_back(positions[j]);
+        matrix.visit_row(order[i], [&](const RowEntry &entry) {
+          if (entry.column < n && positions[entry.column] < i)
+            own_columns.push_back(positions[entry.column]);
+        });
         std::sort(own_columns.begin() + begin, own_columns.end());
         own_lower_start.push_back(own_columns.size());
       }
@@ -156,13 +156,11 @@ namespace Signorini
     const double                factor = 1. / matrix_unit;
     const Arrays                here   = arrays();
     std::vector<const double *> lower;
+    std::vector<double>         turned;
     for (const unsigned int i : rows)
       {
         const Row row(here, position(i));
-        lower.clear();
-        for (std::size_t k = 0; k < row.n; ++k)
-          lower.push_back(matrix.block(positions.empty() ? matrix.lower(i).begin + k
-                                                         : matrix.find(i, order[row.columns[k]])));
+        find_lower(lower, turned, i);
         float *a = blocks.get() + (row.blocks - here.blocks);
         RoundingKernels::round_blocks(a, lower.data(), row.n, row.n_pairs(), factor);
         a += n_entries * row.n;
@@ -172,6 +170,34 @@ namespace Signorini
             *a++ = static_cast<float>(matrix_unit * inverse[dim * d + c]);
       }
     update_ghost_couplings();
+  }
+
+
+
+  void RoundedSweep::find_lower(std::vector<const double *> &lower, std::vector<double> &turned,
+                                const unsigned int i) const
+  {
+    lower.clear();
+    if (positions.empty())
+      {
+        for (std::size_t k = matrix.lower(i).begin; k < matrix.lower(i).end; ++k)
+          lower.push_back(matrix.block(k));
+        return;
+      }
+    const BlockRange range = {own_lower_start[positions[i]], own_lower_start[positions[i] + 1]};
+    turned.resize(n_entries * range.size() + 1);
+    for (std::size_t k = range.begin; k < range.end; ++k)
+      {
+        const unsigned int column = order[own_columns[k]];
+        if (matrix.stores(i, column))
+          lower.push_back(matrix.block(matrix.find(i, column)));
+        else
+          {
+            double *const copy = turned.data() + n_entries * (k - range.begin);
+            write_block(copy, transpose(read_block(matrix.block(matrix.find(column, i)))));
+            lower.push_back(copy);
+          }
+      }
   }
 
 

@@ -251,7 +251,8 @@ namespace Signorini
         {
           const unsigned int row = system.matrix.row_of(local[a]);
           for (unsigned int b = 0; b < data.n(); ++b)
-            add_block(system.matrix.block(system.matrix.find(row, local[b])), data.block(a, b));
+            if (system.matrix.stores(row, local[b]))
+              add_block(system.matrix.block(system.matrix.find(row, local[b])), data.block(a, b));
           for (unsigned int c = 0; c < dim; ++c)
             system.rhs.local_element(dim * local[a] + c) += data.load[a][c];
         }
@@ -316,8 +317,9 @@ namespace Signorini
             const unsigned int local = partition.to_local(nodes[l]);
             const unsigned int row   = system.matrix.row_of(local);
             for (std::size_t m = 0; m < n; ++m)
-              add_block(system.matrix.block(system.matrix.find(row, partition.to_local(nodes[m]))),
-                        result.data() + 9 * (n * l + m));
+              if (const unsigned int column = partition.to_local(nodes[m]); system.matrix.stores(row, column))
+                add_block(system.matrix.block(system.matrix.find(row, column)),
+                          result.data() + 9 * (n * l + m));
             for (unsigned int c = 0; c < dim; ++c)
               system.rhs.local_element(dim * local + c) += load[l][c];
           }

@@ -53,10 +53,10 @@ namespace Signorini
     {
       GatheredBlocks::Blocks packed;
       for (unsigned int i = 0; i < matrix.n_rows(); ++i)
-        for (const BlockRange &range : matrix.ranges(i))
-          for (std::size_t k = range.begin; k < range.end; ++k)
-            packed.add(matrix.partition().to_global(i), matrix.partition().to_global(matrix.column(k)),
-                       matrix.block(k));
+        matrix.visit_row(i, [&](const RowEntry &entry) {
+          packed.add(matrix.partition().to_global(i), matrix.partition().to_global(entry.column),
+                     entry.block());
+        });
       return packed;
     }
 

@@ -218,9 +218,9 @@ namespace Signorini
     const NodePartition            &partition = matrix.partition();
     GatheredObstacleProblem::Blocks mine;
     for (unsigned int row = 0; row < matrix.n_rows(); ++row)
-      for (const BlockRange &range : matrix.ranges(row))
-        for (std::size_t k = range.begin; k < range.end; ++k)
-          mine.add(partition.to_global(row), partition.to_global(matrix.column(k)), matrix.block(k));
+      matrix.visit_row(row, [&](const RowEntry &entry) {
+        mine.add(partition.to_global(row), partition.to_global(entry.column), entry.block());
+      });
     problem.set_matrix(mine, partition.n_global(), partition.communicator());
   }
 

@@ -143,7 +143,8 @@ namespace Signorini
     };
     matrix.fill_lower(
         truncated, [&](const std::size_t row, const std::size_t column, const double *const block) {
-          const Block result = restrict_to_planes(block, plane_of(row), plane_of(column), row == column);
+          const Block result =
+              restrict_to_planes(read_block(block), plane_of(row), plane_of(column), row == column);
           return row == column ? stiffer * result : result;
         });
     const SingleThreaded single_threaded;

@@ -43,10 +43,10 @@ namespace Signorini
     };
     GatheredObstacleProblem::Blocks mine;
     for (const unsigned int row : owned)
-      for (const BlockRange &range : matrix.ranges(row))
-        for (std::size_t k = range.begin; k < range.end; ++k)
-          if (is_contact[matrix.column(k)])
-            mine.add(place(row), place(matrix.column(k)), matrix.block(k));
+      matrix.visit_row(row, [&](const RowEntry &entry) {
+        if (is_contact[entry.column])
+          mine.add(place(row), place(entry.column), entry.block());
+      });
     problem.set_matrix(mine, nodes.size(), partition.communicator());
   }
 

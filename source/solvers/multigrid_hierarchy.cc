@@ -68,7 +68,7 @@ namespace Signorini
                                   const std::vector<unsigned int> &rows, const double scale)
   {
     for (const unsigned int i : rows)
-      for (const BlockRange &range : matrix.ranges(i))
+      for (const BlockRange &range : matrix.stored(i))
         for (std::size_t k = range.begin; k < range.end; ++k)
           {
             const FixedDirections &of_row = fixed[i], &of_column = fixed[matrix.column(k)];

@@ -36,10 +36,10 @@ namespace Signorini
 
 
 
-  Block restrict_to_planes(const double *const block, const Vector3 &row_normal, const Vector3 &column_normal,
+  Block restrict_to_planes(const Block &block, const Vector3 &row_normal, const Vector3 &column_normal,
                            const bool is_diagonal)
   {
-    Block        result    = read_block(block);
+    Block        result    = block;
     const double stiffness = row_normal * (result * row_normal);
     result -= outer_product(row_normal, row_normal * result);
     result -= outer_product(result * column_normal, column_normal);

@@ -26,14 +26,14 @@ namespace Signorini
     for (unsigned int i = 0; i < result.n_rows(); ++i)
       {
         const Vector3 row_normal = plane(i);
-        for (const BlockRange &range : result.ranges(i))
+        for (const BlockRange &range : result.stored(i))
           for (std::size_t k = range.begin; k < range.end; ++k)
             {
               const Vector3 column_normal = plane(result.column(k));
               if (row_normal.norm_square() == 0. && column_normal.norm_square() == 0.)
                 continue;
-              const Block block =
-                  restrict_to_planes(result.block(k), row_normal, column_normal, k == result.diagonal(i));
+              const Block block = restrict_to_planes(read_block(result.block(k)), row_normal, column_normal,
+                                                     k == result.diagonal(i));
               write_block(result.block(k), block);
             }
       }

@@ -37,35 +37,96 @@ namespace Signorini
 
 
 
-  template <Direction direction>
-  inline void ProjectedGaussSeidel::relax(double *const v, const double *const rhs, const unsigned int row,
-                                          ContactState &contact) const
+  namespace
   {
-    const BlockRange here[2] = {matrix.lower(row), matrix.upper(row)};
+    /// rhs - U v without its ghosts, U the blocks above the diagonals: what rows of which only the lower half
+    /// is in memory have to know of the nodes above. It follows the sweep: a row passes its change on to the
+    /// rows below that it couples to, while its blocks are at hand.
+    class ReducedRhs
+    {
+    public:
+      ReducedRhs(const NodeBlockMatrix &matrix, const Vector &rhs, const Vector &v)
+        : matrix(matrix)
+        , values(rhs.begin(), rhs.begin() + dim * static_cast<std::size_t>(matrix.n_rows()))
+      {
+        for (unsigned int row = 0; row < matrix.n_rows(); ++row)
+          pass_down(row, v.begin() + dim * static_cast<std::size_t>(row));
+      }
+
+      const double *operator[](const unsigned int row) const
+      {
+        return values.data() + dim * static_cast<std::size_t>(row);
+      }
+
+      void pass_down(const unsigned int row, const double *const change)
+      {
+        subtract_transposed_blocks(values.data(), matrix.block_data(), matrix.column_data(),
+                                   matrix.lower(row), change);
+      }
+
+    private:
+      const NodeBlockMatrix &matrix;
+      std::vector<double>    values;
+    };
+  } // namespace
+
+
+
+  inline void ProjectedGaussSeidel::relax(double *const v, const double *const reduced,
+                                          const unsigned int row, ContactState &contact,
+                                          const Direction direction) const
+  {
+    const BlockRange here[2] = {matrix.lower(row), matrix.outer(row)};
     double           sums[6];
     // Memory is read in one direction throughout, also within a row.
     (direction == Direction::forward ? multiply_block_ranges : multiply_block_ranges_backward)(
         sums, matrix.block_data(), matrix.column_data(), here, 2, v);
-    const double s[3] = {rhs[dim * row] - sums[0] - sums[3], rhs[dim * row + 1] - sums[1] - sums[4],
-                         rhs[dim * row + 2] - sums[2] - sums[5]};
+    double s[3];
+    for (unsigned int c = 0; c < dim; ++c)
+      s[c] = reduced[c] - sums[c] - sums[dim + c];
     minimize_row(v + dim * static_cast<std::size_t>(row), s, row, contact);
   }
+
+
 
   void ProjectedGaussSeidel::sweep(Vector &v, const Vector &rhs, ContactState &contact,
                                    const Direction direction, const SweepSchedule &rows) const
   {
-    double *const                    values = v.begin();
-    const double *const              right  = rhs.begin();
-    const std::vector<unsigned int> &order  = rows.order();
-    const auto                       visit  = [&](const std::size_t begin, const std::size_t end) {
-      if (direction == Direction::forward)
-        for (std::size_t k = begin; k < end; ++k)
-          relax<Direction::forward>(values, right, order[k], contact);
-      else
-        for (std::size_t k = end; k-- > begin;)
-          relax<Direction::backward>(values, right, order[k], contact);
+    if (rows.order().size() < matrix.n_rows())
+      sweep_some_rows(v, rhs, contact, direction, rows);
+    else
+      sweep_all_rows(v, rhs, contact, direction, rows);
+  }
+
+
+
+  void ProjectedGaussSeidel::sweep_all_rows(Vector &v, const Vector &rhs, ContactState &contact,
+                                            const Direction direction, const SweepSchedule &rows) const
+  {
+    ReducedRhs reduced(matrix, rhs, v);
+    const auto relax_and_pass_down = [&](const unsigned int row) {
+      double *const y      = v.begin() + dim * static_cast<std::size_t>(row);
+      const double  old[3] = {y[0], y[1], y[2]};
+      relax(v.begin(), reduced[row], row, contact, direction);
+      const double change[3] = {y[0] - old[0], y[1] - old[1], y[2] - old[2]};
+      reduced.pass_down(row, change);
     };
-    rows.visit(v, direction, visit, [](const unsigned int, const double *) {});
+    rows.visit_each(v, direction, relax_and_pass_down);
+  }
+
+
+
+  void ProjectedGaussSeidel::sweep_some_rows(Vector &v, const Vector &rhs, ContactState &contact,
+                                             const Direction direction, const SweepSchedule &rows) const
+  {
+    const auto relax_row = [&](const unsigned int row) {
+      double reduced[dim];
+      multiply_mirrored_blocks(reduced, matrix.mirrored_blocks(row), v.begin());
+      for (unsigned int c = 0; c < dim; ++c)
+        reduced[c] = rhs.local_element(dim * row + c) - reduced[c];
+      relax(v.begin(), reduced, row, contact, direction);
+    };
+    rows.visit_each(v, direction, relax_row);
   }
 
 
@@ -104,9 +165,9 @@ namespace Signorini
 
   double ProjectedGaussSeidel::sweep_bytes() const
   {
-    // Blocks and columns, row pointers and half-space index, inverse diagonal, right hand side,
-    // solution read and written once; the diagonal blocks are skipped.
-    const double rows = matrix.n_rows(), blocks_read = static_cast<double>(matrix.n_owned_blocks()) - rows;
+    // Blocks and columns (those below the diagonal twice), row pointers and half-space index, inverse
+    // diagonal, right hand side, solution read and written once; the diagonal blocks are skipped.
+    const double rows = matrix.n_rows(), blocks_read = static_cast<double>(matrix.n_blocks()) - rows;
     return blocks_read * (9. * sizeof(double) + sizeof(unsigned int)) +
            rows * (9. * sizeof(double) + 2 * sizeof(std::size_t) + 2 * sizeof(int) + 9. * sizeof(double));
   }

@@ -40,8 +40,9 @@ namespace Signorini
           }
         return;
       }
-    for (const BlockRange &range : matrix.ranges(node))
+    for (const BlockRange &range : matrix.stored(node))
       subtract_transposed_blocks(residual, matrix.block_data(), matrix.column_data(), range, change);
+    subtract_mirrored_blocks(residual, matrix.mirrored_blocks(node), change);
   }
 
 

@@ -107,15 +107,15 @@ namespace Signorini
     // Half of the matrix and, at the end of a row, the columns of other ranks.
     for (unsigned int i = 0; i < n; ++i)
       {
-        const BlockRange lower = matrix.lower(i), upper = matrix.upper(i);
+        const BlockRange lower = matrix.lower(i), outer = matrix.outer(i);
         for (std::size_t k = lower.begin; k < lower.end; ++k)
           {
             const double t = trace_of(matrix.block(k));
             see(t, i);
             see(t, matrix.column(k));
           }
-        for (std::size_t k = upper.end; k > upper.begin && matrix.column(k - 1) >= n; --k)
-          see(trace_of(matrix.block(k - 1)), i);
+        for (std::size_t k = outer.begin; k < outer.end; ++k)
+          see(trace_of(matrix.block(k)), i);
       }
     is_stretched.resize(n);
     for (unsigned int i = 0; i < n; ++i)
@@ -124,11 +124,11 @@ namespace Signorini
 
 
 
-  bool StrongBlocks::is_strong(const unsigned int row, const std::size_t entry,
+  bool StrongBlocks::is_strong(const unsigned int row, const RowEntry &entry,
                                const std::vector<double> &most_negative) const
   {
-    return trace_of(matrix.block(entry)) <=
-           blocks_rule.strong * std::min(most_negative[row], most_negative[matrix.column(entry)]);
+    return entry.column != row &&
+           entry.trace() <= blocks_rule.strong * std::min(most_negative[row], most_negative[entry.column]);
   }
 
 
@@ -140,11 +140,11 @@ namespace Signorini
       place_in_block[row] = 0;
     std::size_t n = 0;
     for (const unsigned int row : rows)
-      for (const BlockRange &range : {matrix.lower(row), matrix.upper(row)})
-        for (std::size_t k = range.begin; k < range.end; ++k)
-          if (const unsigned int j = matrix.column(k);
-              j < matrix.n_rows() && place_in_block[j] == 0 && is_strong(row, k, most_negative))
-            ++n;
+      matrix.visit_row(row, [&](const RowEntry &entry) {
+        if (entry.column < matrix.n_rows() && place_in_block[entry.column] == 0 &&
+            is_strong(row, entry, most_negative))
+          ++n;
+      });
     for (const unsigned int row : rows)
       place_in_block[row] = -1;
     return static_cast<double>(n) / static_cast<double>(rows.size());
@@ -161,14 +161,16 @@ namespace Signorini
     std::vector<unsigned int> rows = {start};
     place_in_block[start]          = 0;
     for (std::size_t next = 0; next < rows.size() && rows.size() < largest; ++next)
-      for (const BlockRange &range : {matrix.lower(rows[next]), matrix.upper(rows[next])})
-        for (std::size_t k = range.begin; k < range.end; ++k)
-          if (const unsigned int j = matrix.column(k);
-              is_strong_to(rows[next], k) && !excluded[j] && place_in_block[j] < 0)
+      {
+        const unsigned int row = rows[next];
+        matrix.visit_row(row, [&](const RowEntry &entry) {
+          if (is_strong_to(row, entry) && !excluded[entry.column] && place_in_block[entry.column] < 0)
             {
-              place_in_block[j] = 0;
-              rows.push_back(j);
+              place_in_block[entry.column] = 0;
+              rows.push_back(entry.column);
             }
+        });
+      }
     for (const unsigned int row : rows)
       place_in_block[row] = -1;
     return rows;
@@ -183,9 +185,8 @@ namespace Signorini
     std::vector<bool>   is_stretched, visited(n, false);
     find_stretched(is_stretched, most_negative);
     const std::vector<bool> nothing(n, false);
-    const auto              strong = [&](const unsigned int row, const std::size_t k) {
-      const unsigned int j = matrix.column(k);
-      return j < n && is_stretched[j] && is_strong(row, k, most_negative);
+    const auto              strong = [&](const unsigned int row, const RowEntry &entry) {
+      return entry.column < n && is_stretched[entry.column] && is_strong(row, entry, most_negative);
     };
     Vector zero;
     matrix.partition().reinit(zero);
@@ -225,11 +226,11 @@ namespace Signorini
         const unsigned int row     = next->first;
         coupling_of.erase(next);
         rows.push_back(row);
-        for (const BlockRange &range : matrix.ranges(row))
-          for (std::size_t k = range.begin; k < range.end; ++k)
-            if (const unsigned int j = matrix.column(k);
-                j < matrix.n_rows() && std::find(rows.begin(), rows.end(), j) == rows.end())
-              coupling_of[j] -= trace_of(matrix.block(k)) / std::sqrt(diagonal[row] * diagonal[j]);
+        matrix.visit_row(row, [&](const RowEntry &entry) {
+          const unsigned int j = entry.column;
+          if (j < matrix.n_rows() && std::find(rows.begin(), rows.end(), j) == rows.end())
+            coupling_of[j] -= entry.trace() / std::sqrt(diagonal[row] * diagonal[j]);
+        });
       }
     return rows;
   }
@@ -390,24 +391,22 @@ namespace Signorini
       {
         const unsigned int row        = block.rows[i];
         const Vector3      row_normal = contact.plane(row);
-        for (const BlockRange &range : matrix.ranges(row))
-          for (std::size_t k = range.begin; k < range.end; ++k)
-            {
-              const unsigned int column = matrix.column(k);
-              if (column >= matrix.n_rows() || place_in_block[column] < 0)
-                continue;
-              const auto j = static_cast<std::size_t>(place_in_block[column]);
-              auto       entry =
-                  restrict_to_planes(matrix.block(k), row_normal, contact.plane(column), row == column);
-              if (row == column && !block.shift.empty())
-                entry *= 1. + block.shift[i];
-              for (unsigned int c = 0; c < dim; ++c)
-                for (unsigned int d = 0; d < dim; ++d)
-                  if (is_dense)
-                    full(dim * i + c, dim * j + d) = entry[c][d];
-                  else
-                    entries.emplace_back(dim * i + c, dim * j + d, entry[c][d]);
-            }
+        matrix.visit_row(row, [&](const RowEntry &entry) {
+          const unsigned int column = entry.column;
+          if (column >= matrix.n_rows() || place_in_block[column] < 0)
+            return;
+          const auto j = static_cast<std::size_t>(place_in_block[column]);
+          auto       restricted =
+              restrict_to_planes(entry.block(), row_normal, contact.plane(column), row == column);
+          if (row == column && !block.shift.empty())
+            restricted *= 1. + block.shift[i];
+          for (unsigned int c = 0; c < dim; ++c)
+            for (unsigned int d = 0; d < dim; ++d)
+              if (is_dense)
+                full(dim * i + c, dim * j + d) = restricted[c][d];
+              else
+                entries.emplace_back(dim * i + c, dim * j + d, restricted[c][d]);
+        });
       }
     for (const unsigned int row : block.rows)
       place_in_block[row] = -1;
@@ -492,13 +491,7 @@ namespace Signorini
   {
     if (is_empty)
       return;
-    const auto visit = [&](const std::size_t begin, const std::size_t end) {
-      for (std::size_t k = begin; k < end; ++k)
-        {
-          const std::size_t place = direction == Direction::forward ? k : begin + end - 1 - k;
-          relax(v, rhs, blocks[schedule.order()[place]], contact);
-        }
-    };
-    schedule.visit(v, direction, visit, [](const unsigned int, const double *) {});
+    schedule.visit_each(v, direction,
+                        [&](const unsigned int block) { relax(v, rhs, blocks[block], contact); });
   }
 } // namespace Signorini

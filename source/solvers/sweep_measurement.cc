@@ -31,7 +31,7 @@ namespace Signorini
     result.bytes_per_second = Utilities::MPI::sum(sweeps.sweep_bytes(), comm) / times[2];
 
     const double     *begin = matrix.block(0);
-    const std::size_t n     = 9 * matrix.n_owned_blocks();
+    const std::size_t n     = 9 * matrix.n_stored_blocks();
     times.clear();
     double sum = 0.;
     for (unsigned int i = 0; i < 5; ++i)

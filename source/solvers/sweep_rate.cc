@@ -87,10 +87,7 @@ namespace Signorini
     errors.start();
     error.update_ghost_values();
     const auto sweep = [&](const Direction direction) {
-      rows.visit(
-          error, direction,
-          [&](const std::size_t begin, const std::size_t end) { errors.relax(begin, end, direction); },
-          [](const unsigned int, const double *) {});
+      rows.visit_each(error, direction, [&](const unsigned int row) { errors.relax(row); });
     };
     return errors.rate(rule, sweep, [&](const double energy) {
       return Utilities::MPI::sum(energy, matrix.partition().communicator());

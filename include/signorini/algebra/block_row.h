@@ -50,9 +50,26 @@ namespace Signorini
                                       const BlockRange *ranges, unsigned int n_ranges, const double *x);
 
   /// values_{columns[k]} -= A_kᵀ change for the blocks of a range: what a change of the row's node does to
-  /// its neighbours, if the matrix is symmetric.
+  /// its neighbours.
   void subtract_transposed_blocks(double *values, const double *blocks, const unsigned int *columns,
                                   const BlockRange range, const double *change);
+
+  /// Blocks that are in memory transposed, anywhere: A_m is the transposed block at positions[m].
+  struct MirroredBlocks
+  {
+    /// Nine numbers each, row by row; one number more than those of all blocks.
+    const double *blocks;
+    /// Positions and columns of a row.
+    const unsigned int *positions, *columns;
+    /// How many.
+    std::size_t n;
+  };
+
+  /// sums[c] = Σ_m (A_m x_{columns[m]})_c.
+  void multiply_mirrored_blocks(double *sums, const MirroredBlocks &row, const double *x);
+
+  /// values_{columns[m]} -= A_mᵀ change.
+  void subtract_mirrored_blocks(double *values, const MirroredBlocks &row, const double *change);
 
   /// Whether kernels use AVX2: where the processor has it.
   bool uses_avx2();

@@ -24,19 +24,44 @@ namespace Signorini
     std::vector<NodeIndex> foreign_rows;
   };
 
-  /// Sparse matrix of 3x3 blocks, one row and column per node, distributed by rows.
+  /// A block of a row of a NodeBlockMatrix.
+  struct RowEntry
+  {
+    /// Local node.
+    unsigned int column;
+    /// The nine numbers in memory, row by row.
+    const double *numbers;
+    /// Whether they are those of the transposed block.
+    bool is_mirrored;
+
+    /// The block itself.
+    Block block() const
+    {
+      const Block in_memory = read_block(numbers);
+      return is_mirrored ? transpose(in_memory) : in_memory;
+    }
+
+    /// Its trace.
+    double trace() const
+    {
+      return numbers[0] + numbers[4] + numbers[8];
+    }
+  };
+
+  /// Symmetric sparse matrix of 3x3 blocks, one row and column per node, distributed by rows.
   ///
-  /// A row consists of its diagonal block, those below (smaller local column) and those above it, by
-  /// ascending local column. In memory all diagonal blocks come first, then the lower parts of all rows, then
-  /// the upper parts: a sweep that needs one part reads half the memory.
+  /// Half of it is in memory: of a row the diagonal block, those below it (owned columns with a smaller
+  /// number) and those whose columns are ghosts. The blocks above the diagonal are those below it in other
+  /// rows, transposed ("mirrored"); a row knows where they are. Columns ascend in each of the four parts. In
+  /// memory come all diagonal blocks, the lower parts of all rows, then what couples to ghosts.
   ///
-  /// A rank may also hold rows of other ranks ("foreign" rows): they collect contributions until compress()
-  /// adds them to the owner's row. Products use the owned rows only.
+  /// A rank may also hold rows of other ranks ("foreign" rows, with all their blocks): they collect
+  /// contributions until compress() adds them to the owner's row. Products use the owned rows only.
   class NodeBlockMatrix
   {
   public:
-    /// Collective. Builds the structure: the union, on the owner, of what all ranks put into a row.
-    /// The diagonal is added. extra_ghosts become ghosts of the partition besides the columns.
+    /// Collective. Builds the structure: the union, on the owner, of what all ranks put into a row. It must
+    /// be symmetric; the diagonal is added. extra_ghosts become ghosts of the partition besides the columns.
     void reinit(const dealii::IndexSet &owned, const NodePattern &pattern,
                 const dealii::IndexSet &extra_ghosts, const MPI_Comm communicator);
 
@@ -58,16 +83,16 @@ namespace Signorini
       return nodes->n_owned();
     }
 
-    /// Blocks of all stored rows.
-    std::size_t n_blocks() const
+    /// Blocks of the owned rows that are in memory.
+    std::size_t n_stored_blocks() const
     {
-      return columns.size();
+      return outer_start[n_rows()];
     }
 
-    /// Number of blocks in owned rows.
-    std::size_t n_owned_blocks() const
+    /// Blocks of the owned rows.
+    std::size_t n_blocks() const
     {
-      return upper_start[n_rows()];
+      return n_stored_blocks() + mirrored.size();
     }
 
     /// Position of the diagonal block of an owned row.
@@ -76,44 +101,80 @@ namespace Signorini
       return row;
     }
 
-    /// Positions of the blocks of an owned row below (above) the diagonal.
+    /// Positions of the blocks of an owned row below the diagonal.
     BlockRange lower(const unsigned int row) const
     {
       return {lower_start[row], lower_start[row + 1]};
     }
 
-    /// Blocks of a row behind the diagonal one.
-    BlockRange upper(const unsigned int row) const
+    /// Positions of the blocks of an owned row whose columns are ghosts, of all blocks of a foreign row.
+    BlockRange outer(const unsigned int row) const
     {
-      return {upper_start[row], upper_start[row + 1]};
+      return {outer_start[row], outer_start[row + 1]};
     }
 
-    /// Positions of all blocks of a stored row: diagonal, lower, upper; the columns of a foreign row are all
-    /// in the last one.
-    std::array<BlockRange, 3> ranges(const unsigned int row) const
+    /// Positions of all blocks of a row that are in memory: diagonal, lower, outer.
+    std::array<BlockRange, 3> stored(const unsigned int row) const
     {
       if (row < n_rows())
-        return {{{row, row + std::size_t(1)}, lower(row), upper(row)}};
-      return {{{0, 0}, {0, 0}, upper(row)}};
+        return {{{row, row + std::size_t(1)}, lower(row), outer(row)}};
+      return {{{0, 0}, {0, 0}, outer(row)}};
     }
 
-    /// Positions of the blocks of an owned row on and above the diagonal, of all blocks of a foreign row.
-    std::array<BlockRange, 2> upper_half(const unsigned int row) const
+    /// The blocks of an owned row above the diagonal, as numbers among all such blocks.
+    BlockRange above(const unsigned int row) const
     {
-      const auto all = ranges(row);
-      return {{all[0], all[2]}};
+      return {mirrored_start[row], mirrored_start[row + 1]};
     }
 
-    /// Number of blocks of a stored row.
+    /// Columns of the blocks above the diagonals.
+    const unsigned int *mirrored_column_data() const
+    {
+      return mirrored_columns.data();
+    }
+
+    /// Position of the block that is the transposed one of number m.
+    std::size_t mirrored_position(const std::size_t m) const
+    {
+      return mirrored[m];
+    }
+
+    /// The blocks of an owned row above the diagonal, for kernels.
+    MirroredBlocks mirrored_blocks(const unsigned int row) const
+    {
+      const BlockRange range = above(row);
+      return {values.data(), mirrored.data() + range.begin, mirrored_columns.data() + range.begin,
+              range.size()};
+    }
+
+    /// Whether the block (row, local column) of a row given by row_of() is in memory.
+    bool stores(const unsigned int row, const unsigned int local_column) const
+    {
+      return local_column <= row || row >= n_rows() || local_column >= n_rows();
+    }
+
+    /// Calls action(RowEntry) for all blocks of an owned row: diagonal, lower, mirrored, outer.
+    template <typename Action>
+    void visit_row(const unsigned int row, const Action &action) const
+    {
+      const auto visit = [&](const BlockRange &range) {
+        for (std::size_t k = range.begin; k < range.end; ++k)
+          action(RowEntry{columns[k], block(k), false});
+      };
+      action(RowEntry{row, block(diagonal(row)), false});
+      visit(lower(row));
+      for (std::size_t m = mirrored_start[row]; m < mirrored_start[row + 1]; ++m)
+        action(RowEntry{mirrored_columns[m], block(mirrored[m]), true});
+      visit(outer(row));
+    }
+
+    /// Number of blocks of an owned row.
     std::size_t row_length(const unsigned int row) const
     {
-      std::size_t n = 0;
-      for (const BlockRange &range : ranges(row))
-        n += range.size();
-      return n;
+      return 1 + lower(row).size() + above(row).size() + outer(row).size();
     }
 
-    /// Local node of the column of block k.
+    /// Local node of the column of a block in memory.
     unsigned int column(const std::size_t k) const
     {
       return columns[k];
@@ -149,7 +210,7 @@ namespace Signorini
       return values.data() + 9 * k;
     }
 
-    /// The owned rows that have a column with the given property, ascending. The pattern is symmetric.
+    /// The owned rows that have a column with the given property, ascending.
     template <typename Property>
     std::vector<unsigned int> rows_with_column(const Property &property) const
     {
@@ -157,14 +218,12 @@ namespace Signorini
       for (unsigned int row = 0; row < n_rows(); ++row)
         {
           if (property(row))
-            for (const BlockRange &range : ranges(row))
-              for (std::size_t k = range.begin; k < range.end && columns[k] < n_rows(); ++k)
-                is_found[columns[k]] = true;
-          // Columns of other ranks are the last ones.
-          const BlockRange after = upper(row);
-          for (std::size_t k = after.end; k > after.begin && columns[k - 1] >= n_rows() && !is_found[row];
-               --k)
-            is_found[row] = property(columns[k - 1]);
+            visit_row(row, [&](const RowEntry &entry) {
+              if (entry.column < n_rows())
+                is_found[entry.column] = true;
+            });
+          for (std::size_t k = outer(row).begin; k < outer(row).end && !is_found[row]; ++k)
+            is_found[row] = property(columns[k]);
         }
       std::vector<unsigned int> rows;
       for (unsigned int row = 0; row < n_rows(); ++row)
@@ -200,30 +259,24 @@ namespace Signorini
       return local_node < nodes->n_owned() ? local_node : foreign_row_of_ghost[local_node - nodes->n_owned()];
     }
 
-    /// Position of the block (row, local column) in a row given by row_of(). It must exist.
+    /// Position of the block (row, local column) in a row given by row_of(). It must be in memory (stores()).
     std::size_t find(const unsigned int row, const unsigned int local_column) const;
 
-    /// Sets all blocks of a row given by row_of() to zero.
+    /// Sets what a row given by row_of() has in memory to zero.
     void clear_row(const unsigned int row);
 
     /// Collective. Adds the foreign rows to the rows of their owners and clears them.
     void compress();
 
-    /// Overwrites the lower part of owned rows with the transposed upper part of other rows: for those who
-    /// compute only half of a symmetric matrix. is_wanted[row] says which rows are overwritten; empty means
-    /// all.
-    void mirror_upper_part(const std::vector<unsigned char> &is_wanted);
-
     /// product[c] = (A src)_{row, c} for an owned row. The ghost values of src must be up to date.
     void multiply_row(double *product, const unsigned int row, const Vector &src) const;
 
-    /// dst = A src. Updates the ghost values of src.
+    /// Collective. dst = A src on owned rows. Updates the ghost values of src, and leaves those of dst alone.
     void vmult(Vector &dst, const Vector &src) const;
 
-    /// Collective. dst -= A src on owned rows, dst another vector, if the matrix is symmetric: reads the
-    /// diagonal, the lower parts and what couples to ghosts. Updates the ghost values of src, and leaves
-    /// those of dst alone.
-    void subtract_symmetric_product(Vector &dst, const Vector &src) const;
+    /// Collective. dst -= A src on owned rows, dst another vector. Updates the ghost values of src, and
+    /// leaves those of dst alone.
+    void subtract_product(Vector &dst, const Vector &src) const;
 
     /// Collective. residual = rhs - A src on owned rows, in the same way.
     void symmetric_residual(Vector &residual, const Vector &src, const Vector &rhs) const;
@@ -233,13 +286,18 @@ namespace Signorini
     /// where it puts what it receives.
     void plan_compression(const NodePattern &pattern);
 
-    std::shared_ptr<const NodePartition> nodes;
-    /// Owned rows; upper_start goes on with the foreign rows.
-    std::vector<std::size_t>  lower_start, upper_start;
-    std::vector<unsigned int> columns;
-    std::vector<double>       values;
+    void mirror_lower_parts();
 
     void collect_ghost_columns();
+
+    std::shared_ptr<const NodePartition> nodes;
+    /// Owned rows; outer_start goes on with the foreign rows.
+    std::vector<std::size_t>  lower_start, outer_start;
+    std::vector<unsigned int> columns;
+    std::vector<double>       values;
+    /// Row by row what is above the diagonal: columns, and positions of the transposed blocks.
+    std::vector<std::size_t>  mirrored_start;
+    std::vector<unsigned int> mirrored_columns, mirrored;
 
     std::vector<unsigned int> foreign_row_of_ghost;
     /// Column by column.

@@ -124,8 +124,11 @@ namespace Signorini
   private:
     Arrays arrays();
     void   order_columns();
-    void   update_ghost_couplings();
-    void   find_unit(const double largest_value);
+    /// The blocks of row i whose columns come before it in the order; copies of those that are mirrored.
+    void find_lower(std::vector<const double *> &lower, std::vector<double> &turned,
+                    const unsigned int i) const;
+    void update_ghost_couplings();
+    void find_unit(const double largest_value);
 
     /// Where a row is in the order.
     unsigned int position(const unsigned int row) const

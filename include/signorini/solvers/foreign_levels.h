@@ -147,7 +147,8 @@ namespace Signorini
           {
             const unsigned int row    = result.partition().to_local(node);
             const unsigned int column = result.partition().to_local(entry->column() / n);
-            result.block(result.find(row, column))[dim * c + entry->column() % n] = entry->value();
+            if (result.stores(row, column))
+              result.block(result.find(row, column))[dim * c + entry->column() % n] = entry->value();
           }
     return result;
   }

@@ -46,11 +46,12 @@ namespace Signorini
       std::vector<double>      values;
 
       /// Appends a block.
-      void add(const std::size_t row, const std::size_t column, const double *const block)
+      void add(const std::size_t row, const std::size_t column, const Block &block)
       {
         rows.push_back(row);
         columns.push_back(column);
-        values.insert(values.end(), block, block + dim * dim);
+        values.resize(values.size() + dim * dim);
+        write_block(values.data() + values.size() - dim * dim, block);
       }
     };
 

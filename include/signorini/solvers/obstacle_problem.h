@@ -49,7 +49,7 @@ namespace Signorini
 
   /// A block of a matrix that acts in the planes with given normals only (zero for no plane). A diagonal
   /// block keeps its stiffness along the normal, so that it can be inverted.
-  Block restrict_to_planes(const double *const block, const Vector3 &row_normal, const Vector3 &column_normal,
+  Block restrict_to_planes(const Block &block, const Vector3 &row_normal, const Vector3 &column_normal,
                            const bool is_diagonal);
 
   /// The narrow waist between discretization and solvers: find v with

@@ -81,9 +81,14 @@ namespace Signorini
     double sweep_bytes() const;
 
   private:
-    /// minimize_row() from a whole row; memory is read in the given direction.
-    template <Direction direction>
-    void relax(double *v, const double *rhs, const unsigned int row, ContactState &contact) const;
+    void sweep_all_rows(Vector &v, const Vector &rhs, ContactState &contact, const Direction direction,
+                        const SweepSchedule &rows) const;
+    void sweep_some_rows(Vector &v, const Vector &rhs, ContactState &contact, const Direction direction,
+                         const SweepSchedule &rows) const;
+    /// minimize_row() of a row from its three numbers of the right hand side, reduced by what is above the
+    /// diagonal.
+    void relax(double *v, const double *reduced, const unsigned int row, ContactState &contact,
+               const Direction direction) const;
     void relax_with_residual(Vector &v, const unsigned int row, ContactState &contact,
                              Vector &residual) const;
 

@@ -72,7 +72,7 @@ namespace Signorini
     std::vector<unsigned int> grow_block(const unsigned int start, const std::size_t largest,
                                          const Strong &is_strong_to, const std::vector<bool> &excluded);
     /// Whether an entry of a row couples two nodes strongly.
-    bool is_strong(const unsigned int row, const std::size_t entry,
+    bool is_strong(const unsigned int row, const RowEntry &entry,
                    const std::vector<double> &most_negative) const;
     /// Strong couplings of a node to others in a list, on the mean.
     double mean_couplings(const std::vector<unsigned int> &rows, const std::vector<double> &most_negative);

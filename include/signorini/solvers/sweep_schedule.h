@@ -73,6 +73,18 @@ namespace Signorini
     template <typename Visit, typename Follow>
     void visit(Vector &v, const Direction direction, const Visit &visit, const Follow &follow) const;
 
+    /// Collective. Calls action(item) for one after the other in the order of the sweep, for those who need
+    /// not follow changes of ghosts.
+    template <typename Action>
+    void visit_each(Vector &v, const Direction direction, const Action &action) const
+    {
+      const auto of_range = [&](const std::size_t begin, const std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k)
+          action(items[direction == Direction::forward ? k : begin + end - 1 - k]);
+      };
+      visit(v, direction, of_range, [](const unsigned int, const double *) {});
+    }
+
     /// Messages that this rank sends in a sweep.
     std::size_t n_messages() const;
 

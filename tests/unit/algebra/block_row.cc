@@ -10,6 +10,36 @@
 
 using namespace Signorini;
 
+namespace
+{
+  /// Blocks anywhere that are in memory transposed.
+  void test_mirrored(const std::vector<double> &blocks, const std::vector<unsigned int> &columns,
+                     const std::size_t n, const std::vector<double> &x)
+  {
+    std::vector<unsigned int> positions;
+    for (std::size_t m = 0; m < n; ++m)
+      positions.push_back(29 - 3 * m);
+    const MirroredBlocks row{blocks.data(), positions.data(), columns.data() + 21, n};
+    const double         change[3] = {.3, -.2, .5};
+    double               sums[3], expected[3] = {};
+    std::vector<double>  values = x, changed = x;
+    multiply_mirrored_blocks(sums, row, x.data());
+    subtract_mirrored_blocks(values.data(), row, change);
+    for (std::size_t m = 0; m < n; ++m)
+      for (unsigned int c = 0; c < 3; ++c)
+        for (unsigned int d = 0; d < 3; ++d)
+          {
+            const double *const a = blocks.data() + 9 * positions[m];
+            expected[c] += a[3 * d + c] * x[3 * row.columns[m] + d];
+            changed[3 * row.columns[m] + c] -= a[3 * c + d] * change[d];
+          }
+    for (unsigned int c = 0; c < 3; ++c)
+      EXPECT_NEAR(sums[c], expected[c], 1e-14) << n << " blocks";
+    for (std::size_t i = 0; i < values.size(); ++i)
+      EXPECT_NEAR(values[i], changed[i], 1e-14) << n << " blocks";
+  }
+} // namespace
+
 // The kernels, vectorized and plain, against the definition: rows of all lengths, empty ones too, and nothing
 // written beside the nodes.
 TEST(BlockRow, KernelsFollowTheirDefinition)
@@ -31,6 +61,8 @@ TEST(BlockRow, KernelsFollowTheirDefinition)
   for (const bool vectorized : {true, false})
     {
       use_avx2(vectorized);
+      for (std::size_t n = 0; n <= 9; ++n)
+        test_mirrored(blocks, columns, n, x);
       for (std::size_t n = 0; n <= 9; ++n)
         for (const bool backward : {false, true})
           {

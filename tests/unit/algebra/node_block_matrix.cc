@@ -94,11 +94,19 @@ TEST(NodeBlockMatrix, AddsTheContributionsOfAllRanks)
   for (unsigned int row = 0; row < c.matrix.n_rows(); ++row)
     {
       EXPECT_EQ(c.matrix.column(c.matrix.diagonal(row)), row);
-      const BlockRange lower = c.matrix.lower(row), upper = c.matrix.upper(row);
+      const BlockRange lower = c.matrix.lower(row), outer = c.matrix.outer(row);
       for (std::size_t k = lower.begin; k < lower.end; ++k)
         EXPECT_LT(c.matrix.column(k), k + 1 < lower.end ? c.matrix.column(k + 1) : row);
-      for (std::size_t k = upper.begin; k < upper.end; ++k)
-        EXPECT_GT(c.matrix.column(k), k > upper.begin ? c.matrix.column(k - 1) : row);
+      for (std::size_t k = outer.begin; k < outer.end; ++k)
+        EXPECT_GE(c.matrix.column(k), k > outer.begin ? c.matrix.column(k - 1) + 1 : c.matrix.n_rows());
+      const MirroredBlocks above = c.matrix.mirrored_blocks(row);
+      for (std::size_t m = 0; m < above.n; ++m)
+        {
+          EXPECT_GT(above.columns[m], m > 0 ? above.columns[m - 1] : row);
+          EXPECT_FALSE(c.matrix.stores(row, above.columns[m]));
+          EXPECT_EQ(above.positions[m], c.matrix.find(above.columns[m], row));
+        }
+      EXPECT_EQ(c.matrix.row_length(row), 1 + lower.size() + above.n + outer.size());
     }
 }
 
@@ -204,9 +212,7 @@ TEST(NodeBlockMatrix, FindsRowsByTheirColumns)
       for (unsigned int row = 0; row < c.matrix.n_rows(); ++row)
         {
           bool found = false;
-          for (const BlockRange &range : c.matrix.ranges(row))
-            for (std::size_t k = range.begin; k < range.end; ++k)
-              found = found || property(c.matrix.column(k));
+          c.matrix.visit_row(row, [&](const RowEntry &entry) { found = found || property(entry.column); });
           if (found)
             expected.push_back(row);
         }
@@ -216,8 +222,8 @@ TEST(NodeBlockMatrix, FindsRowsByTheirColumns)
 
 
 
-// The product of a symmetric matrix that reads half of it, over all ranks.
-TEST(NodeBlockMatrix, HalfOfASymmetricMatrixIsEnough)
+// Residuals over all ranks, which read each block once, and the rows alone.
+TEST(NodeBlockMatrix, ResidualsAreThoseOfTheDenseMatrix)
 {
   for (const NodeIndex n : {1u, 7u, 60u})
     {
@@ -237,12 +243,19 @@ TEST(NodeBlockMatrix, HalfOfASymmetricMatrixIsEnough)
       Vector residual;
       nodes.reinit(residual);
       c.matrix.symmetric_residual(residual, x, y);
-      c.matrix.subtract_symmetric_product(y, x);
+      c.matrix.subtract_product(y, x);
       const Eigen::VectorXd expected = Eigen::VectorXd::Ones(3 * n) - c.dense * dense_x;
       for (unsigned int i = 0; i < 3 * nodes.n_owned(); ++i)
         {
           EXPECT_NEAR(y.local_element(i), expected[3 * nodes.first_owned() + i], 1e-12);
           EXPECT_EQ(residual.local_element(i), y.local_element(i));
+        }
+      for (unsigned int row = 0; row < c.matrix.n_rows(); ++row)
+        {
+          double product[3];
+          c.matrix.multiply_row(product, row, x);
+          for (unsigned int d = 0; d < 3; ++d)
+            EXPECT_NEAR(1. - product[d], expected[3 * (nodes.first_owned() + row) + d], 1e-12);
         }
     }
 }

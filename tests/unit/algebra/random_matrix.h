@@ -100,10 +100,10 @@ namespace RandomMatrix
     const NodePartition &nodes = result.matrix.partition();
     for (const Contribution &x : mine)
       {
-        double *block = result.matrix.block(
-            result.matrix.find(result.matrix.row_of(nodes.to_local(x.i)), nodes.to_local(x.j)));
-        for (unsigned int c = 0; c < 9; ++c)
-          block[c] += x.block[c];
+        const unsigned int row = result.matrix.row_of(nodes.to_local(x.i)), column = nodes.to_local(x.j);
+        if (result.matrix.stores(row, column))
+          for (unsigned int c = 0; c < 9; ++c)
+            result.matrix.block(result.matrix.find(row, column))[c] += x.block[c];
       }
     result.matrix.compress();
     return result;
@@ -117,10 +117,10 @@ namespace RandomMatrix
     for (unsigned int row = 0; row < matrix.n_rows(); ++row)
       {
         Eigen::MatrixXd rest = dense.middleRows(3 * nodes.to_global(row), 3);
-        for (const BlockRange &range : matrix.ranges(row))
-          for (std::size_t k = range.begin; k < range.end; ++k)
-            for (unsigned int c = 0; c < 9; ++c)
-              rest(c / 3, 3 * nodes.to_global(matrix.column(k)) + c % 3) -= matrix.block(k)[c];
+        matrix.visit_row(row, [&](const RowEntry &entry) {
+          for (unsigned int c = 0; c < 9; ++c)
+            rest(c / 3, 3 * nodes.to_global(entry.column) + c % 3) -= entry.block()[c / 3][c % 3];
+        });
         worst = std::max(worst, rest.cwiseAbs().maxCoeff());
       }
     return dealii::Utilities::MPI::max(worst, MPI_COMM_WORLD);

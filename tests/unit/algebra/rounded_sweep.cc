@@ -23,13 +23,14 @@ namespace
         {
           for (unsigned int c = 0; c < 3; ++c)
             matrix.block(matrix.diagonal(i))[4 * c] += 20.;
-          for (const BlockRange &range : matrix.ranges(i))
+          for (const BlockRange &range : matrix.stored(i))
             for (std::size_t k = range.begin; k < range.end; ++k)
               for (unsigned int c = 0; c < 9; ++c)
                 {
                   matrix.block(k)[c] *= factor;
-                  if (matrix.column(k) < matrix.n_rows())
-                    dense(3 * i + c / 3, 3 * matrix.column(k) + c % 3) = matrix.block(k)[c];
+                  if (const unsigned int j = matrix.column(k); j < matrix.n_rows())
+                    dense(3 * i + c / 3, 3 * j + c % 3) = dense(3 * j + c % 3, 3 * i + c / 3) =
+                        matrix.block(k)[c];
                 }
           const Eigen::Matrix3d inverse = dense.block<3, 3>(3 * i, 3 * i).inverse();
           for (unsigned int c = 0; c < 9; ++c)

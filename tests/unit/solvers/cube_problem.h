@@ -110,10 +110,12 @@ namespace CubeProblem
       for (unsigned int a = 0; a < 8; ++a)
         for (unsigned int b = 0; b < 8; ++b)
           {
-            const auto &p = matrix.partition();
-            double *out = matrix.block(matrix.find(matrix.row_of(p.to_local(cell[a])), p.to_local(cell[b])));
-            for (unsigned int c = 0; c < 9; ++c)
-              out[c] += k[9 * (8 * a + b) + c];
+            const auto        &p      = matrix.partition();
+            const unsigned int row    = matrix.row_of(p.to_local(cell[a]));
+            const unsigned int column = p.to_local(cell[b]);
+            if (matrix.stores(row, column))
+              for (unsigned int c = 0; c < 9; ++c)
+                matrix.block(matrix.find(row, column))[c] += k[9 * (8 * a + b) + c];
           }
     matrix.compress();
     return matrix;

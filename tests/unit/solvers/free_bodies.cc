@@ -93,10 +93,10 @@ namespace
     const auto m = static_cast<Eigen::Index>(problem.half_spaces.size());
     Dense d{Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd::Zero(m, n), Eigen::VectorXd(n), Eigen::VectorXd(m)};
     for (unsigned int i = 0; i < matrix.n_rows(); ++i)
-      for (const BlockRange &range : matrix.ranges(i))
-        for (std::size_t k = range.begin; k < range.end; ++k)
-          for (unsigned int c = 0; c < 9; ++c)
-            d.matrix(dim * i + c / 3, dim * matrix.column(k) + c % 3) = matrix.block(k)[c];
+      matrix.visit_row(i, [&](const RowEntry &entry) {
+        for (unsigned int c = 0; c < 9; ++c)
+          d.matrix(dim * i + c / 3, dim * entry.column + c % 3) = entry.block()[c / 3][c % 3];
+      });
     for (Eigen::Index i = 0; i < n; ++i)
       d.rhs[i] = problem.rhs.local_element(i);
     for (Eigen::Index p = 0; p < m; ++p)

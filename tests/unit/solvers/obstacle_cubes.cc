@@ -259,7 +259,7 @@ namespace
 {
   std::vector<double> copy(const NodeBlockMatrix &matrix)
   {
-    return std::vector<double>(matrix.block(0), matrix.block(matrix.n_owned_blocks()));
+    return std::vector<double>(matrix.block(0), matrix.block(matrix.n_stored_blocks()));
   }
 } // namespace
 
