@@ -186,8 +186,12 @@ namespace Signorini
                             std::max(CertificateRule().rounding, tolerance) * scales.force;
     object_to_solver(c, tolerance, has_converged, has_forces);
     for (unsigned int p = 0; p < d.pairs.size(); ++p)
-      object_to_pair(c, evaluation.pairs[p], model.pairs()[p].definition.surface,
-                     errors_in_contact(d, solution.stress, p));
+      {
+        const std::string mapping_errors = errors_in_contact(d, solution.stress, p);
+        if (!mapping_errors.empty())
+          c.wrongly_mapped_pairs.push_back(p);
+        object_to_pair(c, evaluation.pairs[p], model.pairs()[p].definition.surface, mapping_errors);
+      }
     return c;
   }
 } // namespace Signorini

@@ -191,17 +191,33 @@ namespace Signorini
         }
     }
 
-    std::vector<MappingResult> mapping_results(const Discretization &d)
+    /// @param wrong_pairs see Certificate
+    std::vector<MappingResult> mapping_results(const Discretization            &d,
+                                               const std::vector<unsigned int> &wrong_pairs)
     {
       const MPI_Comm             comm = d.nodal().communicator();
       std::vector<MappingResult> results;
-      for (const ContactPair &pair : d.pairs)
-        if (pair.mapping)
-          results.push_back(
-              {pair.name, sum_reports(pair.mapping->report(), comm),
-               assess_mapping(*pair.mapping, pair.nonmortar.surface.mesh, pair.mortar.surface.mesh, comm),
-               Utilities::MPI::max(pair.mapping_time, comm)});
+      for (unsigned int p = 0; p < d.pairs.size(); ++p)
+        if (const ContactPair &pair = d.pairs[p]; pair.mapping)
+          {
+            MappingReport report = sum_reports(pair.mapping->report(), comm);
+            // Where something is covered twice is not known.
+            const bool errors_matter =
+                covers_twice(report) ||
+                std::find(wrong_pairs.begin(), wrong_pairs.end(), p) != wrong_pairs.end();
+            results.push_back(
+                {pair.name, std::move(report),
+                 assess_mapping(*pair.mapping, pair.nonmortar.surface.mesh, pair.mortar.surface.mesh, comm),
+                 Utilities::MPI::max(pair.mapping_time, comm), errors_matter});
+          }
       return results;
+    }
+
+    std::vector<unsigned int> all_pairs(const Discretization &d)
+    {
+      std::vector<unsigned int> pairs(d.pairs.size());
+      std::iota(pairs.begin(), pairs.end(), 0u);
+      return pairs;
     }
 
     /// What the results say of bodies and slip, which wants the displacement.
@@ -393,7 +409,9 @@ namespace Signorini
     const MPI_Comm comm    = model.communicator();
     if (!mesh_only)
       evaluate(nested, model);
-    results.mappings = mapping_results(*nested.discretization);
+    results.mappings =
+        mapping_results(*nested.discretization, mesh_only ? all_pairs(*nested.discretization)
+                                                          : results.certificate.wrongly_mapped_pairs);
 
     Utilities::System::MemoryStats memory;
     Utilities::System::get_memory_stats(memory);

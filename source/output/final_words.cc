@@ -77,8 +77,11 @@ namespace Signorini
     {
       for (const MappingResult &mapping : results.mappings)
         if (const std::string errors = describe_errors(mapping.report); !errors.empty())
-          out << "WARNING: pair " << mapping.pair << ": the contact mapping has errors (" << errors
-              << "): pressures and forces near those places are wrong\n";
+          out << "WARNING: pair " << mapping.pair << ": the contact mapping has errors (" << errors << "): "
+              << (mapping.errors_matter
+                      ? "pressures and forces near those places are wrong"
+                      : "none is near where the bodies touch, so that nothing above depends on them")
+              << '\n';
     }
 
     void print_smallness(std::ostream &out, const Results &results)

@@ -32,6 +32,21 @@ namespace Signorini
 
 
 
+  void MappingReport::add_edge(const unsigned int edge, const double excess, const bool can_touch)
+  {
+    if (std::abs(excess) <= torn)
+      return;
+    if (!can_touch)
+      {
+        ++n_turned_away;
+        return;
+      }
+    ++n_torn_edges;
+    torn_edges.push_back(edge);
+  }
+
+
+
   namespace
   {
     using Selection = std::function<bool(const unsigned int)>;
@@ -69,26 +84,40 @@ namespace Signorini
 
 
 
-    /// Adds a nonmortar triangle and its polygons.
-    void add_to(MappingReport &report, const TrianglePolygons &polygons, const unsigned int t,
-                const Incidence &incidence)
+    /// Adds what a nonmortar triangle and its polygons cover.
+    void add_area(MappingReport &report, const TrianglePolygons &polygons, const unsigned int t,
+                  const Incidence &incidence)
     {
       const double area = incidence.nonmortar_normal[t].norm();
       report.area_nonmortar += area;
       report.area_covered += polygons.covered * area;
-      report.n_broken += polygons.n_broken;
-      report.n_lost_triangles += polygons.is_lost();
-      report.worst_tiling_defect = std::max(report.worst_tiling_defect, polygons.defect());
-      bool is_wrong = polygons.is_lost() || polygons.n_broken > 0 || polygons.defect() > MappingReport::torn;
       for (const auto &polygon : polygons.list)
         {
           ++report.n_pairs;
           report.area_mortar_covered +=
               polygon.mortar_share * incidence.mortar_normal[polygon.mortar_triangle].norm();
-          report.n_flips += polygon.share < turned_share;
           report.n_cells += polygon.last - polygon.first - 2;
-          is_wrong = is_wrong || polygon.share < turned_share;
         }
+    }
+
+
+
+    /// Adds what is wrong with a nonmortar triangle.
+    void add_errors(MappingReport &report, const TrianglePolygons &polygons, const unsigned int t)
+    {
+      const auto n_flips  = std::count_if(polygons.list.begin(), polygons.list.end(),
+                                          [](const auto &polygon) { return polygon.share < turned_share; });
+      const bool is_wrong = polygons.is_lost() || polygons.n_broken > 0 || n_flips > 0 ||
+                            polygons.defect() > MappingReport::torn;
+      if (is_wrong && !polygons.list.empty() && !polygons.can_touch())
+        {
+          ++report.n_turned_away;
+          return;
+        }
+      report.n_flips += n_flips;
+      report.n_broken += polygons.n_broken;
+      report.n_lost_triangles += polygons.is_lost();
+      report.worst_tiling_defect = std::max(report.worst_tiling_defect, polygons.defect());
       if (is_wrong)
         report.wrong_triangles.push_back(t);
     }
@@ -98,8 +127,10 @@ namespace Signorini
     /// Both triangles of an edge run through it in opposite directions: what they have of it adds up to
     /// nothing.
     /// @param balance these sums, by edge
+    /// @param can_touch by triangle
     void find_torn_edges(MappingReport &report, const SurfaceTopology &nonmortar,
-                         const std::vector<double> &balance, const Selection &is_selected)
+                         const std::vector<double> &balance, const std::vector<bool> &can_touch,
+                         const Selection &is_selected)
     {
       for (unsigned int e = 0; e < nonmortar.edges.size(); ++e)
         if (!nonmortar.is_border(e))
@@ -107,13 +138,11 @@ namespace Signorini
             const auto        &beside = nonmortar.edge_triangles[e];
             const unsigned int n_selected =
                 !is_selected ? 2 : is_selected(beside[0]) + is_selected(beside[1]);
-            if (n_selected == 2 && std::abs(balance[e]) > MappingReport::torn)
-              {
-                ++report.n_torn_edges;
-                report.torn_edges.push_back(e);
-              }
+            const bool touches = can_touch[beside[0]] || can_touch[beside[1]];
+            if (n_selected == 2)
+              report.add_edge(e, balance[e], touches);
             else if (n_selected == 1)
-              report.open_edges.emplace_back(e, balance[e]);
+              report.open_edges.push_back({e, balance[e], touches});
           }
     }
 
@@ -193,14 +222,17 @@ namespace Signorini
     TrianglePolygons        polygons(incidence, graph, mortar_border);
     VisitedPolygons         visited(nonmortar.triangles.size(), graph.nodes.size());
     std::vector<double>     balance(nonmortar.edges.size(), 0.);
+    std::vector<bool>       can_touch(nonmortar.triangles.size(), false);
     visit_triangles(nonmortar_mesh, nonmortar, is_selected, [&](const unsigned int t) {
       polygons.compute(t);
-      add_to(summary, polygons, t, incidence);
+      can_touch[t] = polygons.can_touch();
+      add_area(summary, polygons, t, incidence);
+      add_errors(summary, polygons, t);
       for (const auto &side : polygons.sides)
         balance[side.edge] += side.length;
       visited.add(polygons, t);
     });
-    find_torn_edges(summary, nonmortar, balance, is_selected);
+    find_torn_edges(summary, nonmortar, balance, can_touch, is_selected);
     visited.put_in_order(*this);
     graph_nodes = std::move(graph.nodes);
   }

@@ -15,12 +15,18 @@ namespace Signorini
   {
     /// Surfaces that can touch face each other: the cosine of their normals is below this.
     constexpr double facing_cosine = -.1;
+    /// Rigid obstacles are met up to this one, too.
+    constexpr double touching_cosine = -.5;
+
+    bool has_cosine_below(const double cosine, const Tensor<1, 3> &a, const Tensor<1, 3> &b)
+    {
+      const double product = a * b;
+      return product < 0. && product * product > cosine * cosine * a.norm_square() * b.norm_square();
+    }
 
     bool facing(const Tensor<1, 3> &a, const Tensor<1, 3> &b)
     {
-      const double product = a * b;
-      return product < 0. &&
-             product * product > facing_cosine * facing_cosine * a.norm_square() * b.norm_square();
+      return has_cosine_below(facing_cosine, a, b);
     }
 
     std::vector<Tensor<1, 3>> area_normals(const SurfaceMesh &mesh)
@@ -250,6 +256,13 @@ namespace Signorini
   bool Incidence::triangles_face(const unsigned int t, const unsigned int m) const
   {
     return facing(nonmortar_normal[t], mortar_normal[m]);
+  }
+
+
+
+  bool Incidence::triangles_turn_away(const unsigned int t, const unsigned int m) const
+  {
+    return !has_cosine_below(touching_cosine, nonmortar_normal[t], mortar_normal[m]);
   }
 
 

@@ -115,16 +115,16 @@ namespace Signorini
     /// known to different ranks.
     void add_edges_torn_between_parts(MappingReport &report, const MPI_Comm communicator)
     {
-      std::map<unsigned int, double> balance;
+      std::map<unsigned int, MappingReport::OpenEdge> sums;
       for (const auto &part : Utilities::MPI::all_gather(communicator, report.open_edges))
-        for (const auto &[edge, length] : part)
-          balance[edge] += length;
-      for (const auto &[edge, length] : balance)
-        if (std::abs(length) > MappingReport::torn)
+        for (const MappingReport::OpenEdge &side : part)
           {
-            ++report.n_torn_edges;
-            report.torn_edges.push_back(edge);
+            MappingReport::OpenEdge &sum = sums[side.edge];
+            sum.excess += side.excess;
+            sum.can_touch = sum.can_touch || side.can_touch;
           }
+      for (const auto &[edge, sum] : sums)
+        report.add_edge(edge, sum.excess, sum.can_touch);
       report.open_edges.clear();
     }
   } // namespace
@@ -136,7 +136,7 @@ namespace Signorini
     for (double *area : {&report.area_nonmortar, &report.area_covered, &report.area_mortar_covered})
       *area = Utilities::MPI::sum(*area, communicator);
     for (std::size_t *number : {&report.n_cells, &report.n_pairs, &report.n_flips, &report.n_broken,
-                                &report.n_lost_triangles, &report.n_torn_edges})
+                                &report.n_lost_triangles, &report.n_torn_edges, &report.n_turned_away})
       *number = Utilities::MPI::sum(*number, communicator);
     report.worst_tiling_defect = Utilities::MPI::max(report.worst_tiling_defect, communicator);
     // An edge over several parts may be lost in each of them; a vertex is told by one.
@@ -187,6 +187,35 @@ namespace Signorini
 
 
 
+  namespace
+  {
+    /// Above the size of what is taken for incident.
+    constexpr double largest_defect = 1e-9;
+
+    /// Parts of the surfaces that are covered.
+    std::array<std::pair<const char *, double>, 2> covered_shares(const MappingReport &report)
+    {
+      return {{{"nonmortar", report.area_covered / report.area_nonmortar},
+               {"mortar", report.area_mortar_covered / report.area_mortar}}};
+    }
+
+    /// No point of a surface has more than one image.
+    bool is_too_much(const double share)
+    {
+      return !(share <= 1. + largest_defect);
+    }
+  } // namespace
+
+
+
+  bool covers_twice(const MappingReport &report)
+  {
+    const auto shares = covered_shares(report);
+    return is_too_much(shares[0].second) || is_too_much(shares[1].second);
+  }
+
+
+
   std::string describe_errors(const MappingReport &report)
   {
     std::ostringstream text;
@@ -199,15 +228,11 @@ namespace Signorini
     add(report.lost_edges.size(), "mortar edges lost");
     add(report.n_flips, "cells turned");
     add(report.n_broken, "pairs of triangles without a polygon");
-    // Above the size of what is taken for incident.
-    constexpr double largest_defect = 1e-9;
     if (report.worst_tiling_defect > largest_defect)
       text << (text.tellp() > 0 ? ", " : "") << "a triangle that is covered wrongly by "
            << report.worst_tiling_defect << " of its area";
-    // No point of a surface has more than one image.
-    for (const auto &[name, share] : {std::pair("nonmortar", report.area_covered / report.area_nonmortar),
-                                      std::pair("mortar", report.area_mortar_covered / report.area_mortar)})
-      if (!(share <= 1. + largest_defect))
+    for (const auto &[name, share] : covered_shares(report))
+      if (is_too_much(share))
         text << (text.tellp() > 0 ? ", " : "") << "the " << name << " surface covered to " << 100. * share
              << " %";
     return text.str();
@@ -228,6 +253,11 @@ namespace Signorini
     if (report.n_conflicts > 0)
       out << "  surfaces         " << report.n_conflicts
           << " edges where triangles turn to different sides or more than two meet (taken as borders)\n";
+    if (report.n_turned_away > 0)
+      out << "  turned away      " << report.n_turned_away
+          << " places where the overlay does not fit, but the surfaces turn away from each other by more "
+             "than "
+             "60\n                   degrees: nothing touches there\n";
     if (const std::string errors = describe_errors(report); !errors.empty())
       out << "  errors           " << errors << ": there the mapping is not one-to-one. In a contact run\n"
           << "                   pressures and forces near those places are wrong; the rest is not "

@@ -72,6 +72,7 @@ namespace Signorini
     corners.clear();
     incident.clear();
     sides.clear();
+    triangle       = t;
     faces_any      = false;
     covered        = 0.;
     n_broken       = 0;

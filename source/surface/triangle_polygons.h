@@ -45,6 +45,14 @@ namespace Signorini
       return is_covered_all && faces_any && list.empty();
     }
 
+    /// Whether it meets a triangle that it can touch.
+    bool can_touch() const
+    {
+      return std::any_of(list.begin(), list.end(), [&](const Polygon &polygon) {
+        return !incidence.triangles_turn_away(triangle, polygon.mortar_triangle);
+      });
+    }
+
     /// A part of an edge of the triangle that is a side of a polygon.
     struct EdgeSide
     {
@@ -87,6 +95,7 @@ namespace Signorini
     std::vector<CommonPolygon::Corner> unsorted;
     std::vector<std::array<double, 2>> flat;
     CommonPolygon                      sorter;
+    unsigned int                       triangle;
     bool                               is_covered_all, faces_any;
   };
 } // namespace Signorini

@@ -169,6 +169,8 @@ namespace Signorini
     double body_force_balance = 0., body_moment_balance = 0.;
     /// Why the contact conditions do not hold, with what to try; empty if they do.
     std::vector<std::string> objections;
+    /// Numbers of the pairs whose mapping has errors where the bodies touch, or within two faces of it.
+    std::vector<unsigned int> wrongly_mapped_pairs;
     /// ½vᵀÂv - b̂ᵀv.
     double energy = 0.;
     /// ½uᵀAu - fᵀu, lifts included.
@@ -201,6 +203,9 @@ namespace Signorini
     MappingQuality quality;
     /// Seconds, of the slowest rank, on the last mesh.
     double time = 0.;
+    /// Whether errors of the mapping, if there are any, can matter: not if none is near where the bodies
+    /// touch.
+    bool errors_matter = true;
   };
 
   /// A bolt's shank whose section carries a given force.

@@ -37,11 +37,34 @@ namespace Signorini
     std::size_t n_lost_triangles = 0, n_torn_edges = 0;
     /// Where: nonmortar triangles with an error of their own (turned or broken polygons, too), torn edges.
     std::vector<unsigned int> wrong_triangles, torn_edges;
-    /// Edges with one selected triangle, and by how much of the edge that one goes farther: until the parts
-    /// are summed.
-    std::vector<std::pair<unsigned int, double>> open_edges;
+    /// Triangles with an error of their own and torn edges where the surfaces turn away from each other by
+    /// more than 60 degrees. Nothing touches there: they are counted here only.
+    std::size_t n_turned_away = 0;
+    /// An edge with one selected triangle.
+    struct OpenEdge
+    {
+      /// The edge.
+      unsigned int edge = 0;
+      /// By how much of the edge that triangle goes farther.
+      double excess = 0.;
+      /// Whether it meets a triangle that it can touch.
+      bool can_touch = false;
+
+      /// For messages between ranks.
+      template <class Archive>
+      void serialize(Archive &archive, const unsigned int)
+      {
+        archive &edge &excess &can_touch;
+      }
+    };
+    /// Until the parts are summed.
+    std::vector<OpenEdge> open_edges;
     /// A larger part of an edge than this is torn.
     static constexpr double torn = 1e-9;
+
+    /// Counts an edge if it is torn. @param excess by how much of it the polygons of one side go farther
+    void add_edge(const unsigned int edge, const double excess, const bool can_touch);
+
     /// Edges of the two surfaces where triangles turn to different sides or more than two meet; they count as
     /// borders.
     std::size_t n_conflicts = 0;

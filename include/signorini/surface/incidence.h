@@ -72,6 +72,10 @@ namespace Signorini
                     const unsigned int nonmortar_triangle) const;
     bool triangles_face(const unsigned int nonmortar_triangle, const unsigned int mortar_triangle) const;
 
+    /// Whether the normals of two triangles are more than 60 degrees from being opposite to each other:
+    /// bodies that touch there would overlap beside it.
+    bool triangles_turn_away(const unsigned int nonmortar_triangle, const unsigned int mortar_triangle) const;
+
     /// Whether a nonmortar triangle faces the normal at a point of a mortar triangle.
     bool point_faces(const unsigned int nonmortar_triangle, const unsigned int mortar_triangle,
                      const SurfacePoint &mortar_point) const;

@@ -40,8 +40,11 @@ namespace Signorini
   /// Number of unmapped vertices for each reason that occurs.
   std::map<std::string, std::size_t> count_unmapped(const MappingReport &report);
 
+  /// Whether a surface is covered to more than 100 %. Of the whole mapping (sum_reports()).
+  bool covers_twice(const MappingReport &report);
+
   /// What is wrong with a mapping, in words: lost or turned pieces, a tiling that is not exact, a surface
-  /// that is covered more than once. Empty where all is well. Of the whole mapping (sum_reports()).
+  /// that is covered more than once. Empty where all is well. Of the whole mapping.
   std::string describe_errors(const MappingReport &report);
 
   /// A text of some lines for a person.

@@ -23,12 +23,13 @@ namespace
     return report;
   }
 
-  std::string words_at_the_end(const MappingReport &report)
+  std::string words_at_the_end(const MappingReport &report, const bool errors_matter = true)
   {
     Results results;
     results.mappings.emplace_back();
-    results.mappings[0].pair   = "interface";
-    results.mappings[0].report = report;
+    results.mappings[0].pair          = "interface";
+    results.mappings[0].report        = report;
+    results.mappings[0].errors_matter = errors_matter;
     std::ostringstream out;
     print_final_words(out, results);
     return out.str();
@@ -60,4 +61,10 @@ TEST(FinalWords, WarnOfMappingErrors)
   expect_warning(report, "the mortar surface covered to 150 %");
   report.area_mortar_covered = std::numeric_limits<double>::quiet_NaN();
   expect_warning(report, "the mortar surface covered to nan %");
+  report                     = perfect_report();
+  report.worst_tiling_defect = 1e-3;
+  EXPECT_NE(words_at_the_end(report, false).find("none is near where the bodies touch"), std::string::npos);
+  report.area_covered = 3.;
+  EXPECT_TRUE(covers_twice(report));
+  EXPECT_FALSE(covers_twice(perfect_report()));
 }
