@@ -3,6 +3,7 @@
 
 #include <signorini/algebra/block_row.h>
 #include <signorini/algebra/node_block_matrix.h>
+#include <signorini/algebra/sent_lists.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -17,14 +18,11 @@ namespace Signorini
 
   namespace
   {
-    /// The position of what another row has in memory.
-    constexpr std::size_t not_stored = static_cast<std::size_t>(-1);
-
     /// Packs foreign rows for their owners: node, length, columns.
-    std::map<unsigned int, std::vector<NodeIndex>>
-    pack_foreign_rows(const NodePattern &pattern, const unsigned int n_owned, const NodePartition &numbering)
+    ListsByRank<NodeIndex> pack_foreign_rows(const NodePattern &pattern, const unsigned int n_owned,
+                                             const NodePartition &numbering)
     {
-      std::map<unsigned int, std::vector<NodeIndex>> packets;
+      ListsByRank<NodeIndex> packets;
       for (std::size_t f = 0; f < pattern.foreign_rows.size(); ++f)
         {
           auto             &packet = packets[numbering.owner(pattern.foreign_rows[f])];
@@ -46,8 +44,8 @@ namespace Signorini
       Additions additions;
       if (numbering.n_ranks() == 1)
         return additions;
-      for (const auto &[rank, packet] : Utilities::MPI::some_to_some(
-               numbering.communicator(), pack_foreign_rows(pattern, numbering.n_owned(), numbering)))
+      for (const auto &[rank, packet] :
+           send_lists(pack_foreign_rows(pattern, numbering.n_owned(), numbering), numbering.communicator()))
         for (std::size_t i = 0; i < packet.size(); i += 2 + packet[i + 1])
           {
             auto &row = additions[static_cast<unsigned int>(packet[i] - numbering.first_owned())];
@@ -80,7 +78,9 @@ namespace Signorini
     /// The local columns of all rows in the order of the matrix, and where the parts of the rows begin.
     struct SplitRows
     {
-      SplitRows(const NodePattern &pattern, const Additions &additions, const NodePartition &nodes)
+      template <typename ForeignRows>
+      SplitRows(const NodePattern &pattern, const Additions &additions, const NodePartition &nodes,
+                const ForeignRows &foreign_rows)
         : nodes(nodes)
       {
         const unsigned int        n_owned = nodes.n_owned();
@@ -95,7 +95,9 @@ namespace Signorini
             if (r < n_owned)
               split_owned(static_cast<unsigned int>(r), outer);
             else
-              outer.insert(outer.end(), row.begin(), row.end());
+              std::copy_if(row.begin(), row.end(), std::back_inserter(outer), [&](const unsigned int column) {
+                return foreign_rows[r - n_owned].stores(column);
+              });
             outer_start.push_back(outer.size());
           }
         for (std::size_t &start : outer_start)
@@ -148,27 +150,44 @@ namespace Signorini
                                const IndexSet &extra_ghosts, const MPI_Comm communicator)
   {
     const NodePartition numbering(owned, IndexSet(owned.size()), communicator);
-    const unsigned int  n_owned = numbering.n_owned();
-    AssertDimension(pattern.row_start.size(), n_owned + pattern.foreign_rows.size() + 1);
+    AssertDimension(pattern.row_start.size(), numbering.n_owned() + pattern.foreign_rows.size() + 1);
     const Additions additions = receive_additions(pattern, numbering);
     nodes = std::make_shared<NodePartition>(owned, find_ghosts(pattern, additions, extra_ghosts, numbering),
                                             communicator);
 
-    SplitRows rows(pattern, additions, *nodes);
-    AssertDimension(rows.n_above, rows.lower_start.back() - n_owned);
+    find_foreign_rows(pattern);
+    SplitRows rows(pattern, additions, *nodes, foreign_rows);
+    AssertDimension(rows.n_above, rows.lower_start.back() - n_rows());
     lower_start = std::move(rows.lower_start);
     outer_start = std::move(rows.outer_start);
     columns     = std::move(rows.columns);
     // One more than there are: see block_row.h.
     values.assign(9 * columns.size() + 1, 0.);
 
-    foreign_row_of_ghost.assign(nodes->ghosts().size(), numbers::invalid_unsigned_int);
-    for (std::size_t f = 0; f < pattern.foreign_rows.size(); ++f)
-      foreign_row_of_ghost[nodes->to_local(pattern.foreign_rows[f]) - n_owned] = n_owned + f;
-
     mirror_lower_parts();
     collect_ghost_columns();
     plan_compression(pattern);
+  }
+
+
+
+  void NodeBlockMatrix::find_foreign_rows(const NodePattern &pattern)
+  {
+    const unsigned int            n_owned = nodes->n_owned();
+    const std::vector<NodeIndex> &ghosts  = nodes->ghosts();
+    foreign_rows.clear();
+    foreign_row_of_ghost.assign(ghosts.size(), numbers::invalid_unsigned_int);
+    for (std::size_t f = 0; f < pattern.foreign_rows.size(); ++f)
+      {
+        const unsigned int owner = nodes->owner(pattern.foreign_rows[f]);
+        const unsigned int node  = nodes->to_local(pattern.foreign_rows[f]);
+        // Ghosts are sorted, and what a rank owns is a range.
+        const auto end = std::partition_point(ghosts.begin(), ghosts.end(), [&](const NodeIndex ghost) {
+          return nodes->owner(ghost) <= owner;
+        });
+        foreign_rows.push_back({node, n_owned + static_cast<unsigned int>(end - ghosts.begin())});
+        foreign_row_of_ghost[node - n_owned] = n_owned + f;
+      }
   }
 
 
@@ -221,7 +240,7 @@ namespace Signorini
   {
     const unsigned int n_owned = nodes->n_owned();
     send_rows.clear();
-    std::map<unsigned int, std::vector<NodeIndex>> headers;
+    ListsByRank<NodeIndex> headers;
     for (std::size_t f = 0; f < pattern.foreign_rows.size(); ++f)
       {
         const unsigned int rank = nodes->owner(pattern.foreign_rows[f]);
@@ -237,16 +256,13 @@ namespace Signorini
     receive_positions.clear();
     if (nodes->n_ranks() == 1)
       return;
-    for (const auto &[rank, header] : Utilities::MPI::some_to_some(nodes->communicator(), headers))
+    for (const auto &[rank, header] : send_lists(headers, nodes->communicator()))
       {
         receive_positions.push_back({rank, {}});
         for (std::size_t i = 0; i < header.size(); i += 2 + header[i + 1])
           for (std::size_t k = 0; k < header[i + 1]; ++k)
-            {
-              const auto         row    = static_cast<unsigned int>(header[i] - nodes->first_owned());
-              const unsigned int column = nodes->to_local(header[i + 2 + k]);
-              receive_positions.back().second.push_back(stores(row, column) ? find(row, column) : not_stored);
-            }
+            receive_positions.back().second.push_back(
+                find(header[i] - nodes->first_owned(), nodes->to_local(header[i + 2 + k])));
       }
   }
 
@@ -277,7 +293,7 @@ namespace Signorini
   {
     if (nodes->n_ranks() == 1)
       return;
-    std::map<unsigned int, std::vector<double>> packets;
+    ListsByRank<double> packets;
     for (const auto &[rank, rows] : send_rows)
       {
         const auto begin = values.begin() + 9 * outer_start[rows.first];
@@ -285,15 +301,17 @@ namespace Signorini
         packets[rank].assign(begin, end);
         std::fill(begin, end, 0.);
       }
-    const auto received = Utilities::MPI::some_to_some(nodes->communicator(), packets);
+    std::vector<unsigned int> senders;
+    for (const auto &[rank, positions] : receive_positions)
+      senders.push_back(rank);
+    const ListsByRank<double> received = answer_lists(packets, senders, nodes->communicator());
     for (const auto &[rank, positions] : receive_positions)
       {
         const std::vector<double> &data = received.at(rank);
         AssertDimension(data.size(), 9 * positions.size());
         for (std::size_t k = 0; k < positions.size(); ++k)
-          if (positions[k] != not_stored)
-            for (unsigned int c = 0; c < 9; ++c)
-              values[9 * positions[k] + c] += data[9 * k + c];
+          for (unsigned int c = 0; c < 9; ++c)
+            values[9 * positions[k] + c] += data[9 * k + c];
       }
   }
 

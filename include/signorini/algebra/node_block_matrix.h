@@ -55,8 +55,8 @@ namespace Signorini
   /// rows, transposed ("mirrored"); a row knows where they are. Columns ascend in each of the four parts. In
   /// memory come all diagonal blocks, the lower parts of all rows, then what couples to ghosts.
   ///
-  /// A rank may also hold rows of other ranks ("foreign" rows, with all their blocks): they collect
-  /// contributions until compress() adds them to the owner's row. Products use the owned rows only.
+  /// A rank may also hold rows of other ranks ("foreign" rows, without what their owner has mirrored): they
+  /// collect contributions until compress() adds them to the owner's row. Products use the owned rows only.
   class NodeBlockMatrix
   {
   public:
@@ -107,7 +107,7 @@ namespace Signorini
       return {lower_start[row], lower_start[row + 1]};
     }
 
-    /// Positions of the blocks of an owned row whose columns are ghosts, of all blocks of a foreign row.
+    /// Positions of the blocks of an owned row whose columns are ghosts, of the blocks of a foreign row.
     BlockRange outer(const unsigned int row) const
     {
       return {outer_start[row], outer_start[row + 1]};
@@ -150,7 +150,45 @@ namespace Signorini
     /// Whether the block (row, local column) of a row given by row_of() is in memory.
     bool stores(const unsigned int row, const unsigned int local_column) const
     {
-      return local_column <= row || row >= n_rows() || local_column >= n_rows();
+      return row < n_rows() ? local_column <= row || local_column >= n_rows()
+                            : foreign_rows[row - n_rows()].stores(local_column);
+    }
+
+    /// Adds blocks to a row given by row_of(), as far as they are in memory.
+    /// @param local_columns ascending; all of them must be columns of the row
+    /// @param block_of number among the columns -> pointer to nine numbers
+    template <typename BlockOf>
+    void add_to_row(const unsigned int row, const std::vector<unsigned int> &local_columns,
+                    const BlockOf &block_of)
+    {
+      std::size_t m   = 0;
+      const auto  add = [&](const std::size_t k) {
+        double *const       to   = block(k);
+        const double *const from = block_of(m);
+        for (unsigned int c = 0; c < 9; ++c)
+          to[c] += from[c];
+      };
+      const auto add_up_to = [&](const unsigned int end, std::size_t k) {
+        for (; m < local_columns.size() && local_columns[m] < end; ++m)
+          if (stores(row, local_columns[m]))
+            {
+              while (columns[k] != local_columns[m])
+                ++k;
+              add(k);
+            }
+      };
+      if (row < n_rows())
+        {
+          add_up_to(row, lower_start[row]);
+          if (m < local_columns.size() && local_columns[m] == row)
+            {
+              add(diagonal(row));
+              ++m;
+            }
+          while (m < local_columns.size() && local_columns[m] < n_rows())
+            ++m;
+        }
+      add_up_to(dealii::numbers::invalid_unsigned_int, outer_start[row]);
     }
 
     /// Calls action(RowEntry) for all blocks of an owned row: diagonal, lower, mirrored, outer.
@@ -286,6 +324,8 @@ namespace Signorini
     /// where it puts what it receives.
     void plan_compression(const NodePattern &pattern);
 
+    void find_foreign_rows(const NodePattern &pattern);
+
     void mirror_lower_parts();
 
     void collect_ghost_columns();
@@ -299,6 +339,17 @@ namespace Signorini
     std::vector<std::size_t>  mirrored_start;
     std::vector<unsigned int> mirrored_columns, mirrored;
 
+    /// A row of another rank: its local node, and the end of the local nodes of its owner.
+    struct ForeignRow
+    {
+      unsigned int node, end_of_owner;
+
+      bool stores(const unsigned int local_column) const
+      {
+        return local_column <= node || local_column >= end_of_owner;
+      }
+    };
+    std::vector<ForeignRow>   foreign_rows;
     std::vector<unsigned int> foreign_row_of_ghost;
     /// Column by column.
     std::vector<std::size_t>   ghost_start = {0};
