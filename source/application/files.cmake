@@ -31,6 +31,7 @@ signorini_add_layer(application
   output_parameters.cc
   pair_parameters.cc
   pair_pieces.cc
+  parameter_names.cc
   parameters.cc
   paraview_files.cc
   point_holds.cc

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include "parameter_names.h"
+
 #include <signorini/algebra/input_error.h>
 #include <signorini/application/parameters.h>
 #include <signorini/mesh/expression.h>
@@ -85,6 +87,14 @@ namespace Signorini
       return explain_patterns(shortened(Utilities::trim(result)));
     }
 
+    std::string join(const std::vector<std::string> &list, const std::string &separator)
+    {
+      std::string text;
+      for (const std::string &item : list)
+        text += (text.empty() ? "" : separator) + item;
+      return text;
+    }
+
     /// Applies "Section/Name=value".
     void apply_override(ParameterHandler &prm, const std::string &text, const bool skip_unknown)
     {
@@ -98,6 +108,9 @@ namespace Signorini
       path.pop_back();
       if (skip_unknown && !(path.empty() && (name == "Bodies" || name == "Contact pairs")))
         return;
+      if (const std::string objection = ParameterNames(prm).objection(join(path, "/"), name);
+          !objection.empty())
+        throw InputError("--set \"" + text + "\": " + objection);
       for (const std::string &section : path)
         prm.enter_subsection(section);
       try
@@ -132,16 +145,16 @@ namespace Signorini
         }
       catch (const std::exception &e)
         {
-          throw InputError(plain_text(e));
+          const std::string message = plain_text(e);
+          std::smatch       found;
+          if (std::regex_search(message, found,
+                                std::regex("Line <([0-9]+)>.*(No entry with name|no such subsection)")))
+            if (const std::string objection =
+                    ParameterNames(prm).objection_to_line(text, std::stoul(found[1].str()));
+                !objection.empty())
+              throw InputError(name + ", line " + found[1].str() + ": " + objection);
+          throw InputError(message);
         }
-    }
-
-    std::string join(const std::vector<std::string> &list)
-    {
-      std::string text;
-      for (const std::string &item : list)
-        text += (text.empty() ? "" : ", ") + item;
-      return text;
     }
   } // namespace
 
@@ -191,8 +204,8 @@ namespace Signorini
     };
     bodies.resize(body_names.size());
     pairs.resize(pair_names.size());
-    top_level.bodies = join(body_names);
-    top_level.pairs  = join(pair_names);
+    top_level.bodies = join(body_names, ", ");
+    top_level.pairs  = join(pair_names, ", ");
     top_level.add_parameters(prm);
     for (std::size_t b = 0; b < bodies.size(); ++b)
       {
