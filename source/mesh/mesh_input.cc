@@ -83,7 +83,9 @@ namespace Signorini
               result.push_back({entity.second, types[t] == first ? n_first : n_second, nodes[t]});
             else
               throw InputError("Mesh file \"" + file + "\": elements of type \"" + element_name(types[t]) +
-                               "\" are not supported; use tetrahedra with 4 nodes or hexahedra with 8.");
+                               "\" are not supported; use tetrahedra with 4 nodes or hexahedra with 8. gmsh writes "
+                               "them with -order 1 (Mesh.ElementOrder = 1); other cells become tetrahedra without "
+                               "Recombine.");
         }
       return result;
     }
