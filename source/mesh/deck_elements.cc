@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Signorini authors
 
 #include <signorini/mesh/deck_elements.h>
+#include <signorini/mesh/quadratic_tetrahedron.h>
 
 #include <algorithm>
 #include <numeric>
@@ -315,32 +316,10 @@ namespace Signorini
 
   void DeckCells::add_quadratic_tetrahedron(const Corners &n, const bool)
   {
-    add_tetrahedron(n[0], n[4], n[6], n[7]);
-    add_tetrahedron(n[4], n[1], n[5], n[8]);
-    add_tetrahedron(n[6], n[5], n[2], n[9]);
-    add_tetrahedron(n[7], n[8], n[9], n[3]);
-    // The octahedron between them is cut along its shortest diagonal.
-    struct Diagonal
-    {
-      unsigned int ends[2], ring[4];
-    };
-    static constexpr Diagonal diagonals[3] = {
-        {{4, 9}, {5, 6, 7, 8}}, {{5, 7}, {4, 8, 9, 6}}, {{6, 8}, {4, 7, 9, 5}}};
-    const auto length = [&](const Diagonal &d) {
-      return mesh.vertices[n[d.ends[0]]].distance_square(mesh.vertices[n[d.ends[1]]]);
-    };
-    const Diagonal &d =
-        *std::min_element(std::begin(diagonals), std::end(diagonals),
-                          [&](const Diagonal &a, const Diagonal &b) { return length(a) < .999 * length(b); });
-    for (unsigned int i = 0; i < 4; ++i)
-      {
-        unsigned int       a = n[d.ring[i]], b = n[d.ring[(i + 1) % 4]];
-        const auto        &x = mesh.vertices;
-        const unsigned int p = n[d.ends[0]], q = n[d.ends[1]];
-        if (cross_product_3d(x[b] - x[a], x[p] - x[a]) * (x[q] - x[a]) < 0.)
-          std::swap(a, b);
-        add_tetrahedron(a, b, p, q);
-      }
+    std::array<unsigned int, 10> nodes;
+    std::copy_n(n.begin(), nodes.size(), nodes.begin());
+    for (const auto &piece : cut_quadratic_tetrahedron(mesh.vertices, nodes))
+      add_tetrahedron(piece[0], piece[1], piece[2], piece[3]);
   }
 
 

@@ -28,6 +28,7 @@ signorini_add_layer(mesh
   mesh_input.cc
   nodal_space.cc
   node_movement.cc
+  quadratic_tetrahedron.cc
   refinement.cc
   separate_process.cc
   start_nodes.cc

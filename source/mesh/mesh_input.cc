@@ -7,6 +7,7 @@
 #include <signorini/mesh/abaqus_input.h>
 #include <signorini/mesh/gmsh_file.h>
 #include <signorini/mesh/mesh_input.h>
+#include <signorini/mesh/quadratic_tetrahedron.h>
 #include <signorini/mesh/separate_process.h>
 
 #include <deal.II/base/mpi.h>
@@ -35,7 +36,16 @@ namespace Signorini
     /// gmsh's corners of a hexahedron run around the bottom, then the top; deal.II's are lexicographic.
     constexpr unsigned int gmsh_corner[8] = {0, 1, 3, 2, 4, 5, 7, 6};
 
-    constexpr int gmsh_triangle = 2, gmsh_quadrilateral = 3, gmsh_tetrahedron = 4, gmsh_hexahedron = 5;
+    /// Our order of the nodes of a quadratic tetrahedron, as decks have it.
+    constexpr unsigned int gmsh_quadratic_node[10] = {0, 1, 2, 3, 4, 5, 6, 7, 9, 8};
+
+    /// Triangles between the nodes of a quadratic one.
+    constexpr unsigned int triangles_of_quadratic[4][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}};
+
+    /// Types of elements that can be read: gmsh's number, number of nodes.
+    using ElementTypes = std::map<int, unsigned int>;
+
+    const ElementTypes cell_types = {{4, 4}, {5, 8}, {11, 10}}, face_types = {{2, 3}, {3, 4}, {9, 6}};
 
     std::string element_name(const int type)
     {
@@ -66,9 +76,8 @@ namespace Signorini
       std::vector<std::size_t> nodes;
     };
 
-    /// Elements of two types, with n_first and n_second nodes. Others are refused.
-    std::vector<Elements> elements(const int dimension, const int first, const unsigned int n_first,
-                                   const int second, const unsigned int n_second, const std::string &file)
+    /// Elements of some types. Others are refused.
+    std::vector<Elements> elements(const int dimension, const ElementTypes &known, const std::string &file)
     {
       std::vector<Elements> result;
       gmsh::vectorpair      entities;
@@ -79,13 +88,14 @@ namespace Signorini
           std::vector<std::vector<std::size_t>> tags, nodes;
           gmsh::model::mesh::getElements(types, tags, nodes, dimension, entity.second);
           for (std::size_t t = 0; t < types.size(); ++t)
-            if (types[t] == first || types[t] == second)
-              result.push_back({entity.second, types[t] == first ? n_first : n_second, nodes[t]});
+            if (const auto type = known.find(types[t]); type != known.end())
+              result.push_back({entity.second, type->second, nodes[t]});
             else
-              throw InputError("Mesh file \"" + file + "\": elements of type \"" + element_name(types[t]) +
-                               "\" are not supported; use tetrahedra with 4 nodes or hexahedra with 8. gmsh writes "
-                               "them with -order 1 (Mesh.ElementOrder = 1); other cells become tetrahedra without "
-                               "Recombine.");
+              throw InputError(
+                  "Mesh file \"" + file + "\": elements of type \"" + element_name(types[t]) +
+                  "\" are not supported; use tetrahedra with 4 nodes or hexahedra with 8. gmsh writes "
+                  "them with -order 1 (Mesh.ElementOrder = 1); other cells become tetrahedra without "
+                  "Recombine.");
         }
       return result;
     }
@@ -160,32 +170,73 @@ namespace Signorini
       std::unordered_map<std::size_t, unsigned int> number;
     };
 
+    void add_quadratic(VolumeMesh &mesh, GmshNodes &gmsh_nodes, const std::size_t *const tags,
+                       const unsigned int volume)
+    {
+      std::array<unsigned int, 10> nodes;
+      for (unsigned int v = 0; v < nodes.size(); ++v)
+        nodes[v] = gmsh_nodes.vertex(mesh, tags[gmsh_quadratic_node[v]]);
+      for (const auto &piece : cut_quadratic_tetrahedron(mesh.vertices, nodes))
+        {
+          mesh.cells.push_back({{}, 4, volume});
+          std::copy(piece.begin(), piece.end(), mesh.cells.back().vertices.begin());
+        }
+    }
+
+    /// Names the faces of an element with n nodes that are faces of cells.
+    void name_element(std::map<VolumeMesh::Face, std::string> &named, const GmshNodes &gmsh_nodes,
+                      const std::size_t *const tags, const unsigned int n, const std::string &name)
+    {
+      const auto add = [&](const std::size_t *const corners, const unsigned int n_corners) {
+        if (const auto face = gmsh_nodes.face(corners, n_corners))
+          named[*face] = name;
+      };
+      if (n != 6)
+        return add(tags, n);
+      for (const auto &triangle : triangles_of_quadratic)
+        {
+          const std::size_t corners[3] = {tags[triangle[0]], tags[triangle[1]], tags[triangle[2]]};
+          add(corners, 3);
+        }
+    }
+
     VolumeMesh read_open_file(const std::string &file, const GmshAlias &alias)
     {
       const std::size_t n_in_file = count_volume_elements(file);
       const GmshSession session(alias);
       GmshNodes         gmsh_nodes(file);
       VolumeMesh        mesh;
-      for (const auto &[entity, n, nodes] : elements(3, gmsh_tetrahedron, 4, gmsh_hexahedron, 8, file))
+      std::size_t       n_elements = 0, n_quadratic = 0;
+      for (const auto &[entity, n, nodes] : elements(3, cell_types, file))
         {
           const unsigned int volume = index_of(mesh.volume_names, group_name(3, entity, "unnamed"));
-          for (std::size_t k = 0; k + n <= nodes.size(); k += n)
-            {
-              mesh.cells.push_back({{}, n, volume});
-              for (unsigned int v = 0; v < n; ++v)
-                mesh.cells.back().vertices[v] =
-                    gmsh_nodes.vertex(mesh, nodes[k + (n == 8 ? gmsh_corner[v] : v)]);
-            }
+          for (std::size_t k = 0; k + n <= nodes.size(); k += n, ++n_elements)
+            if (n == 10)
+              {
+                add_quadratic(mesh, gmsh_nodes, nodes.data() + k, volume);
+                ++n_quadratic;
+              }
+            else
+              {
+                mesh.cells.push_back({{}, n, volume});
+                for (unsigned int v = 0; v < n; ++v)
+                  mesh.cells.back().vertices[v] =
+                      gmsh_nodes.vertex(mesh, nodes[k + (n == 8 ? gmsh_corner[v] : v)]);
+              }
         }
       if (mesh.cells.empty())
         throw InputError("Mesh file \"" + file + "\": it contains neither tetrahedra nor hexahedra.");
-      check_number(file, n_in_file, mesh.cells.size());
+      check_number(file, n_in_file, n_elements);
+      if (n_quadratic > 0)
+        mesh.notes.push_back(
+            "Mesh file \"" + file + "\": " + std::to_string(n_quadratic) +
+            " quadratic tetrahedra are cut into eight linear ones each, which are stiffer where "
+            "thin parts bend; \"Refinement/Initial global levels = 1\" shows how much.");
 
       std::map<VolumeMesh::Face, std::string> named;
-      for (const auto &[entity, n, nodes] : elements(2, gmsh_triangle, 3, gmsh_quadrilateral, 4, file))
+      for (const auto &[entity, n, nodes] : elements(2, face_types, file))
         for (std::size_t k = 0; k + n <= nodes.size(); k += n)
-          if (const auto face = gmsh_nodes.face(nodes.data() + k, n))
-            named[*face] = group_name(2, entity, "unnamed");
+          name_element(named, gmsh_nodes, nodes.data() + k, n, group_name(2, entity, "unnamed"));
       name_faces(mesh, named);
       return mesh;
     }

@@ -77,6 +77,43 @@ TEST(MeshInput, TakesIdsWhereThereAreNoNames)
 
 
 
+// A tetrahedron with ten nodes, the middles of its edges a little off, and one of its sides with six: eight
+// and four, that cover the same, without notes of mirrored ones.
+TEST(MeshInput, CutsQuadraticTetrahedra)
+{
+  std::vector<Point<3>> points = {{0., 0., 0.}, {1., 0., 0.}, {0., 1., 0.}, {0., 0., 1.}};
+  // In the order of gmsh.
+  for (const auto &[a, b] :
+       {std::pair(0, 1), std::pair(1, 2), std::pair(0, 2), std::pair(0, 3), std::pair(2, 3), std::pair(1, 3)})
+    points.push_back(points[a] + .5 * (points[b] - points[a]));
+  points[5] += Point<3>(.05, .05, 0.) - Point<3>();
+  const TemporaryFile file(
+      gmsh_text(points, {"9 2 11 1 1 2 3 5 6 7", "11 2 7 1 1 2 3 4 5 6 7 8 9 10"}, names));
+  const auto mesh = read_volume_mesh(file.path, MPI_COMM_WORLD);
+  EXPECT_EQ(mesh.cells.size(), 8u);
+  EXPECT_EQ(mesh.vertices.size(), 10u);
+  double volume = 0.;
+  for (const auto &cell : mesh.cells)
+    {
+      EXPECT_EQ(cell.n_vertices, 4u);
+      const auto &v = cell.vertices;
+      const auto  x = [&](const unsigned int i) { return mesh.vertices[v[i]] - mesh.vertices[v[0]]; };
+      volume += std::abs(cross_product_3d(x(1), x(2)) * x(3)) / 6.;
+    }
+  // A third of the shift along the normal of the slanted side times the area of its triangles around that
+  // middle.
+  const double bulge = .1 / std::sqrt(3.) * (.75 * .5 * std::sqrt(3.)) / 3.;
+  EXPECT_NEAR(volume, 1. / 6. + bulge, 1e-14);
+  std::size_t n_bottom = 0;
+  for (const auto &face : mesh.faces)
+    n_bottom += mesh.boundary_names[face.name] == "bottom";
+  EXPECT_EQ(n_bottom, 4u);
+  ASSERT_EQ(mesh.notes.size(), 1u);
+  expect_in(mesh.notes[0], "1 quadratic tetrahedra are cut into eight");
+}
+
+
+
 TEST(MeshInput, DoesNotJoinCoincidentNodes)
 {
   auto       points = cube();
