@@ -108,29 +108,42 @@ namespace Signorini
 
 
 
-  bool Element::shape_gradients(std::array<Vector3, CellShape::max_vertices> &gradients,
-                                const Point<3>                               &reference) const
+  bool Element::reference_gradients(std::array<Vector3, CellShape::max_vertices> &gradients, Block &inverse,
+                                    const Point<3> &reference) const
   {
-    std::array<Vector3, 8> g;
-    Block                  j;
+    Block j;
     if (n == CellShape::hexahedron)
       {
-        g = Hexahedron::reference_gradients(reference);
+        gradients = Hexahedron::reference_gradients(reference);
         for (unsigned int v = 0; v < n; ++v)
           for (unsigned int c = 0; c < 3; ++c)
             for (unsigned int d = 0; d < 3; ++d)
-              j[c][d] += corners[v][c] * g[v][d];
+              j[c][d] += corners[v][c] * gradients[v][d];
       }
     else
       {
-        g[0] = Vector3({-1., -1., -1.});
+        gradients    = {};
+        gradients[0] = Vector3({-1., -1., -1.});
         for (unsigned int c = 0; c < 3; ++c)
-          g[c + 1][c] = 1.;
+          gradients[c + 1][c] = 1.;
         j = tetrahedral_jacobian(corners);
       }
     if (!(determinant(j) > 0.))
       return false;
-    const Block t = transpose(invert(j));
+    inverse = invert(j);
+    return true;
+  }
+
+
+
+  bool Element::shape_gradients(std::array<Vector3, CellShape::max_vertices> &gradients,
+                                const Point<3>                               &reference) const
+  {
+    std::array<Vector3, CellShape::max_vertices> g;
+    Block                                        inverse;
+    if (!reference_gradients(g, inverse, reference))
+      return false;
+    const Block t = transpose(inverse);
     for (unsigned int v = 0; v < n; ++v)
       gradients[v] = t * g[v];
     return true;
@@ -232,11 +245,12 @@ namespace Signorini
   bool CellDisplacement::plain_gradient(Block &gradient, const Point<3> &reference) const
   {
     std::array<Vector3, CellShape::max_vertices> g;
-    if (!element.shape_gradients(g, reference))
+    Block                                        inverse, on_reference;
+    if (!element.reference_gradients(g, inverse, reference))
       return false;
-    gradient = Block();
     for (unsigned int v = 0; v < element.n_vertices(); ++v)
-      gradient += outer_product(u[v], g[v]);
+      on_reference += outer_product(u[v], g[v]);
+    gradient = on_reference * inverse;
     return true;
   }
 

@@ -7,6 +7,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <optional>
+
 namespace Signorini
 {
   using namespace dealii;
@@ -45,6 +47,20 @@ namespace Signorini
         Point<3>   reference(.25, .25, .25);
         if ((is_hexahedron || !eigenstrain.is_zero) && !element.invert_map(reference, point))
           reference = is_hexahedron ? Point<3>(.5, .5, .5) : Point<3>(.25, .25, .25);
+        return stress(reference);
+      }
+
+      /// Vertices of this cell, corner by corner of a face.
+      using Corners = std::array<unsigned int, 4>;
+
+      /// At a point of a face that this cell has as a whole.
+      /// @param shape values of the functions of its n corners
+      Block at_face_point(const std::array<double, 4> &shape, const Corners &corners,
+                          const unsigned int n) const
+      {
+        Point<3> reference;
+        for (unsigned int v = 0; v < n; ++v)
+          reference += shape[v] * Vector3(element.reference_vertex(corners[v]));
         return stress(reference);
       }
 
@@ -94,18 +110,29 @@ namespace Signorini
 
 
 
+    CellStress::Corners corners_of(const ElementFace &face)
+    {
+      CellStress::Corners corners = {};
+      for (unsigned int v = 0; v < face.n_corners(); ++v)
+        corners[v] = face.vertex(v);
+      return corners;
+    }
+
+
+
     /// The squared norm of sigma n - t on a boundary face, without the components in `fixed`.
     double boundary_residual(const CellStress &cell, const unsigned int face, const FaceTraction &traction,
                              const FixedDirections &fixed)
     {
-      const ElementFace shape(cell.element, face);
-      double            square = traction.square;
-      Vector3           normal;
+      const ElementFace         shape(cell.element, face);
+      const CellStress::Corners corners = corners_of(shape);
+      double                    square  = traction.square;
+      Vector3                   normal;
       for (unsigned int q = 0; q < shape.n_points(); ++q)
         {
           const auto    point = shape.point(q);
           const double  da    = point.area.norm();
-          const Vector3 t     = cell.at_point(point.position) * point.area / da;
+          const Vector3 t     = cell.at_face_point(point.shape, corners, shape.n_corners()) * point.area / da;
           square += da * project_free(fixed, t).norm_square();
           normal += point.area;
         }
@@ -113,7 +140,7 @@ namespace Signorini
       // The product with t: with sigma n as the combination of its values at the corners.
       for (unsigned int v = 0; v < shape.n_corners(); ++v)
         {
-          const Vector3 t = cell.at_point(cell.element.corner(shape.vertex(v))) * normal;
+          const Vector3 t = cell.stress(cell.element.reference_vertex(corners[v])) * normal;
           square -= 2. * (project_free(fixed, t) * traction.moments[v]);
         }
       return std::max(0., square);
@@ -135,16 +162,41 @@ namespace Signorini
         }
     }
 
-    /// h_F |[sigma n]|^2 / (mu_1 + mu_2), half of it.
-    double jump(const CellStress &inside, const CellStress &outside, const unsigned int face)
+    /// The same corners as vertices of the cell on the other side; nothing if it has not all of them, for it
+    /// is larger.
+    std::optional<CellStress::Corners> corners_outside(const NodalSpace            &space,
+                                                       const NodalSpace::InnerFace &face,
+                                                       const CellStress::Corners   &inside,
+                                                       const unsigned int           n)
     {
-      const ElementFace shape(inside.element, face);
-      double            square = 0.;
+      const auto nodes            = space.nodes(space.cells()[face.cell]),
+                 others           = space.nodes(space.cells()[face.other]);
+      CellStress::Corners corners = {};
+      for (unsigned int v = 0; v < n; ++v)
+        {
+          const auto it = std::find(others.begin(), others.end(), nodes[inside[v]]);
+          if (it == others.end())
+            return std::nullopt;
+          corners[v] = static_cast<unsigned int>(it - others.begin());
+        }
+      return corners;
+    }
+
+    /// h_F |[sigma n]|^2 / (mu_1 + mu_2), half of it.
+    double jump(const NodalSpace &space, const NodalSpace::InnerFace &face, const CellStress &inside,
+                const CellStress &outside)
+    {
+      const ElementFace         shape(inside.element, face.face);
+      const unsigned int        n       = shape.n_corners();
+      const CellStress::Corners corners = corners_of(shape);
+      const auto                others  = corners_outside(space, face, corners, n);
+      double                    square  = 0.;
       for (unsigned int q = 0; q < shape.n_points(); ++q)
         {
-          const auto    point = shape.point(q);
-          const Vector3 difference =
-              (inside.at_point(point.position) - outside.at_point(point.position)) * point.area;
+          const auto  point = shape.point(q);
+          const Block other =
+              others ? outside.at_face_point(point.shape, *others, n) : outside.at_point(point.position);
+          const Vector3 difference = (inside.at_face_point(point.shape, corners, n) - other) * point.area;
           square += difference.norm_square() / point.area.norm();
         }
       return .5 * shape.diameter() * square / (inside.material.mu() + outside.material.mu());
@@ -222,7 +274,7 @@ namespace Signorini
             stress_in(c), loads.volume_forces[bodies.body_of_material(cells[c].material)], loads.time);
     for (const NodalSpace::InnerFace &face : space.inner_faces())
       {
-        const double share = jump(stress_in(face.cell), stress_in(face.other), face.face);
+        const double share = jump(space, face, stress_in(face.cell), stress_in(face.other));
         indicator[face.cell] += share;
         indicator[face.other] += share;
       }

@@ -64,6 +64,19 @@ namespace Signorini
     /// Reference coordinates of a point in space; false if there are none.
     bool invert_map(dealii::Point<3> &reference, const dealii::Point<3> &point) const;
 
+    /// Gradients of the shape functions in reference coordinates, and the inverse of the derivative of the
+    /// map (1 / length). false where its determinant is not positive.
+    bool reference_gradients(std::array<Vector3, CellShape::max_vertices> &gradients, Block &inverse,
+                             const dealii::Point<3> &reference) const;
+
+    /// Reference coordinates of a vertex.
+    dealii::Point<3> reference_vertex(const unsigned int vertex) const
+    {
+      if (n_vertices() == CellShape::hexahedron)
+        return dealii::Point<3>(vertex & 1, vertex >> 1 & 1, vertex >> 2);
+      return dealii::Point<3>(vertex == 1, vertex == 2, vertex == 3);
+    }
+
     /// How far reference coordinates lie outside of the cell; 0 inside.
     double outside(const dealii::Point<3> &reference) const;
 
