@@ -69,6 +69,7 @@ namespace Signorini
     /// @param program with its version
     Checkpoints(OutputFolder &folder, const std::string &identity, const std::string &program,
                 const CheckpointParameters &parameters);
+    /// The checkpoint stays, for --resume.
     ~Checkpoints();
 
     /// Collective. Takes the state of an earlier run. Errors: InputError that says why there is none that

@@ -7,6 +7,8 @@
 #include <signorini/solvers/multigrid_hierarchy.h>
 #include <signorini/solvers/v_cycle.h>
 
+#include <set>
+
 namespace Signorini
 {
   /// How the numbers of a foreign problem (deal.II's, Trilinos') belong to nodes: dof = n_components * node +
