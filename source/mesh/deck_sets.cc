@@ -7,6 +7,7 @@
 #include <signorini/mesh/deck.h>
 
 #include <algorithm>
+#include <array>
 #include <set>
 
 namespace Signorini
@@ -67,11 +68,17 @@ namespace Signorini
       working,
       done
     };
-    RawSet &raw = sets.list[s];
+    // Each is a call of this function.
+    constexpr unsigned int deepest = 1000;
+    RawSet                &raw     = sets.list[s];
     if (raw.state == done)
       return;
     if (raw.state == working)
       source.fail(raw.entries[0].place, "the set \"" + raw.name + "\" contains itself.");
+    if (++sets.n_open > deepest)
+      source.fail(raw.entries[0].place, "the set \"" + raw.name + "\" is the last of " +
+                                            std::to_string(sets.n_open) +
+                                            " that contain each other; write its numbers.");
     raw.state                           = working;
     std::size_t               n_missing = 0;
     long                      missing   = 0;
@@ -123,6 +130,7 @@ namespace Signorini
                             " for one) belong to no " + (of_nodes ? "node." : "element."));
     result[s] = {raw.name, std::move(members)};
     raw.state = done;
+    --sets.n_open;
   }
 
 
@@ -194,6 +202,33 @@ namespace Signorini
 
 
 
+  namespace
+  {
+    /// Without what is there: a line of the file, of one instance, is in a surface once. (Else surfaces of
+    /// twice the one before would grow beyond all memory.)
+    void add_to_union(DeckSurface &surface, const DeckSurface &part)
+    {
+      const auto key = [](const DeckSurface::Faces &faces) {
+        return std::array<unsigned int, 3>{
+            {faces.place.file, faces.place.line, faces.elements.empty() ? Deck::none : faces.elements[0]}};
+      };
+      std::set<std::array<unsigned int, 3>> known;
+      for (const DeckSurface::Faces &faces : surface.faces)
+        known.insert(key(faces));
+      std::set<unsigned int> known_nodes(surface.nodes.begin(), surface.nodes.end());
+      // A surface may be a part of itself.
+      for (std::size_t i = 0, n = part.faces.size(); i < n; ++i)
+        if (known.insert(key(part.faces[i])).second)
+          surface.faces.push_back(part.faces[i]);
+      for (std::size_t i = 0, n = part.nodes.size(); i < n; ++i)
+        if (known_nodes.insert(part.nodes[i]).second)
+          surface.nodes.push_back(part.nodes[i]);
+      surface.is_of_nodes = surface.is_of_nodes || part.is_of_nodes;
+    }
+  } // namespace
+
+
+
   void Deck::resolve_surfaces()
   {
     for (const auto &[s, other] : surface_keywords)
@@ -214,12 +249,7 @@ namespace Signorini
             if (words.empty())
               continue;
             if (!combine.empty())
-              {
-                const DeckSurface part = this->surface(words[0], line.place, instance);
-                surface.faces.insert(surface.faces.end(), part.faces.begin(), part.faces.end());
-                surface.nodes.insert(surface.nodes.end(), part.nodes.begin(), part.nodes.end());
-                surface.is_of_nodes = surface.is_of_nodes || part.is_of_nodes;
-              }
+              add_to_union(surface, this->surface(words[0], line.place, instance));
             else if (type == "NODE")
               for (const unsigned int node : nodes_of(words[0], line.place, instance))
                 surface.nodes.push_back(node);

@@ -47,6 +47,13 @@ namespace Signorini
     {
       return line.empty() || line.compare(0, 2, "**") == 0;
     }
+
+    /// A file that ends: neither a folder nor a device. Names too long for a file are no error of their own.
+    bool is_readable_file(const std::string &file)
+    {
+      std::error_code error;
+      return std::filesystem::is_regular_file(file, error) && std::ifstream(file);
+    }
   } // namespace
 
 
@@ -165,8 +172,9 @@ namespace Signorini
     namespace fs = std::filesystem;
     if (fs::path(name).is_absolute())
       return name;
-    const fs::path beside_first = fs::path(file_names[0]).parent_path() / name;
-    if (fs::exists(beside_first))
+    const fs::path  beside_first = fs::path(file_names[0]).parent_path() / name;
+    std::error_code error;
+    if (fs::exists(beside_first, error))
       return beside_first.string();
     return (fs::path(file_names[place.file]).parent_path() / name).string();
   }
@@ -175,9 +183,10 @@ namespace Signorini
 
   void DeckText::read(const std::string &file, const unsigned int depth)
   {
-    std::ifstream in(file);
-    if (!in || std::filesystem::is_directory(file))
-      throw InputError((depth == 0 ? "The file \"" : "The included file \"") + file + "\" cannot be opened.");
+    std::ifstream   in(file);
+    std::error_code error;
+    if (!in || std::filesystem::is_directory(file, error))
+      throw InputError("The file \"" + file + "\" cannot be opened.");
     const auto number = static_cast<unsigned int>(file_names.size());
     file_names.push_back(file);
     std::string  line;
@@ -213,10 +222,10 @@ namespace Signorini
 
   void DeckText::read_data(DeckKeyword &keyword, const std::string &file)
   {
-    std::ifstream in(file);
-    if (!in)
+    if (!is_readable_file(file))
       fail(keyword.place, "the file \"" + file + "\" cannot be opened.");
-    const auto number = static_cast<unsigned int>(file_names.size());
+    std::ifstream in(file);
+    const auto    number = static_cast<unsigned int>(file_names.size());
     file_names.push_back(file);
     std::string  line;
     unsigned int n = 0;
@@ -252,7 +261,7 @@ namespace Signorini
         if (keyword.get("INPUT").empty())
           fail(place, "INCLUDE needs a file: *INCLUDE, INPUT=FILE.");
         const std::string file = path_of(keyword.get("INPUT"), place);
-        if (!std::ifstream(file))
+        if (!is_readable_file(file))
           fail(place, "the included file \"" + file + "\" cannot be opened.");
         read(file, depth + 1);
         return;

@@ -224,7 +224,8 @@ namespace Signorini
 
   SurfaceMesh read_surface(const std::string &file)
   {
-    if (!std::filesystem::is_regular_file(file))
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(file, error))
       throw InputError("Surface " + file + ": there is no such file.");
     std::string extension = std::filesystem::path(file).extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(), ::tolower);

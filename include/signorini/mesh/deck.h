@@ -205,6 +205,8 @@ namespace Signorini
     {
       std::vector<RawSet>                 list;
       std::map<std::string, unsigned int> index;
+      /// Sets that wait for one in them.
+      unsigned int n_open = 0;
     };
 
     void         read_keywords();

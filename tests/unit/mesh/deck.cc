@@ -184,6 +184,42 @@ TEST(Deck, RangesMayBeLongerThanWhatThereIs)
 
 
 
+// Few lines that mean much: surfaces that are twice the one before, and sets in sets in sets.
+TEST(Deck, GrowsNoFasterThanItsFile)
+{
+  const std::string one = nodes_text({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}) + element_text("C3D4", 4) +
+                          "*SURFACE, NAME=S0\nE, S1\nE, S2\n";
+  std::string doubled = one, itself = one + "*SURFACE, NAME=S0, COMBINE=UNION\n", chain = one;
+  for (unsigned int i = 1; i < 60; ++i)
+    {
+      const std::string before = "S" + std::to_string(i - 1);
+      doubled += "*SURFACE, NAME=S" + std::to_string(i) + ", COMBINE=UNION\n" + before + "\n" + before + "\n";
+      itself += "S0\n";
+    }
+  for (const std::string &text : {doubled, itself})
+    {
+      const TemporaryFile file(text, ".inp");
+      EXPECT_EQ(Deck(file.path).surfaces().back().faces.size(), 2u);
+    }
+  for (unsigned int i = 0; i < 100000; ++i)
+    chain += "*NSET, NSET=N" + std::to_string(i) + "\nN" + std::to_string(i + 1) + "\n";
+  expect_in(error_of(chain + "*NSET, NSET=N100000\n1\n"), "1001 that contain each other");
+}
+
+
+
+// Devices do not end, and names may be too long for the system.
+TEST(Deck, IncludesFilesAlone)
+{
+  for (const std::string &name : {std::string("/dev/zero"), std::string("/"), std::string(5000, 'x')})
+    {
+      expect_in(error_of("*INCLUDE, INPUT=" + name + "\n"), "line 1: the included file");
+      expect_in(error_of("*NODE, INPUT=" + name + "\n"), "line 1: the file");
+    }
+}
+
+
+
 TEST(DeckElements, QuadraticElementsAreCutIntoEight)
 {
   const std::vector<Point<3>> tetrahedron = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},

@@ -77,6 +77,8 @@ TEST(SurfaceFile, RefusesWhatItCannotRead)
     std::filesystem::remove(file);
   };
   EXPECT_THROW(read_surface("missing.off"), InputError);
+  // Longer than a name may be.
+  EXPECT_THROW(read_surface(std::string(5000, 'x') + ".off"), InputError);
   expect_error("x.vrml", "text", "known by");
   expect_error("empty.off", "OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n", "no triangles");
   expect_error("cut.off", "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1", "cannot be read");
