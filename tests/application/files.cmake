@@ -1,5 +1,9 @@
 # The program on small problems: run_case.py has the cases and their known answers.
+set(SIGNORINI_TEST_RANKS "" CACHE STRING "Application tests that several ranks run have these numbers of ranks instead of their own, say 3;8")
 function(signorini_add_application_test case)
+  if(SIGNORINI_TEST_RANKS AND NOT "${ARGN}" STREQUAL "1")
+    set(ARGN ${SIGNORINI_TEST_RANKS})
+  endif()
   foreach(ranks ${ARGN})
     add_test(NAME application/${case}.np${ranks}
              COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/application/run_case.py
@@ -40,6 +44,7 @@ signorini_add_application_test(deck_words 1 2)
 signorini_add_application_test(dense_coupling 1 2)
 signorini_add_application_test(errors 1 2)
 signorini_add_application_test(finished_mesh 1 2 4)
+signorini_add_application_test(examples_on_ranks 3)
 signorini_add_application_test(fitting_press 1)
 signorini_add_application_test(fitting_shells 1)
 signorini_add_application_test(fitting_shells_tetrahedra 1)

@@ -20,6 +20,7 @@ import heat_cases
 import load_cases
 import output_cases
 import random_pair_cases
+import rank_cases
 import report_cases
 import shape_cases
 import tool_cases
@@ -703,7 +704,7 @@ def surface_map(p):
 
 
 if __name__ == '__main__':
-    modules = (sys.modules[__name__], checkpoint_cases, deck_cases, geometry_cases, hardening_cases, heat_cases, finished_mesh_cases, free_body_cases, load_cases, output_cases, random_pair_cases, report_cases, shape_cases,
+    modules = (sys.modules[__name__], checkpoint_cases, deck_cases, geometry_cases, hardening_cases, heat_cases, finished_mesh_cases, free_body_cases, load_cases, output_cases, random_pair_cases, rank_cases, report_cases, shape_cases,
                tool_cases, true_gap_cases, verification_cases, verify_cases)
     case = next(getattr(m, sys.argv[2]) for m in modules if hasattr(m, sys.argv[2]))
     case(Program(sys.argv[1], int(sys.argv[3])))
