@@ -195,7 +195,6 @@ namespace Signorini
       const NodePartition partition = system.matrix.partition();
       problem.half_spaces           = make_half_spaces(d, partition, d.transformation->reduce_gaps(d.gaps));
       problem.semidefinite          = !d.free_motions().empty();
-      problem.has_start             = start != nullptr;
       if (problem.semidefinite)
         {
           problem.free_motions = motions_of_unknowns(model, *d.constrained, partition, *d.transformation);

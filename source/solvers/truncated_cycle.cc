@@ -45,7 +45,7 @@ namespace Signorini
     smoother.smooth_from_zero(correction, residual, contact, plan.smoothing, new_residual);
     check(v, correction);
     const bool may_minimize = has_subspace && plan.phase != IterationPhase::resting;
-    if (may_minimize && (stays_blocked || plan.phase == IterationPhase::starting))
+    if (may_minimize && stays_blocked)
       {
         minimize_in_subspace();
         check(v, correction);

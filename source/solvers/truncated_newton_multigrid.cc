@@ -134,8 +134,6 @@ namespace Signorini
     Vector               residual;
     residual.reinit(v);
     IterationPhase phase = begin_from(v, residual, problem);
-    if (problem.semidefinite && !problem.has_start)
-      phase = IterationPhase::starting;
     while (goes_on(report))
       {
         cycle.run(v, residual, {sweeps.choose(phase), phase, trusts_set}, check);

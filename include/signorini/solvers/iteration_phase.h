@@ -9,9 +9,6 @@ namespace Signorini
   /// Where a truncated Newton iteration is.
   enum class IterationPhase
   {
-    /// The first correction of bodies that nothing holds but contact, without a solution on a coarser mesh:
-    /// which nodes are active is not known at all.
-    starting,
     /// The active set may change: coarse corrections are searched.
     searching,
     /// The last step was shortened: active nodes have left their planes behind and are on the way to them.

@@ -65,8 +65,6 @@ namespace Signorini
     std::vector<Vector> near_kernel;
     /// Whether A has a kernel: bodies that only the half-spaces hold.
     bool semidefinite = false;
-    /// Whether the start is a solution, of a coarser mesh or of other loads.
-    bool has_start = false;
     /// Rigid motions of such bodies, orthonormal; may be left out.
     std::vector<Vector> free_motions;
   };

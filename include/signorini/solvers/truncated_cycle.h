@@ -16,9 +16,8 @@ namespace Signorini
   /// One correction z of an iterate v: projected smoothing on a level, one linear V-cycle on the spaces below
   /// truncated at active nodes, the better of this correction projected and shortened with exact line search,
   /// smoothing. Where bodies are held by contact alone and nodes in the way leave little of the correction,
-  /// the minimizer in the contact subspace follows, and a second correction; without a start the minimizer
-  /// comes before the V-cycle, too. It hands out A z, which costs no product, but where there was a
-  /// minimizer.
+  /// the minimizer in the contact subspace follows, and a second correction. It hands out A z, which costs no
+  /// product, but where there was a minimizer.
   class TruncatedCycle
   {
   public:
