@@ -127,18 +127,6 @@ namespace Signorini
       return {mirrored_start[row], mirrored_start[row + 1]};
     }
 
-    /// Columns of the blocks above the diagonals.
-    const unsigned int *mirrored_column_data() const
-    {
-      return mirrored_columns.data();
-    }
-
-    /// Position of the block that is the transposed one of number m.
-    std::size_t mirrored_position(const std::size_t m) const
-    {
-      return mirrored[m];
-    }
-
     /// The blocks of an owned row above the diagonal, for kernels.
     MirroredBlocks mirrored_blocks(const unsigned int row) const
     {
