@@ -1,6 +1,7 @@
 signorini_add_layer(algebra
   algebraic_multigrid.cc
   block_row.cc
+  block_structure.cc
   fixed_directions.cc
   galerkin_product.cc
   interface_rows.cc

@@ -5,6 +5,7 @@
 
 #include <deal.II/base/utilities.h>
 
+#include <boost/algorithm/string.hpp>
 #include <boost/property_tree/json_parser.hpp>
 
 #include <algorithm>
@@ -17,13 +18,6 @@ namespace Signorini
 
   namespace
   {
-    std::string lower_case(std::string text)
-    {
-      std::transform(text.begin(), text.end(), text.begin(),
-                     [](const unsigned char c) { return std::tolower(c); });
-      return text;
-    }
-
     /// Names that people know from elsewhere, in lower case, and ours.
     const std::multimap<std::string, std::string> &other_names()
     {
@@ -76,10 +70,11 @@ namespace Signorini
 
     bool is_similar(const std::string &name, const std::string &candidate)
     {
-      const std::string     a = lower_case(name), b = lower_case(candidate);
+      const std::string a                      = boost::algorithm::to_lower_copy(name),
+                        b                      = boost::algorithm::to_lower_copy(candidate);
       constexpr std::size_t shortest_beginning = 4;
       if (a.size() >= shortest_beginning && b.size() >= shortest_beginning &&
-          (a.compare(0, b.size(), b) == 0 || b.compare(0, a.size(), a) == 0))
+          (boost::algorithm::starts_with(a, b) || boost::algorithm::starts_with(b, a)))
         return true;
       return distance(a, b) <= std::max(a.size(), b.size()) / 3;
     }
@@ -96,7 +91,7 @@ namespace Signorini
     std::vector<std::string> similar_names(const std::string &name, const std::vector<std::string> &names)
     {
       std::vector<std::string> result;
-      const auto [begin, end] = other_names().equal_range(lower_case(name));
+      const auto [begin, end] = other_names().equal_range(boost::algorithm::to_lower_copy(name));
       for (auto it = begin; it != end; ++it)
         if (std::find(names.begin(), names.end(), it->second) != names.end())
           result.push_back(it->second);
@@ -105,7 +100,8 @@ namespace Signorini
       std::copy_if(names.begin(), names.end(), std::back_inserter(result),
                    [&](const std::string &candidate) { return is_similar(name, candidate); });
       std::stable_sort(result.begin(), result.end(), [&](const std::string &a, const std::string &b) {
-        return distance(lower_case(name), lower_case(a)) < distance(lower_case(name), lower_case(b));
+        return distance(boost::algorithm::to_lower_copy(name), boost::algorithm::to_lower_copy(a)) <
+               distance(boost::algorithm::to_lower_copy(name), boost::algorithm::to_lower_copy(b));
       });
       return result;
     }

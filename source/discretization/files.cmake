@@ -10,6 +10,7 @@ signorini_add_layer(discretization
   element.cc
   error_indicator.cc
   exact_error.cc
+  expanded_cell.cc
   hexahedron.cc
   interpolation_exchange.cc
   level_hierarchy.cc

@@ -235,8 +235,11 @@ namespace Signorini
 
       std::map<VolumeMesh::Face, std::string> named;
       for (const auto &[entity, n, nodes] : elements(2, face_types, file))
-        for (std::size_t k = 0; k + n <= nodes.size(); k += n)
-          name_element(named, gmsh_nodes, nodes.data() + k, n, group_name(2, entity, "unnamed"));
+        {
+          const std::string name = group_name(2, entity, "unnamed");
+          for (std::size_t k = 0; k + n <= nodes.size(); k += n)
+            name_element(named, gmsh_nodes, nodes.data() + k, n, name);
+        }
       name_faces(mesh, named);
       return mesh;
     }

@@ -4,26 +4,14 @@
 #ifndef signorini_algebra_node_block_matrix_h
 #define signorini_algebra_node_block_matrix_h
 
-#include <signorini/algebra/block_row.h>
-#include <signorini/algebra/node_partition.h>
+#include <signorini/algebra/block_structure.h>
+#include <signorini/algebra/types.h>
 
-#include <array>
-#include <memory>
+#include <algorithm>
 #include <vector>
 
 namespace Signorini
 {
-  /// Rows of global column numbers, for building a NodeBlockMatrix.
-  struct NodePattern
-  {
-    /// Owned rows first (in order), then the foreign rows.
-    std::vector<std::size_t> row_start = {0};
-    /// Node numbers of the columns, row by row.
-    std::vector<NodeIndex> columns;
-    /// Global numbers of the foreign rows (owned by other ranks), sorted.
-    std::vector<NodeIndex> foreign_rows;
-  };
-
   /// A block of a row of a NodeBlockMatrix.
   struct RowEntry
   {
@@ -48,98 +36,22 @@ namespace Signorini
     }
   };
 
-  /// Symmetric sparse matrix of 3x3 blocks, one row and column per node, distributed by rows.
-  ///
-  /// Half of it is in memory: of a row the diagonal block, those below it (owned columns with a smaller
-  /// number) and those whose columns are ghosts. The blocks above the diagonal are those below it in other
-  /// rows, transposed ("mirrored"); a row knows where they are. Columns ascend in each of the four parts. In
-  /// memory come all diagonal blocks, the lower parts of all rows, then what couples to ghosts.
-  ///
-  /// A rank may also hold rows of other ranks ("foreign" rows, without what their owner has mirrored): they
-  /// collect contributions until compress() adds them to the owner's row. Products use the owned rows only.
-  class NodeBlockMatrix
+  /// Symmetric sparse matrix of 3x3 blocks, one row and column per node, distributed by rows. Half of it is
+  /// in memory, where BlockStructure says. Products use the owned rows only.
+  class NodeBlockMatrix : public BlockStructure
   {
   public:
-    /// Collective. Builds the structure: the union, on the owner, of what all ranks put into a row. It must
-    /// be symmetric; the diagonal is added. extra_ghosts become ghosts of the partition besides the columns.
+    /// Collective. Zeros in the union, on the owner, of what all ranks put into a row; the diagonal is added.
+    /// extra_ghosts become ghosts of the partition besides the columns. Errors: an exception where the blocks
+    /// among the rows of a rank are not symmetric.
     void reinit(const dealii::IndexSet &owned, const NodePattern &pattern,
                 const dealii::IndexSet &extra_ghosts, const MPI_Comm communicator);
-
-    /// The nodes of rows and columns.
-    const NodePartition &partition() const
-    {
-      return *nodes;
-    }
-
-    /// The same, to be kept.
-    std::shared_ptr<const NodePartition> shared_partition() const
-    {
-      return nodes;
-    }
-
-    /// Owned rows.
-    unsigned int n_rows() const
-    {
-      return nodes->n_owned();
-    }
-
-    /// Blocks of the owned rows that are in memory.
-    std::size_t n_stored_blocks() const
-    {
-      return outer_start[n_rows()];
-    }
-
-    /// Blocks of the owned rows.
-    std::size_t n_blocks() const
-    {
-      return n_stored_blocks() + mirrored.size();
-    }
-
-    /// Position of the diagonal block of an owned row.
-    std::size_t diagonal(const unsigned int row) const
-    {
-      return row;
-    }
-
-    /// Positions of the blocks of an owned row below the diagonal.
-    BlockRange lower(const unsigned int row) const
-    {
-      return {lower_start[row], lower_start[row + 1]};
-    }
-
-    /// Positions of the blocks of an owned row whose columns are ghosts, of the blocks of a foreign row.
-    BlockRange outer(const unsigned int row) const
-    {
-      return {outer_start[row], outer_start[row + 1]};
-    }
-
-    /// Positions of all blocks of a row that are in memory: diagonal, lower, outer.
-    std::array<BlockRange, 3> stored(const unsigned int row) const
-    {
-      if (row < n_rows())
-        return {{{row, row + std::size_t(1)}, lower(row), outer(row)}};
-      return {{{0, 0}, {0, 0}, outer(row)}};
-    }
-
-    /// The blocks of an owned row above the diagonal, as numbers among all such blocks.
-    BlockRange above(const unsigned int row) const
-    {
-      return {mirrored_start[row], mirrored_start[row + 1]};
-    }
 
     /// The blocks of an owned row above the diagonal, for kernels.
     MirroredBlocks mirrored_blocks(const unsigned int row) const
     {
-      const BlockRange range = above(row);
-      return {values.data(), mirrored.data() + range.begin, mirrored_columns.data() + range.begin,
-              range.size()};
-    }
-
-    /// Whether the block (row, local column) of a row given by row_of() is in memory.
-    bool stores(const unsigned int row, const unsigned int local_column) const
-    {
-      return row < n_rows() ? local_column <= row || local_column >= n_rows()
-                            : foreign_rows[row - n_rows()].stores(local_column);
+      const MirroredPlaces places = above(row);
+      return {values.data(), places.positions, places.columns, places.n};
     }
 
     /// Adds blocks to a row given by row_of(), as far as they are in memory.
@@ -149,34 +61,19 @@ namespace Signorini
     void add_to_row(const unsigned int row, const std::vector<unsigned int> &local_columns,
                     const BlockOf &block_of)
     {
-      std::size_t m   = 0;
-      const auto  add = [&](const std::size_t k) {
-        double *const       to   = block(k);
-        const double *const from = block_of(m);
-        for (unsigned int c = 0; c < 9; ++c)
-          to[c] += from[c];
-      };
-      const auto add_up_to = [&](const unsigned int end, std::size_t k) {
-        for (; m < local_columns.size() && local_columns[m] < end; ++m)
-          if (stores(row, local_columns[m]))
-            {
-              while (columns[k] != local_columns[m])
-                ++k;
-              add(k);
-            }
-      };
-      if (row < n_rows())
-        {
-          add_up_to(row, lower_start[row]);
-          if (m < local_columns.size() && local_columns[m] == row)
-            {
-              add(diagonal(row));
-              ++m;
-            }
-          while (m < local_columns.size() && local_columns[m] < n_rows())
-            ++m;
-        }
-      add_up_to(dealii::numbers::invalid_unsigned_int, outer_start[row]);
+      const bool  is_owned = row < n_rows();
+      std::size_t next     = is_owned ? lower(row).begin : outer(row).begin;
+      for (std::size_t m = 0; m < local_columns.size(); ++m)
+        if (const unsigned int c = local_columns[m]; is_owned && c == row)
+          add_to_block(diagonal(row), block_of(m));
+        else if (stores(row, c))
+          {
+            if (c >= n_rows())
+              next = std::max(next, outer(row).begin);
+            while (column(next) != c)
+              ++next;
+            add_to_block(next, block_of(m));
+          }
     }
 
     /// Calls action(RowEntry) for all blocks of an owned row: diagonal, lower, mirrored, outer.
@@ -185,37 +82,14 @@ namespace Signorini
     {
       const auto visit = [&](const BlockRange &range) {
         for (std::size_t k = range.begin; k < range.end; ++k)
-          action(RowEntry{columns[k], block(k), false});
+          action(RowEntry{column(k), block(k), false});
       };
       action(RowEntry{row, block(diagonal(row)), false});
       visit(lower(row));
-      for (std::size_t m = mirrored_start[row]; m < mirrored_start[row + 1]; ++m)
-        action(RowEntry{mirrored_columns[m], block(mirrored[m]), true});
+      const MirroredBlocks above = mirrored_blocks(row);
+      for (std::size_t m = 0; m < above.n; ++m)
+        action(RowEntry{above.columns[m], block(above.positions[m]), true});
       visit(outer(row));
-    }
-
-    /// Number of blocks of an owned row.
-    std::size_t row_length(const unsigned int row) const
-    {
-      return 1 + lower(row).size() + above(row).size() + outer(row).size();
-    }
-
-    /// Local node of the column of a block in memory.
-    unsigned int column(const std::size_t k) const
-    {
-      return columns[k];
-    }
-
-    /// column() of all blocks, as an array for kernels.
-    const unsigned int *column_data() const
-    {
-      return columns.data();
-    }
-
-    /// lower(row).begin of all owned rows, and the end of the last.
-    const std::size_t *lower_start_data() const
-    {
-      return lower_start.data();
     }
 
     /// The blocks of all positions.
@@ -235,58 +109,6 @@ namespace Signorini
     {
       return values.data() + 9 * k;
     }
-
-    /// The owned rows that have a column with the given property, ascending.
-    template <typename Property>
-    std::vector<unsigned int> rows_with_column(const Property &property) const
-    {
-      std::vector<bool> is_found(n_rows(), false);
-      for (unsigned int row = 0; row < n_rows(); ++row)
-        {
-          if (property(row))
-            visit_row(row, [&](const RowEntry &entry) {
-              if (entry.column < n_rows())
-                is_found[entry.column] = true;
-            });
-          for (std::size_t k = outer(row).begin; k < outer(row).end && !is_found[row]; ++k)
-            is_found[row] = property(columns[k]);
-        }
-      std::vector<unsigned int> rows;
-      for (unsigned int row = 0; row < n_rows(); ++row)
-        if (is_found[row])
-          rows.push_back(row);
-      return rows;
-    }
-
-    /// An owned row that couples to a ghost, and the position of that block.
-    struct GhostCoupling
-    {
-      /// The row, and where its block is.
-      unsigned int row;
-      std::size_t  block;
-    };
-
-    /// The owned rows that couple to a ghost (numbered from 0), ascending: its column.
-    std::pair<const GhostCoupling *, const GhostCoupling *> ghost_column(const unsigned int ghost) const
-    {
-      return {ghost_couplings.data() + ghost_start[ghost], ghost_couplings.data() + ghost_start[ghost + 1]};
-    }
-
-    /// Number of blocks of owned rows whose columns are ghosts.
-    std::size_t n_ghost_couplings() const
-    {
-      return ghost_couplings.size();
-    }
-
-    /// The row index (owned or foreign) in which this rank collects contributions to a local node,
-    /// or dealii::numbers::invalid_unsigned_int.
-    unsigned int row_of(const unsigned int local_node) const
-    {
-      return local_node < nodes->n_owned() ? local_node : foreign_row_of_ghost[local_node - nodes->n_owned()];
-    }
-
-    /// Position of the block (row, local column) in a row given by row_of(). It must be in memory (stores()).
-    std::size_t find(const unsigned int row, const unsigned int local_column) const;
 
     /// Sets what a row given by row_of() has in memory to zero.
     void clear_row(const unsigned int row);
@@ -308,44 +130,14 @@ namespace Signorini
     void symmetric_residual(Vector &residual, const Vector &src, const Vector &rhs) const;
 
   private:
-    /// Collective. What compress() sends of the foreign rows, which are sorted by node, hence by owner, and
-    /// where it puts what it receives.
-    void plan_compression(const NodePattern &pattern);
-
-    void find_foreign_rows(const NodePattern &pattern);
-
-    void mirror_lower_parts();
-
-    void collect_ghost_columns();
-
-    std::shared_ptr<const NodePartition> nodes;
-    /// Owned rows; outer_start goes on with the foreign rows.
-    std::vector<std::size_t>  lower_start, outer_start;
-    std::vector<unsigned int> columns;
-    std::vector<double>       values;
-    /// Row by row what is above the diagonal: columns, and positions of the transposed blocks.
-    std::vector<std::size_t>  mirrored_start;
-    std::vector<unsigned int> mirrored_columns, mirrored;
-
-    /// A row of another rank: its local node, and the end of the local nodes of its owner.
-    struct ForeignRow
+    void add_to_block(const std::size_t k, const double *const numbers)
     {
-      unsigned int node, end_of_owner;
+      for (unsigned int i = 0; i < 9; ++i)
+        values[9 * k + i] += numbers[i];
+    }
 
-      bool stores(const unsigned int local_column) const
-      {
-        return local_column <= node || local_column >= end_of_owner;
-      }
-    };
-    std::vector<ForeignRow>   foreign_rows;
-    std::vector<unsigned int> foreign_row_of_ghost;
-    /// Column by column.
-    std::vector<std::size_t>   ghost_start = {0};
-    std::vector<GhostCoupling> ghost_couplings;
-    /// For each rank that gets contributions: the range of stored rows.
-    std::vector<std::pair<unsigned int, std::pair<unsigned int, unsigned int>>> send_rows;
-    /// For each rank that sends: the positions its blocks are added to.
-    std::vector<std::pair<unsigned int, std::vector<std::size_t>>> receive_positions;
+    /// One number more than there are, see block_row.h.
+    std::vector<double> values;
   };
 
   /// Collective. The largest diagonal entry of a matrix, over all ranks: a scale for its units.

@@ -58,7 +58,8 @@ def symmetric(A):
     difference = abs(A - A.T)
     if difference.nnz and difference.max() > 1e-10 * abs(A).max():
         raise _core.InputError(f'A is not symmetric: entries differ by {difference.max():.3g}.')
-    return A
+    # The same numbers, but for rounding, and none that is stored on one side only.
+    return rows_of((A + A.T) / 2, 'A')
 
 
 def nodal(P, name, n_nodes, components):
