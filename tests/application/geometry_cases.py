@@ -3,9 +3,11 @@ import itertools
 import math
 import os
 import random
+import shutil
 import struct
 import tempfile
 
+from free_body_cases import make_mesh
 from harness import TOP, certificate, check, constant_pressure, iterations, near, read_pressure
 from input_cases import dense_coupling, held_surfaces, overlaps, parts, shared_surfaces  # noqa: F401
 
@@ -581,3 +583,25 @@ def probes(p):
     solve('tetrahedra cut into hexahedra', [(x, y, z + 1) for x, y, z in grid if z < 0 and math.hypot(x, y, z) <= .93],
           f'Body ball/Mesh={TOP}/prm/hertz/half_sphere_on_cube.msh', 'Body ball/Volumes=ball', 'Body ball/Convert to hexahedra=true',
           f'Body ball/Dirichlet=sphere: {linear}; ball top: {linear}', 'Refinement/Global cycles=0')
+
+
+def ridge(p):
+    """A ridge far from the groove that it stands in, beside shoulders that touch. The groove's mapping has errors either way: what the run says of them
+    depends on whether they are where the bodies touch."""
+    with tempfile.TemporaryDirectory() as folder:
+        here = os.path.join(TOP, 'tests', 'application')
+        make_mesh(os.path.join(here, 'ridge.geo'), os.path.join(folder, 'ridge.msh'))
+        prm = shutil.copy(os.path.join(here, 'ridge.prm'), folder)
+
+        def last_words(nonmortar):
+            run = p.call(prm, '--output', os.path.join(folder, 'out'), '--set', f'Pair seat/Nonmortar={nonmortar}')
+            words = [line for line in run.stdout.split('\n') if line.startswith(('WARNING', 'contact conditions'))]
+            print(f'{nonmortar}: {words}')
+            return run.returncode, words
+
+        code, words = last_words('second')
+        check(code == 0 and words[-1] == 'contact conditions hold: yes', f'groove: exit code {code}, {words}')
+        check(len(words) == 2 and 'none is near where the bodies touch' in words[0], f'groove: {words}')
+        code, words = last_words('first')
+        check(code == 3 and 'pressures and forces near those places are wrong' in words[0], f'ridge: exit code {code}, {words}')
+        check(any('hold: NO: pair seat: the contact mapping has errors where the bodies touch' in line for line in words), f'ridge: {words}')

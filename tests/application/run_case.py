@@ -594,6 +594,11 @@ def errors(p):
         out = os.path.join(folder, 'out')
         cases = [(['missing.prm'], 'missing.prm'),
                  ([prm, '--set', 'Body upper/Colour=red'], 'Colour'),
+                 ([prm, '--set', 'Body upper/Neumann=top: (0, 0, 1)'], 'Perhaps "Tractions" or "Forces" is meant.'),
+                 ([prm, '--set', 'Body upper/Poison ratio=0.3'], 'Perhaps "Poisson ratio" is meant.'),
+                 ([prm, '--set', 'Tolerance=1e-3'], 'It is a parameter of subsection "Solver".'),
+                 ([prm, '--set', 'Body uper/Mesh=block'], 'Perhaps "Body upper" or'),
+                 ([prm, '--set', 'Pair interface/Colour=red'], '"Contact"'),
                  ([prm, '--set', 'Body upper/Dirichlet=lid: (0, 0, 0)'], 'Body upper/Dirichlet: body upper has no boundary "lid"'),
                  ([prm, '--set', 'Body upper/Poisson ratio=0.5'], 'Poisson ratio'),
                  ([prm, '--set', 'Body upper/Young modulus=0'], 'Young modulus'),

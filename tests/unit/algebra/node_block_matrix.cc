@@ -259,3 +259,18 @@ TEST(NodeBlockMatrix, ResidualsAreThoseOfTheDenseMatrix)
         }
     }
 }
+
+
+
+// Half of what is above the diagonal would be lost.
+TEST(NodeBlockMatrix, RefusesAStructureWithOneSide)
+{
+  if (RandomMatrix::n_ranks() > 1)
+    GTEST_SKIP() << "on one rank";
+  NodePattern pattern;
+  pattern.columns   = {0, 1, 1};
+  pattern.row_start = {0, 2, 3};
+  NodeBlockMatrix matrix;
+  EXPECT_THROW(matrix.reinit(dealii::complete_index_set(2), pattern, dealii::IndexSet(2), MPI_COMM_WORLD),
+               dealii::ExceptionBase);
+}
