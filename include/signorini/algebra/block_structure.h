@@ -102,8 +102,9 @@ namespace Signorini
     /// Columns of mirrored blocks, and positions of those that they mirror.
     struct MirroredPlaces
     {
-      const unsigned int *positions, *columns;
-      std::size_t         n;
+      const unsigned int *positions; ///< Positions of the stored blocks, n of them.
+      const unsigned int *columns;   ///< Local columns of the mirrored blocks, n of them.
+      std::size_t         n;         ///< Number of blocks.
     };
 
     /// The blocks of an owned row above the diagonal.
