@@ -9,6 +9,7 @@ signorini_add_layer(solvers
   free_motion_correction.cc
   gathered_blocks.cc
   gathered_obstacle_problem.cc
+  interior_point.cc
   gauss_seidel_iteration.cc
   interface_correction.cc
   level_zero_solver.cc

@@ -54,6 +54,16 @@ namespace Signorini
 
 
 
+  void FreeMotionCorrection::restore_work(Vector &residual) const
+  {
+    const std::vector<double> work = dot_products(motions, residual);
+    residual.zero_out_ghost_values();
+    for (std::size_t i = 0; i < motions.size(); ++i)
+      residual.add(loads[i] - work[i], motions[i]);
+  }
+
+
+
   void FreeMotionCorrection::update(const ContactState &contact)
   {
     const bool changes = !motions.empty() && (!active || *active != contact.active());
@@ -167,7 +177,7 @@ namespace Signorini
       x = -x;
     Vector shifted = c;
     add(shifted, idle);
-    if (contact.longest_step(z, shifted) >= before)
+    if (contact.longest_step(z, shifted) >= (1. - Rule().shorter) * before)
       c.swap(shifted);
   }
 } // namespace Signorini

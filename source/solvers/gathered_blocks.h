@@ -31,6 +31,14 @@ namespace Signorini
       return columns.size();
     }
 
+    /// The block on the diagonal of a row.
+    Block diagonal_block(const std::size_t row) const
+    {
+      const auto place =
+          std::lower_bound(columns.begin() + start[row], columns.begin() + start[row + 1], row);
+      return read_block(values.data() + dim * dim * (place - columns.begin()));
+    }
+
     /// A x.
     Eigen::VectorXd operator*(const Eigen::VectorXd &x) const;
 

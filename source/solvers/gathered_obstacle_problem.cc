@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
-#include "gathered_blocks.h"
+#include "interior_point.h"
 #include "single_threaded.h"
 
 #include <signorini/algebra/gathered_lists.h>
@@ -21,13 +21,11 @@ namespace Signorini
     {
       /// Steps of the primal-dual active set method, which may cycle.
       unsigned int n_steps = 20;
-      /// Steps of the projected Newton method, and how often one of them is halved.
-      unsigned int n_newton_steps = 20, n_halvings = 8;
       /// Part of the diagonal that makes a singular matrix definite: the rounding of the residual does not
       /// move a body much, and a body that nothing holds moves as far as something does.
       double regularization = 1e-9;
-      /// Rounding of an energy, relative to the work of the residual.
-      double rounding = 1e-12;
+      /// Forces that it may leave, relative to the residual of the start.
+      double forces_left = 1e-6;
     };
 
     using States = std::vector<NodeState>;
@@ -50,9 +48,11 @@ namespace Signorini
   /// The problem on rank 0.
   struct GatheredObstacleProblem::Factors
   {
-    GatheredBlocks                                         matrix;
-    GatheredBlocks::LowerHalf                              truncated;
-    Eigen::CholmodSupernodalLLT<GatheredBlocks::LowerHalf> cholesky;
+    GatheredBlocks            matrix;
+    GatheredBlocks::LowerHalf truncated;
+    InteriorPoint::Cholesky   cholesky;
+    /// The active set of the last result.
+    Flags last;
     /// Planes that were cut off before the factorization; valid if has_factors.
     Flags factorized;
     bool  has_factors = false, is_definite = false;
@@ -68,24 +68,11 @@ namespace Signorini
     void factorize(const States &states, const Flags &active);
     bool try_factors(const States &states);
 
-    /// The step to the minimizer on the planes of active nodes, from where it first goes to them if wanted;
-    /// `residual` becomes that of the result.
-    bool minimize(Eigen::VectorXd &step, Eigen::VectorXd &residual, const States &states, const Flags &active,
-                  const bool goes_to_planes);
-
-    /// Adds the minimizer in the planes of active nodes to a step.
-    bool add_tangential_minimizer(Eigen::VectorXd &step, Eigen::VectorXd &residual, const States &states,
-                                  const Flags &active);
-
-    double energy(const Eigen::VectorXd &step, const Eigen::VectorXd &load) const
-    {
-      return step.dot(.5 * (matrix * step) - load);
-    }
+    /// The step to the minimizer on the planes of active nodes; `residual` becomes that of the result.
+    bool minimize(Eigen::VectorXd &step, Eigen::VectorXd &residual, const States &states,
+                  const Flags &active);
 
     bool            settle(Eigen::VectorXd &step, const States &states, Flags &active);
-    Eigen::VectorXd search(const States &states, Flags &active);
-    bool search_along(Eigen::VectorXd &step, const Eigen::VectorXd &direction, const States &states,
-                      const Eigen::VectorXd &load) const;
     Eigen::VectorXd solve(const States &states, Flags &active);
   };
 
@@ -102,23 +89,22 @@ namespace Signorini
       return result;
     }
 
-    /// Moves nodes that are outside onto their planes.
-    void project(Eigen::VectorXd &step, const States &states)
+    /// Without normal parts at active nodes.
+    Eigen::VectorXd in_planes(Eigen::VectorXd x, const States &states, const Flags &active)
     {
       for (std::size_t i = 0; i < states.size(); ++i)
-        if (states[i].room >= 0.)
-          if (const double excess = normal_part(step, i, states[i].normal) - states[i].room; excess > 0.)
-            add_normal(step, i, states[i].normal, -excess);
+        if (active[i])
+          add_normal(x, i, states[i].normal, -normal_part(x, i, states[i].normal));
+      return x;
     }
 
-    double longest_step(const Eigen::VectorXd &step, const States &states, const Flags &active)
+    /// Moves active nodes onto their planes.
+    Eigen::VectorXd to_planes(Eigen::VectorXd step, const States &states, const Flags &active)
     {
-      double length = 1.;
       for (std::size_t i = 0; i < states.size(); ++i)
-        if (states[i].room >= 0. && !active[i])
-          if (const double motion = normal_part(step, i, states[i].normal); motion > 0.)
-            length = std::min(length, states[i].room / motion);
-      return length;
+        if (active[i])
+          add_normal(step, i, states[i].normal, states[i].room - normal_part(step, i, states[i].normal));
+      return step;
     }
   } // namespace
 
@@ -170,35 +156,18 @@ namespace Signorini
 
 
 
-  bool GatheredObstacleProblem::Factors::add_tangential_minimizer(Eigen::VectorXd &step,
-                                                                  Eigen::VectorXd &residual,
-                                                                  const States &states, const Flags &active)
+  bool GatheredObstacleProblem::Factors::minimize(Eigen::VectorXd &step, Eigen::VectorXd &residual,
+                                                  const States &states, const Flags &active)
   {
     factorize(states, active);
     if (!is_definite)
       return false;
-    Eigen::VectorXd tangential = residual;
-    for (std::size_t i = 0; i < states.size(); ++i)
-      if (active[i])
-        add_normal(tangential, i, states[i].normal, -normal_part(tangential, i, states[i].normal));
-    tangential = Eigen::VectorXd(cholesky.solve(tangential));
+    step                             = to_planes(Eigen::VectorXd::Zero(dim * states.size()), states, active);
+    residual                         = residual_of(states) - matrix * step;
+    const Eigen::VectorXd tangential = cholesky.solve(in_planes(residual, states, active));
     step += tangential;
     residual -= matrix * tangential;
     return true;
-  }
-
-
-
-  bool GatheredObstacleProblem::Factors::minimize(Eigen::VectorXd &step, Eigen::VectorXd &residual,
-                                                  const States &states, const Flags &active,
-                                                  const bool goes_to_planes)
-  {
-    step = Eigen::VectorXd::Zero(dim * states.size());
-    for (std::size_t i = 0; i < states.size(); ++i)
-      if (goes_to_planes && active[i])
-        add_normal(step, i, states[i].normal, states[i].room);
-    residual = residual_of(states) - matrix * step;
-    return add_tangential_minimizer(step, residual, states, active);
   }
 
 
@@ -208,7 +177,7 @@ namespace Signorini
     Eigen::VectorXd residual;
     for (unsigned int k = 0; k < GatheredProblemRule().n_steps; ++k)
       {
-        if (!minimize(step, residual, states, active, true))
+        if (!minimize(step, residual, states, active))
           return false;
         bool changes = false;
         for (std::size_t i = 0; i < states.size(); ++i)
@@ -220,76 +189,35 @@ namespace Signorini
               active[i]      = now;
             }
         if (!changes)
-          return true;
+          return in_planes(residual, states, active).norm() <=
+                 GatheredProblemRule().forces_left * residual_of(states).norm();
       }
     return false;
   }
 
 
 
-  bool GatheredObstacleProblem::Factors::search_along(Eigen::VectorXd &step, const Eigen::VectorXd &direction,
-                                                      const States &states, const Eigen::VectorXd &load) const
-  {
-    const double    start = energy(step, load);
-    double          best = start, length = 1.;
-    Eigen::VectorXd result = step;
-    for (unsigned int k = 0; k < GatheredProblemRule().n_halvings; ++k, length *= .5)
-      {
-        Eigen::VectorXd trial = step + length * direction;
-        project(trial, states);
-        if (const double value = energy(trial, load); value < best)
-          {
-            best   = value;
-            result = trial;
-          }
-        else if (best < start)
-          break;
-      }
-    step = result;
-    return start - best > GatheredProblemRule().rounding * std::abs(best);
-  }
-
-
-
-  Eigen::VectorXd GatheredObstacleProblem::Factors::search(const States &states, Flags &active)
-  {
-    const Eigen::VectorXd load = residual_of(states);
-    Eigen::VectorXd       step = Eigen::VectorXd::Zero(load.size());
-    for (unsigned int k = 0; k < GatheredProblemRule().n_newton_steps; ++k)
-      {
-        Eigen::VectorXd residual = load - matrix * step, direction = Eigen::VectorXd::Zero(load.size());
-        for (std::size_t i = 0; i < states.size(); ++i)
-          active[i] =
-              states[i].room >= 0. && normal_part(residual, i, states[i].normal) >= 0. &&
-              normal_part(step, i, states[i].normal) >= states[i].room - 1e-14 * std::abs(states[i].room);
-        if (!add_tangential_minimizer(direction, residual, states, active))
-          break;
-        if (!search_along(step, direction, states, load))
-          {
-            // What is in the way of short steps may not be in the way of a step that ends there.
-            direction *= longest_step(direction, states, active);
-            if (!search_along(step, direction, states, load))
-              break;
-          }
-      }
-    return step;
-  }
-
-
-
   Eigen::VectorXd GatheredObstacleProblem::Factors::solve(const States &states, Flags &active)
   {
-    const std::size_t n     = states.size();
-    const Flags       start = active;
-    Eigen::VectorXd   step;
-    // Sweeps by node leave a poor guess behind; the factors of the last visit are a better one.
-    if (has_factors)
-      for (std::size_t i = 0; i < n; ++i)
-        active[i] = factorized[i] && states[i].room >= 0.;
-    if (settle(step, states, active))
-      return step;
-    active = start;
-    step   = search(states, active);
+    const Flags     start = active;
+    Eigen::VectorXd step;
+    // Sweeps by node leave a poor guess behind; the result of the last visit is a better one.
+    if (!last.empty())
+      for (std::size_t i = 0; i < states.size(); ++i)
+        active[i] = last[i] && states[i].room >= 0.;
+    if (!settle(step, states, active))
+      {
+        has_factors = false;
+        InteriorPoint interior(matrix, states, truncated, cholesky);
+        if (!interior.run())
+          {
+            active = start;
+            return Eigen::VectorXd::Zero(dim * states.size());
+          }
+        active = interior.active();
+        step   = to_planes(interior.step(), states, active);
+      }
+    last = active;
     return step;
   }
 

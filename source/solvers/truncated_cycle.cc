@@ -36,13 +36,15 @@ namespace Signorini
 
 
 
-  void TruncatedCycle::run(const Vector &v, const Vector &residual, const Plan &plan, SubstepCheck &check)
+  void TruncatedCycle::run(const Vector &v, Vector &residual, const Plan &plan, SubstepCheck &check)
   {
     Smoother                        &smoother = *hierarchy.level(level).smoother;
     const std::vector<unsigned char> active   = contact.active();
     contact.set_bounds_from(problem.half_spaces, v);
     check.begin_iteration();
+    motions.restore_work(residual);
     smoother.smooth_from_zero(correction, residual, contact, plan.smoothing, new_residual);
+    motions.restore_work(new_residual);
     check(v, correction);
     const bool may_minimize = has_subspace && plan.phase != IterationPhase::resting;
     if (may_minimize && stays_blocked)
@@ -75,6 +77,7 @@ namespace Signorini
       check.return_to_start();
 
     smoother.smooth_to_residual(correction, residual, contact, plan.smoothing, &new_residual);
+    motions.restore_work(new_residual);
     keeps_active = all_ranks(keeps_active && contact.active() == active);
     product      = residual;
     product -= new_residual;

@@ -6,6 +6,7 @@ import subprocess
 import tempfile
 
 from harness import TOP, check
+from run_environment import session_folder
 from tool_cases import PATCH_TEST, tree
 
 SMALL = ('--set', 'Refinement/Global cycles=0', '--set', 'Solver/Compare linear multigrid=false')
@@ -84,7 +85,7 @@ class Nobody:
         sessions = os.path.join(folder, 'sessions')
         os.mkdir(sessions)
         os.chmod(sessions, 0o777)
-        self.environment = dict(p.environment, HOME='/', OMPI_MCA_orte_tmpdir_base=sessions)
+        self.environment = dict(p.environment, HOME='/', **session_folder(sessions))
 
     @staticmethod
     def become():

@@ -203,7 +203,7 @@ def run_program(programs, kind, path):
     """As read_files says it, from exit code and messages of a program."""
     with tempfile.TemporaryDirectory() as session, tempfile.TemporaryFile() as said, tempfile.TemporaryFile() as errors:
         process = subprocess.Popen(command_for(programs, kind, path), stdin=subprocess.DEVNULL, stdout=said, stderr=errors,
-                                   env=dict(ENVIRONMENT, OMPI_MCA_orte_tmpdir_base=session), preexec_fn=set_limits)
+                                   env=dict(ENVIRONMENT, OMPI_MCA_orte_tmpdir_base=session, PRTE_MCA_prte_tmpdir_base=session), preexec_fn=set_limits)
         timer = threading.Timer(120, process.kill)
         timer.start()
         _, status, used = os.wait4(process.pid, 0)

@@ -42,7 +42,8 @@ def text_of(document):
 
 
 def without_code(text):
-    text = re.sub(r'^```.*?^```$', '', text, flags=re.DOTALL | re.MULTILINE)
+    """With the same lines."""
+    text = re.sub(r'^```.*?^```$', lambda m: '\n' * m.group().count('\n'), text, flags=re.DOTALL | re.MULTILINE)
     text = re.sub(r'^    .*$', '', text, flags=re.MULTILINE)
     return re.sub(r'`[^`\n]*`', '', text)
 
@@ -82,9 +83,14 @@ def links():
 
 def spelling():
     """codespell for known mistakes, hunspell with a list of our own words for unknown ones."""
-    names = [os.path.join(TOP, d) for d in documents()]
-    run = subprocess.run(['codespell', '--ignore-words', os.path.join(TOP, 'tests', 'utilities', 'words.txt'), *names], stdout=subprocess.PIPE,
-                         universal_newlines=True)
+    with tempfile.TemporaryDirectory() as folder:
+        for document in documents():
+            path = os.path.join(folder, document.lstrip('/'))
+            os.makedirs(os.path.dirname(path), exist_ok=True)
+            with open(path, 'w', encoding='utf-8') as f:
+                f.write(without_code(text_of(document)))
+        run = subprocess.run(['codespell', '--ignore-words', os.path.join(TOP, 'tests', 'utilities', 'words.txt'), '.'], cwd=folder, stdout=subprocess.PIPE,
+                             universal_newlines=True)
     complaints = run.stdout.splitlines()
     with tempfile.NamedTemporaryFile('w', suffix='.txt') as plain:
         for document in documents():

@@ -28,12 +28,20 @@ namespace Signorini
       double costs_nothing = 1e-14;
       /// The work of the loads on it, relative to what it is made up of, and to the work on all motions.
       double rounding = 1e-10, no_work = 1e-7;
+      /// What taking it out may cost of the way to the next plane: rounding, where it slides along all
+      /// planes.
+      double shorter = 1e-8;
     };
 
     /// @param free_motions orthonormal; may be empty. Both must outlive the object.
     /// @param rhs the loads
     FreeMotionCorrection(const NodeBlockMatrix &matrix, const std::vector<Vector> &free_motions,
                          const Vector &rhs);
+
+    /// Collective. Makes the work of a residual b - A v on each motion what it is, that of the loads b, as A
+    /// m = 0. The rounding of sweeps in single precision is more, and a motion that nothing opposes is what
+    /// that does work on, over next to nothing.
+    void restore_work(Vector &residual) const;
 
     /// Collective. The active half-spaces have changed, perhaps.
     void update(const ContactState &contact);

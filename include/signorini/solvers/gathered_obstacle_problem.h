@@ -34,7 +34,7 @@ namespace Signorini
   /// A small obstacle problem, ½ sᵀ A s - residualᵀ s = min with n_p . s_p <= room_p, gathered and solved on
   /// rank 0 by a primal-dual active set method with sparse Cholesky factors (CHOLMOD). A may be singular: a
   /// small multiple of its diagonal is added to what is factorized then. Where the active sets do not settle,
-  /// steps of a projected Newton method follow, of which each lowers the energy (Bertsekas 1982).
+  /// because motions cost next to nothing, an interior point method follows (Mehrotra 1992).
   class GatheredObstacleProblem
   {
   public:
@@ -66,7 +66,8 @@ namespace Signorini
     /// @param n_nodes of all ranks, which own them in the order of the ranks
     void set_matrix(const Blocks &mine, const std::size_t n_nodes, const MPI_Comm communicator);
 
-    /// Collective. The minimizer, or a step that lowers the energy; zero if there is none.
+    /// Collective. The minimizer, up to forces of 1e-6 of the residual; zero, and the active set of before,
+    /// if there is none.
     /// @param mine the nodes of this rank, in order
     std::vector<NodeStep> solve(const std::vector<NodeState> &mine);
 

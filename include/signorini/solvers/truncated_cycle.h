@@ -39,7 +39,7 @@ namespace Signorini
     };
 
     /// Collective. The correction of v, with residual = b - A v.
-    void run(const Vector &v, const Vector &residual, const Plan &plan, SubstepCheck &check);
+    void run(const Vector &v, Vector &residual, const Plan &plan, SubstepCheck &check);
 
     /// Collective. The energy norm of the correction, before anything was cut off.
     double norm() const;
