@@ -123,17 +123,49 @@ def plane_of(normal, middle):
     return plane
 
 
+def selected(values, cells_or_points):
+    array = numpy_to_vtk(numpy.ascontiguousarray(vtk_to_numpy(values)[cells_or_points]), deep=True)
+    array.SetName(values.GetName())
+    return array
+
+
+def nodes_of_cells(grid):
+    """Where the nodes of each cell start in a list, and the list."""
+    return [vtk_to_numpy(array).astype(numpy.int64) for array in (grid.GetCells().GetOffsetsArray(), grid.GetCells().GetConnectivityArray())]
+
+
+def subset(grid, chosen):
+    """Those cells. Not by filters: vtkExtractCells of VTK 9.3 (Debian 13), which they use, ends with a segmentation fault."""
+    cells = numpy.flatnonzero(chosen)
+    result = vtk.vtkUnstructuredGrid()
+    if len(cells) == 0:
+        return result
+    starts, nodes = nodes_of_cells(grid)
+    points, nodes = numpy.unique(numpy.concatenate([nodes[starts[c]:starts[c + 1]] for c in cells]), return_inverse=True)
+    starts = numpy.concatenate(([0], numpy.cumsum(numpy.diff(starts)[cells])))
+    array = vtk.vtkCellArray()
+    array.SetData(*(numpy_to_vtk(a.astype(numpy.int64), deep=True, array_type=vtk.VTK_ID_TYPE) for a in (starts, nodes.ravel())))
+    result.SetPoints(vtk.vtkPoints())
+    result.GetPoints().SetData(selected(grid.GetPoints().GetData(), points))
+    result.SetCells(selected(grid.GetCellTypesArray(), cells), array)
+    for source, target, places in ((grid.GetPointData(), result.GetPointData(), points), (grid.GetCellData(), result.GetCellData(), cells)):
+        for k in range(source.GetNumberOfArrays()):
+            target.AddArray(selected(source.GetArray(k), places))
+    return result
+
+
 def clipped(grid, normal, middle):
     """Whole cells on one side, so that the mesh inside can be seen."""
-    cut = output_of(vtk.vtkExtractGeometry, grid, SetImplicitFunction=plane_of(normal, middle), SetExtractInside=0, SetExtractBoundaryCells=0)
+    starts, nodes = nodes_of_cells(grid)
+    behind = (vtk_to_numpy(grid.GetPoints().GetData()) - numpy.array(middle)) @ numpy.array(normal) < 0.
+    cut = subset(grid, numpy.logical_and.reduceat(behind[nodes], starts[:-1]))
     if cut.GetNumberOfCells() == 0:
         picture.fail(TOOL, '--clip leaves nothing of the bodies.')
     return cut
 
 
 def part(grid, body):
-    return output_of(vtk.vtkThreshold, grid, SetInputArrayToProcess=(0, 0, 0, vtk.vtkDataObject.FIELD_ASSOCIATION_CELLS, 'body'),
-                     SetLowerThreshold=body - .1, SetUpperThreshold=body + .1, SetThresholdFunction=vtk.vtkThreshold.THRESHOLD_BETWEEN)
+    return subset(grid, vtk_to_numpy(grid.GetCellData().GetArray('body')) == body)
 
 
 def n_bodies(grid):
