@@ -148,7 +148,7 @@ namespace Signorini
           const std::string message = plain_text(e);
           std::smatch       found;
           if (std::regex_search(message, found,
-                                std::regex("Line <([0-9]+)>.*(No entry with name|no such subsection)")))
+                                std::regex("Line <([0-9]+)>.*(No entry with name|such subsection)")))
             if (const std::string objection =
                     ParameterNames(prm).objection_to_line(text, std::stoul(found[1].str()));
                 !objection.empty())

@@ -3,12 +3,10 @@
 
 #include <signorini/solvers/empty_directions.h>
 
-#include <deal.II/base/symmetric_tensor.h>
+#include <Eigen/Dense>
 
 namespace Signorini
 {
-  using namespace dealii;
-
   namespace
   {
     /// When a direction of a diagonal block counts as one without stiffness.
@@ -31,23 +29,25 @@ namespace Signorini
     bool fill_empty_directions(double *const block, const double scale)
     {
       constexpr EmptyDirectionRule rule;
-      SymmetricTensor<2, dim>      s;
+      Eigen::Matrix3d              s;
       for (unsigned int c = 0; c < dim; ++c)
-        for (unsigned int d = c; d < dim; ++d)
-          s[c][d] = .5 * (block[dim * c + d] + block[dim * d + c]);
-      const double mean = trace(s) / dim;
+        for (unsigned int d = 0; d < dim; ++d)
+          s(c, d) = .5 * (block[dim * c + d] + block[dim * d + c]);
+      const double mean = s.trace() / dim;
       // Well away from singular, the common case: the determinant is at most 3.4 times the smallest
       // eigenvalue, if that is small, times the square of the mean.
-      if (mean > rule.of_level * scale && determinant(s) > 10. * rule.of_block * mean * mean * mean)
+      if (mean > rule.of_level * scale && s.determinant() > 10. * rule.of_block * mean * mean * mean)
         return false;
-      const auto   pairs     = eigenvectors(s, SymmetricTensorEigenvectorMethod::jacobi);
-      const double reference = std::max(pairs[0].first, 0.);
+      const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(s);
+      const Eigen::Vector3d                               &values    = eigen.eigenvalues();
+      const double                                         reference = std::max(values.maxCoeff(), 0.);
       const double filling   = reference > rule.of_level * scale ? reference : scale;
       bool         has_empty = false;
-      for (const auto &[value, direction] : pairs)
-        if (value <= std::max(rule.of_block * reference, rule.of_level * scale))
+      for (unsigned int k = 0; k < dim; ++k)
+        if (values[k] <= std::max(rule.of_block * reference, rule.of_level * scale))
           {
-            has_empty = true;
+            has_empty                       = true;
+            const Eigen::Vector3d direction = eigen.eigenvectors().col(k);
             for (unsigned int c = 0; c < dim; ++c)
               for (unsigned int d = 0; d < dim; ++d)
                 block[dim * c + d] += filling * direction[c] * direction[d];
