@@ -8,6 +8,7 @@
 #include <signorini/application/journal.h>
 #include <signorini/application/pretension.h>
 #include <signorini/application/ties.h>
+#include <signorini/discretization/motion_description.h>
 
 #include <iomanip>
 #include <numeric>
@@ -213,8 +214,8 @@ namespace Signorini
     void note_undetermined(const LooseMotions &loose, const ContactModel &model, const Discretization &d,
                            Journal &journal)
     {
-      for (const std::vector<double> &motion : loose.undetermined)
-        journal.note("nothing determines " + describe_motion(d.free_motions(), motion, model.bodies()) +
+      for (const std::string &motion : describe_motions(d.free_motions(), loose.undetermined, model.bodies()))
+        journal.note("nothing determines " + motion +
                      ": frictionless contact does not hold it. The mean of the displacement in it is set to "
                      "zero.");
     }

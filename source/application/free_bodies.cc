@@ -8,6 +8,7 @@
 #include <signorini/application/free_bodies.h>
 #include <signorini/application/journal.h>
 #include <signorini/application/nodal_sums.h>
+#include <signorini/discretization/motion_description.h>
 
 #include <Eigen/Dense>
 

@@ -8,6 +8,7 @@
 #include <signorini/application/journal.h>
 #include <signorini/application/nodal_sums.h>
 #include <signorini/application/point_holds.h>
+#include <signorini/discretization/motion_description.h>
 
 #include <Eigen/QR>
 

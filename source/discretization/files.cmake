@@ -16,6 +16,7 @@ signorini_add_layer(discretization
   level_hierarchy.cc
   level_spaces.cc
   load_parameters.cc
+  motion_description.cc
   node_conditions.cc
   rigid_faces.cc
   rigid_support.cc

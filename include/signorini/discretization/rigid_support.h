@@ -80,14 +80,6 @@ namespace Signorini
   /// those of several, translations before rotations.
   std::vector<std::vector<double>> separate_motions(const std::vector<FreeMotion>          &motions,
                                                     const std::vector<std::vector<double>> &basis);
-
-  /// Whether a motion only turns parts about axes, without moving them along these.
-  bool is_rotation(const std::vector<FreeMotion> &motions, const std::vector<double> &coefficients);
-
-  /// A motion in words: "body cube, translation (0, 0, -1)", "body lug, rotation about the axis through (0,
-  /// 0, 0) along (0, 0, 1)".
-  std::string describe_motion(const std::vector<FreeMotion> &motions, const std::vector<double> &coefficients,
-                              const Bodies &bodies);
 } // namespace Signorini
 
 #endif

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_discretization_motion_description_h
+#define signorini_discretization_motion_description_h
+
+#include <signorini/discretization/rigid_support.h>
+
+namespace Signorini
+{
+  /// Whether a motion only turns parts about axes, without moving them along these.
+  bool is_rotation(const std::vector<FreeMotion> &motions, const std::vector<double> &coefficients);
+
+  /// A motion in words: "body cube, translation (0, 0, -1)", "body lug, rotation about the axis through (0,
+  /// 0, 0) along (0, 0, 1)".
+  std::string describe_motion(const std::vector<FreeMotion> &motions, const std::vector<double> &coefficients,
+                              const Bodies &bodies);
+
+  /// Several motions, which span what is free: the translations of a part together, its rotations about axes
+  /// through one point together.
+  std::vector<std::string> describe_motions(const std::vector<FreeMotion>          &motions,
+                                            const std::vector<std::vector<double>> &basis,
+                                            const Bodies                           &bodies);
+} // namespace Signorini
+
+#endif

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/discretization/motion_description.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <set>
+#include <sstream>
+
+namespace Signorini
+{
+  using namespace dealii;
+
+  namespace
+  {
+    std::string print_vector(const Vector3 &v, const double zero)
+    {
+      std::ostringstream text;
+      text.precision(3);
+      for (unsigned int c = 0; c < dim; ++c)
+        text << (c > 0 ? ", " : "(") << (std::abs(v[c]) > zero ? v[c] : 0.);
+      return text.str() + ")";
+    }
+
+    std::string print_direction(const Vector3 &v)
+    {
+      return print_vector(v / v.norm(), 1e-6);
+    }
+  } // namespace
+
+
+
+  namespace
+  {
+    /// What a motion does to one part: translation + rotation x (x - centre) / length.
+    FreeMotion motion_of_part(const std::vector<FreeMotion> &motions, const std::vector<double> &coefficients,
+                              const unsigned int part)
+    {
+      FreeMotion result{0, Point<3>(), 0., Vector3(), Vector3(), part};
+      for (std::size_t m = 0; m < motions.size(); ++m)
+        if (motions[m].part == part)
+          {
+            result.body = motions[m].body;
+            result.translation += coefficients[m] * motions[m].translation;
+            result.rotation += coefficients[m] * motions[m].rotation;
+            result.centre = motions[m].centre;
+            result.length = motions[m].length;
+          }
+      return result;
+    }
+
+    /// What is left of a translation or a rotation beside one this much larger is rounding.
+    constexpr double negligible = 1e-3;
+
+    /// The translation along the axis of the rotation.
+    Vector3 along_axis(const FreeMotion &motion)
+    {
+      return (motion.rotation * motion.translation) / motion.rotation.norm_square() * motion.rotation;
+    }
+  } // namespace
+
+
+
+  bool is_rotation(const std::vector<FreeMotion> &motions, const std::vector<double> &coefficients)
+  {
+    std::set<unsigned int> parts;
+    for (const FreeMotion &motion : motions)
+      parts.insert(motion.part);
+    double largest = 0.;
+    for (const unsigned int part : parts)
+      largest = std::max(largest, motion_of_part(motions, coefficients, part).rotation.norm());
+    return std::all_of(parts.begin(), parts.end(), [&](const unsigned int part) {
+      const FreeMotion motion = motion_of_part(motions, coefficients, part);
+      if (motion.rotation.norm() <= negligible * largest)
+        return motion.translation.norm() <= negligible * largest;
+      return along_axis(motion).norm() <= negligible * motion.rotation.norm();
+    });
+  }
+
+
+
+  namespace
+  {
+    /// What the part that moves most does.
+    struct PartMotion
+    {
+      FreeMotion motion;
+      bool       is_translation;
+      /// No other part moves.
+      bool is_alone;
+
+      /// Whether it turns the part about an axis without moving it along.
+      bool is_pure_rotation() const
+      {
+        return !is_translation && along_axis(motion).norm() <= negligible * motion.rotation.norm();
+      }
+
+      /// On the axis of a rotation.
+      Point<3> point() const
+      {
+        return motion.centre + motion.length / motion.rotation.norm_square() *
+                                   cross_product_3d(motion.rotation, motion.translation);
+      }
+    };
+
+    PartMotion largest_part(const std::vector<FreeMotion> &motions, const std::vector<double> &coefficients,
+                            const Bodies &bodies)
+    {
+      std::vector<double> size(bodies.n_parts(), 0.);
+      for (std::size_t m = 0; m < motions.size(); ++m)
+        size[motions[m].part] += coefficients[m] * coefficients[m];
+      const auto       largest = std::max_element(size.begin(), size.end());
+      const double     all     = std::accumulate(size.begin(), size.end(), 0.);
+      const FreeMotion motion =
+          motion_of_part(motions, coefficients, static_cast<unsigned int>(largest - size.begin()));
+      return {motion, motion.rotation.norm() <= negligible * motion.translation.norm(),
+              all - *largest <= negligible * negligible * all};
+    }
+
+    std::string print_axis_point(const PartMotion &part)
+    {
+      return print_vector(part.point(), 1e-6 * part.motion.length);
+    }
+
+    std::string describe(const PartMotion &part)
+    {
+      const Vector3 &rotation = part.motion.rotation;
+      if (part.is_translation)
+        return "translation " + print_direction(part.motion.translation);
+      const std::string turning =
+          "rotation about the axis through " + print_axis_point(part) + " along " + print_direction(rotation);
+      return part.is_pure_rotation()
+                 ? turning
+                 : "translation " + print_direction(along_axis(part.motion)) + " with " + turning;
+    }
+
+    /// Of one kind and one part, which can be said together.
+    std::string describe_together(const std::vector<PartMotion> &group)
+    {
+      if (!group[0].is_translation)
+        return "rotation about any axis through " + print_axis_point(group[0]);
+      if (group.size() == dim)
+        return "translation in any direction";
+      Vector3 normal = cross_product_3d(group[0].motion.translation, group[1].motion.translation);
+      if (normal[0] + normal[1] + normal[2] < 0.)
+        normal *= -1.;
+      return "translation in any direction normal to " + print_direction(normal);
+    }
+
+    bool can_be_said_together(const std::vector<PartMotion> &group)
+    {
+      if (group[0].is_translation)
+        return group.size() > 1;
+      return group.size() == dim && std::all_of(group.begin(), group.end(), [&](const PartMotion &part) {
+               return part.point().distance(group[0].point()) <= negligible * part.motion.length;
+             });
+    }
+  } // namespace
+
+
+
+  std::string describe_motion(const std::vector<FreeMotion> &motions, const std::vector<double> &coefficients,
+                              const Bodies &bodies)
+  {
+    const PartMotion part = largest_part(motions, coefficients, bodies);
+    return bodies.part_name(part.motion.part) + ", " + describe(part);
+  }
+
+
+
+  std::vector<std::string> describe_motions(const std::vector<FreeMotion>          &motions,
+                                            const std::vector<std::vector<double>> &basis,
+                                            const Bodies                           &bodies)
+  {
+    std::vector<std::string> result;
+    // Of a part, translations and rotations.
+    std::map<std::pair<unsigned int, bool>, std::vector<PartMotion>> groups;
+    for (const std::vector<double> &coefficients : basis)
+      if (const PartMotion part = largest_part(motions, coefficients, bodies);
+          part.is_alone && (part.is_translation || part.is_pure_rotation()))
+        groups[{part.motion.part, part.is_translation}].push_back(part);
+      else
+        result.push_back(describe_motion(motions, coefficients, bodies));
+    for (const auto &[key, group] : groups)
+      {
+        const std::string name = bodies.part_name(key.first) + ", ";
+        if (can_be_said_together(group))
+          result.push_back(name + describe_together(group));
+        else
+          for (const PartMotion &part : group)
+            result.push_back(name + describe(part));
+      }
+    return result;
+  }
+} // namespace Signorini
