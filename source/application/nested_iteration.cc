@@ -175,8 +175,15 @@ namespace Signorini
         how_to.measure_sweeps   = how_to.measure_sweeps && cycle == refinement.n_cycles();
         const NestedStart *from = cycle > 0 ? &start : nullptr;
         last.solution           = solve_contact(model, *last.discretization, coarser, from, how_to, journal);
+        unsigned int before_holds = 0;
         while (!last.solution.drifting.empty() && hold_points())
-          last.solution = solve_contact(model, *last.discretization, coarser, nullptr, how_to, journal);
+          {
+            before_holds += last.solution.report.iterations;
+            last.solution = solve_contact(model, *last.discretization, coarser, nullptr, how_to, journal);
+          }
+        if (before_holds > 0)
+          journal.note("cycle " + std::to_string(cycle) + ": " + std::to_string(before_holds) +
+                       " iterations more, before points were held.");
         check_point_holds(model, *last.discretization, last.solution);
         const Discretization    &d      = *last.discretization;
         const ConvergenceReport &report = last.solution.report;
