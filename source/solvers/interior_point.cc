@@ -149,7 +149,7 @@ namespace Signorini
         w += step * change.w;
         l += step * change.l;
       }
-    return rest <= Rule().tolerance;
+    return rest <= Rule().enough;
   }
 
 

@@ -27,6 +27,9 @@ namespace Signorini
       /// Complementarity and forces that are left, relative to those of the start: the active set is known
       /// long before.
       double tolerance = 1e-10;
+      /// The same where it cannot go on: near the end the springs of active nodes make rounding of everything
+      /// else in the factors.
+      double enough = 1e-7;
       /// Part of the diagonal that is added, to the matrix only, where it cannot be factorized without: the
       /// first one, and by what it grows.
       double regularization = 1e-13, growth = 100.;
