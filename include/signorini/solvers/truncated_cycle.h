@@ -38,7 +38,8 @@ namespace Signorini
       bool trusts_kept_set;
     };
 
-    /// Collective. The correction of v, with residual = b - A v.
+    /// Collective. The correction of v, with residual = b - A v, of which rounding along free motions is
+    /// taken out (FreeMotionCorrection::restore_work()).
     void run(const Vector &v, Vector &residual, const Plan &plan, SubstepCheck &check);
 
     /// Collective. The energy norm of the correction, before anything was cut off.
