@@ -15,6 +15,9 @@ namespace Signorini
 
   namespace
   {
+    /// Of a direction, of the size of a body: axes that facets show are no more exact.
+    constexpr double not_shown = 1e-4;
+
     std::string print_vector(const Vector3 &v, const double zero)
     {
       std::ostringstream text;
@@ -26,7 +29,7 @@ namespace Signorini
 
     std::string print_direction(const Vector3 &v)
     {
-      return print_vector(v / v.norm(), 1e-6);
+      return print_vector(v / v.norm(), not_shown);
     }
   } // namespace
 
@@ -121,7 +124,7 @@ namespace Signorini
 
     std::string print_axis_point(const PartMotion &part)
     {
-      return print_vector(part.point(), 1e-6 * part.motion.length);
+      return print_vector(part.point(), not_shown * part.motion.length);
     }
 
     std::string describe(const PartMotion &part)

@@ -605,3 +605,22 @@ def ridge(p):
         code, words = last_words('first')
         check(code == 3 and 'pressures and forces near those places are wrong' in words[0], f'ridge: exit code {code}, {words}')
         check(any('hold: NO: pair seat: the contact mapping has errors where the bodies touch' in line for line in words), f'ridge: {words}')
+
+
+def clevis(p):
+    """A pin that nothing but contact holds, between a fork and an eye that a force pulls: finished meshes, and refined ones."""
+    with tempfile.TemporaryDirectory() as folder:
+        here = os.path.join(TOP, 'tests', 'application')
+        make_mesh(os.path.join(here, 'clevis.geo'), os.path.join(folder, 'clevis.msh'))
+        s = p.solve(shutil.copy(os.path.join(here, 'clevis.prm'), folder))
+    counts = [c['nonlinear']['iterations'] for c in s['cycles']]
+    print(f'{counts} iterations')
+    check(s['converged'] and max(counts) <= 25, f'{counts} iterations')
+    certificate(s)
+    inner, outer = (next(q for q in s['pairs'] if q['name'] == name)['force'] for name in ('inner', 'outer'))
+    near(inner[0], -2e4, 1e-9, 'force on the eye')
+    # The pin would turn on its facets; the point at which it is held carries next to nothing.
+    near(outer[0], 2e4, 1e-4, 'force on the fork')
+    check(max(map(abs, inner[1:] + outer[1:])) <= 1e-4 * 2e4, f'forces {inner}, {outer}')
+    for words in ('nothing determines body eye, translation (0, 0, ', 'nothing determines body pin, translation (0, 0, ', 'body pin, rotation about the axis through (0, 0, 0)'):
+        check(any(words in n for n in s['notes']), f'notes: {s["notes"]}')
