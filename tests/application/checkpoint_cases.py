@@ -265,7 +265,11 @@ class Case:
         allowed = 2 if has_learnt_else else 0
         check(all(abs(a - b) <= allowed for a, b in zip(cycles[first_cycle:], cycles_now[first_cycle:])),
               f'iterations from cycle {first_cycle}: {cycles} and {cycles_now}, the solver has learnt {"other things" if has_learnt_else else "the same"}')
-        check(steps[first_step:-1] == steps_now[first_step:-1], f'iterations from step {first_step}: {steps} and {steps_now}')
+        # The first step starts where another number of ranks came to rest, a little elsewhere within the tolerance, and the last correction of one of the
+        # next may be just below or just above it (seen: 1.3e-12 of an iterate of 1.3).
+        allowed = 1 if place else 0
+        check(len(steps) == len(steps_now) and all(abs(a - b) <= allowed for a, b in zip(steps[first_step:-1], steps_now[first_step:-1])),
+              f'iterations from step {first_step}: {steps} and {steps_now}')
         FAILURES[before:] = [f'{self.name}, {story}: {text}' for text in FAILURES[before:]]
 
 
