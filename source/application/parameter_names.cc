@@ -144,7 +144,15 @@ namespace Signorini
     std::stringstream text;
     prm.print_parameters(text, ParameterHandler::JSON);
     Tree tree;
-    boost::property_tree::read_json(text, tree);
+    try
+      {
+        boost::property_tree::read_json(text, tree);
+      }
+    catch (const boost::property_tree::json_parser_error &)
+      {
+        // Texts that are not in UTF-8 (names of bodies become names of subsections): nothing is suggested.
+        return;
+      }
     entries[""];
     collect(entries, tree, "");
   }
@@ -179,6 +187,8 @@ namespace Signorini
 
   std::string ParameterNames::objection(const std::string &section, const std::string &name) const
   {
+    if (entries.empty())
+      return "";
     const auto it = entries.find(section);
     if (it == entries.end())
       return objection_to_section(section);
@@ -201,6 +211,8 @@ namespace Signorini
 
   std::string ParameterNames::objection_to_line(const std::string &text, const std::size_t line) const
   {
+    if (entries.empty())
+      return "";
     std::istringstream in(text);
     std::string        content, section;
     for (std::size_t i = 1; std::getline(in, content); ++i)

@@ -628,6 +628,15 @@ def errors(p):
             check(word in run.stderr, f'{arguments}: the message does not name "{word}": {run.stderr}')
             check(run.stderr.count('signorini: error:') == 1, f'{arguments}: not one message: {run.stderr}')
             check(os.listdir(folder) == [], f'{arguments}: left {os.listdir(folder)}')
+    # Names that are not in UTF-8 (AFL++): the error is said, without suggestions.
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, 'latin.prm')
+        with open(os.path.join(TOP, 'prm', 'patch_test', 'patch_test.prm'), 'rb') as f:
+            text = f.read().replace(b'upper', b'k\xf6rper') + b'set Load sreps = 2\n'
+        with open(path, 'wb') as f:
+            f.write(text)
+        run = subprocess.run([*p.command, path, '--check'], env=p.environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        check(run.returncode == 1 and b'No entry with name <Load sreps>' in run.stderr, f'not UTF-8: {run.returncode}, {run.stderr}')
 
 
 def command_line(p):
