@@ -6,6 +6,7 @@
 #include <signorini/application/contact_solve.h>
 #include <signorini/application/free_bodies.h>
 #include <signorini/application/journal.h>
+#include <signorini/application/loose_motions.h>
 #include <signorini/application/pretension.h>
 #include <signorini/application/ties.h>
 #include <signorini/discretization/motion_description.h>
@@ -216,8 +217,8 @@ namespace Signorini
     {
       for (const std::string &motion : describe_motions(d.free_motions(), loose.undetermined, model.bodies()))
         journal.note("nothing determines " + motion +
-                     ": frictionless contact does not hold it. The mean of the displacement in it is set to "
-                     "zero.");
+                     ": frictionless contact does not hold it. Of all solutions that with the smallest "
+                     "displacement is taken.");
     }
 
     /// The width of the faces of the contact surfaces, in the mean.
@@ -238,16 +239,16 @@ namespace Signorini
                                                           const ContactModel &model, const Discretization &d,
                                                           Journal &journal)
     {
-      const HalfSpaces &spaces = algebraic.problem.half_spaces;
-      const auto        fields = motions_of_unknowns(
-                 model, *d.constrained, algebraic.hierarchy->finest().matrix.partition(), *d.transformation);
+      const HalfSpaces    &spaces   = algebraic.problem.half_spaces;
+      const NodePartition &unknowns = algebraic.hierarchy->finest().matrix.partition();
+      const auto fields = motions_of_unknowns(model, *d.constrained, unknowns, *d.transformation);
       const LooseMotions loose = find_loose_motions(d.free_motions(), fields, spaces, active);
       auto drifting = find_drift(d.free_motions(), fields, spaces, loose, algebraic.v, mean_width(d));
       if (!drifting.empty())
         return drifting;
       note_undetermined(loose, model, d, journal);
       warn_of_facets(model, d.free_motions(), loose.hardly_held, journal);
-      remove_motions(algebraic.v, loose.undetermined, fields, spaces);
+      minimize_displacement(algebraic.v, loose.undetermined, fields, spaces, model, d, unknowns);
       return {};
     }
 

@@ -27,6 +27,7 @@ signorini_add_layer(application
   journal.cc
   linear_comparison.cc
   load_steps.cc
+  loose_motions.cc
   nested_iteration.cc
   output_parameters.cc
   pair_parameters.cc

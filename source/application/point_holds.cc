@@ -6,6 +6,7 @@
 #include <signorini/application/contact_evaluation.h>
 #include <signorini/application/free_bodies.h>
 #include <signorini/application/journal.h>
+#include <signorini/application/loose_motions.h>
 #include <signorini/application/nodal_sums.h>
 #include <signorini/application/point_holds.h>
 #include <signorini/discretization/motion_description.h>

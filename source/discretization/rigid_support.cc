@@ -297,6 +297,30 @@ namespace Signorini
 
 
 
+  std::vector<double> nearest_admissible(const std::vector<double> &rows, const std::vector<double> &bounds,
+                                         const std::vector<double> &target)
+  {
+    const auto n = static_cast<Eigen::Index>(target.size()), m = static_cast<Eigen::Index>(bounds.size());
+    const Eigen::Map<const Eigen::VectorXd> aim(target.data(), n);
+    const double                            distance = aim.norm();
+    if (m == 0 || distance == 0.)
+      return target;
+    // With y = (x - target) / distance: min |y|, -G y >= (G target - bounds) / distance, and |y| <= 1 since
+    // the origin is admissible: the last entry of the rest is at least 1/2.
+    Eigen::MatrixXd columns(n + 1, m);
+    columns.topRows(n)            = -Eigen::Map<const Eigen::MatrixXd>(rows.data(), n, m);
+    const Eigen::VectorXd towards = Eigen::Map<const Eigen::MatrixXd>(rows.data(), n, m).transpose() * aim;
+    columns.row(n) = (towards - Eigen::Map<const Eigen::VectorXd>(bounds.data(), m)).transpose() / distance;
+    const Eigen::VectorXd unit   = Eigen::VectorXd::Unit(n + 1, n);
+    const Eigen::VectorXd rest   = unit - columns * solve_nonnegative(columns, unit);
+    std::vector<double>   result = target;
+    for (Eigen::Index i = 0; i < n; ++i)
+      result[i] -= distance * rest[i] / rest[n];
+    return result;
+  }
+
+
+
   namespace
   {
     /// Splits the span of the columns of a matrix: what some functions (rows) vanish on, which is taken out

@@ -31,42 +31,9 @@ namespace Signorini
                                         const Discretization &discretization, const NodePartition &unknowns,
                                         const ObstacleProblem &problem);
 
-  /// Motions that slide along active contacts, as coefficients of the free motions.
-  struct LooseMotions
-  {
-    /// No active contact opposes them.
-    std::vector<std::vector<double>> undetermined;
-    /// Next to nothing does: facets of round surfaces.
-    std::vector<std::vector<double>> hardly_held;
-  };
-
-  /// Collective. Those of a solution.
-  /// @param fields of motions_of_unknowns(); at least one
-  LooseMotions find_loose_motions(const std::vector<FreeMotion> &motions, const std::vector<Vector> &fields,
-                                  const HalfSpaces &half_spaces, const std::vector<unsigned char> &active);
-
-  /// Collective. Those motions that the surfaces hardly oppose, wherever they touch, if a solution slides
-  /// along hardly held ones by more than a tenth of a face; else none.
-  /// @param loose of the solution
-  /// @param v the solution; its values at contact nodes are relative displacements
-  /// @param width of a face (length)
-  std::vector<std::vector<double>> find_drift(const std::vector<FreeMotion> &motions,
-                                              const std::vector<Vector>     &fields,
-                                              const HalfSpaces &half_spaces, const LooseMotions &loose,
-                                              const Vector &v, const double width);
-
   /// Ends the run for loads that no contact can hold. Errors: InputError, always.
   [[noreturn]] void refuse_flight(const ContactModel &model, const std::vector<FreeMotion> &motions,
                                   const std::vector<double> &flight);
-
-  /// Warns of motions that only facets oppose.
-  void warn_of_facets(const ContactModel &model, const std::vector<FreeMotion> &motions,
-                      const std::vector<std::vector<double>> &hardly_held, Journal &journal);
-
-  /// Collective. Takes motions out of a solution where that is admissible.
-  /// @param motions coefficients of the fields
-  void remove_motions(Vector &v, const std::vector<std::vector<double>> &motions,
-                      const std::vector<Vector> &fields, const HalfSpaces &half_spaces);
 } // namespace Signorini
 
 #endif

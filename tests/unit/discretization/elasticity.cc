@@ -11,6 +11,9 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
+#include <random>
+
 using namespace Signorini;
 using dealii::Point;
 namespace Utilities = dealii::Utilities;
@@ -163,4 +166,46 @@ TEST(Elasticity, BalanceOfRigidMotions)
                       rows[3 * p + 2] * lost.flight[2],
                   1e-12);
     }
+}
+
+// The nearest point of a polyhedron: no admissible point lies on the side of the target.
+TEST(Elasticity, NearestAdmissibleMotion)
+{
+  std::mt19937                           generator(5);
+  std::uniform_real_distribution<double> uniform(-1., 1.);
+  unsigned int                           n_restricted = 0;
+  for (unsigned int i = 0; i < 200; ++i)
+    {
+      const std::size_t   n = 1 + i % 7, m = i % 23;
+      std::vector<double> rows(n * m), bounds(m), target(n);
+      const double        scale = std::pow(10., 6. * uniform(generator));
+      for (double &x : rows)
+        x = uniform(generator);
+      for (double &x : bounds)
+        x = scale * std::max(0., uniform(generator));
+      for (double &x : target)
+        x = scale * uniform(generator);
+      const auto product = [&](const std::size_t p, const std::vector<double> &x) {
+        return std::inner_product(x.begin(), x.end(), rows.begin() + n * p, 0.);
+      };
+      const std::vector<double> nearest = nearest_admissible(rows, bounds, target);
+      for (std::size_t p = 0; p < m; ++p)
+        EXPECT_LE(product(p, nearest), bounds[p] + 1e-11 * scale) << "problem " << i;
+      n_restricted += nearest != target;
+      for (unsigned int j = 0; j < 100; ++j)
+        {
+          std::vector<double> other(n);
+          for (double &x : other)
+            x = scale * uniform(generator);
+          double share = 1.;
+          for (std::size_t p = 0; p < m; ++p)
+            if (product(p, other) > bounds[p])
+              share = std::min(share, bounds[p] / product(p, other));
+          double towards = 0.;
+          for (std::size_t k = 0; k < n; ++k)
+            towards += (target[k] - nearest[k]) * (share * other[k] - nearest[k]);
+          EXPECT_LE(towards, 1e-10 * scale * scale) << "problem " << i;
+        }
+    }
+  EXPECT_GT(n_restricted, 100u);
 }

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_application_loose_motions_h
+#define signorini_application_loose_motions_h
+
+#include <signorini/application/discretization.h>
+#include <signorini/solvers/obstacle_problem.h>
+
+namespace Signorini
+{
+  class Journal;
+
+  // What contact leaves loose: rigid motions of a solution that nothing determines, or only facets do.
+
+  struct LooseMotionRule
+  {
+    /// The mean square of the normal parts of a motion at active nodes, relative to that of the motion that
+    /// moves these most: zero to rounding; what facets of round surfaces give.
+    double not_opposed = 1e-10, hardly_opposed = 1e-4;
+    /// How far surfaces may slide along a motion that facets oppose, in widths of a face: on a radius of
+    /// ten faces that is a hundredth of a radian. Solutions that drift slide by 1e2 to 1e6 of them.
+    double slip = .1;
+    /// The normal part that a motion may keep where nothing opposes it, relative to the motion: rounding of
+    /// eigenvectors.
+    double rounding = 1e-11;
+  };
+
+  /// Motions that slide along active contacts, as coefficients of the free motions.
+  struct LooseMotions
+  {
+    /// No active contact opposes them.
+    std::vector<std::vector<double>> undetermined;
+    /// Next to nothing does: facets of round surfaces.
+    std::vector<std::vector<double>> hardly_held;
+  };
+
+  /// Collective. Those of a solution.
+  /// @param fields of motions_of_unknowns(); at least one
+  LooseMotions find_loose_motions(const std::vector<FreeMotion> &motions, const std::vector<Vector> &fields,
+                                  const HalfSpaces &half_spaces, const std::vector<unsigned char> &active);
+
+  /// Collective. Those motions that the surfaces hardly oppose, wherever they touch, if a solution slides
+  /// along hardly held ones by more than a tenth of a face; else none.
+  /// @param loose of the solution
+  /// @param v the solution; its values at contact nodes are relative displacements
+  /// @param width of a face (length)
+  std::vector<std::vector<double>> find_drift(const std::vector<FreeMotion> &motions,
+                                              const std::vector<Vector>     &fields,
+                                              const HalfSpaces &half_spaces, const LooseMotions &loose,
+                                              const Vector &v, const double width);
+
+  /// Warns of motions that only facets oppose.
+  void warn_of_facets(const ContactModel &model, const std::vector<FreeMotion> &motions,
+                      const std::vector<std::vector<double>> &hardly_held, Journal &journal);
+
+  /// Collective. Of all solutions the one with the smallest displacement (sum of squares over the nodes): moves
+  /// a solution along what nothing determines, as far as contact allows.
+  /// @param motions coefficients of the fields
+  /// @param fields of motions_of_unknowns()
+  /// @param unknowns partition of v
+  void minimize_displacement(Vector &v, const std::vector<std::vector<double>> &motions,
+                             const std::vector<Vector> &fields, const HalfSpaces &half_spaces,
+                             const ContactModel &model, const Discretization &discretization,
+                             const NodePartition &unknowns);
+} // namespace Signorini
+
+#endif

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/algebra/gathered_lists.h>
+#include <signorini/application/free_bodies.h>
+#include <signorini/application/journal.h>
+#include <signorini/application/loose_motions.h>
+#include <signorini/application/nodal_sums.h>
+#include <signorini/discretization/motion_description.h>
+
+#include <Eigen/Dense>
+
+namespace Signorini
+{
+  using namespace dealii;
+
+  LooseMotions find_loose_motions(const std::vector<FreeMotion> &motions, const std::vector<Vector> &fields,
+                                  const HalfSpaces &spaces, const std::vector<unsigned char> &active)
+  {
+    const auto n = static_cast<Eigen::Index>(fields.size());
+    // Normal parts of two motions; in the last column whole motions.
+    Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(n, n + 1);
+    for (std::size_t p = 0; p < spaces.size(); ++p)
+      if (active[p])
+        for (Eigen::Index i = 0; i < n; ++i)
+          {
+            for (Eigen::Index j = 0; j < n; ++j)
+              sums(i, j) += spaces.normal_part(p, fields[i]) * spaces.normal_part(p, fields[j]);
+            for (unsigned int c = 0; c < dim; ++c)
+              sums(i, n) += Utilities::fixed_power<2>(fields[i].local_element(dim * spaces.nodes[p] + c));
+          }
+    for (Eigen::Index i = 0; i < sums.size(); ++i)
+      sums.data()[i] = Utilities::MPI::sum(sums.data()[i], fields[0].get_mpi_communicator());
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(sums.leftCols(n));
+    const double                                         scale = sums.col(n).maxCoeff();
+    const LooseMotionRule                                 rule;
+    LooseMotions                                         result;
+    for (Eigen::Index k = 0; k < n; ++k)
+      {
+        const double              opposed = eigen.eigenvalues()[k];
+        const std::vector<double> motion(eigen.eigenvectors().col(k).data(),
+                                         eigen.eigenvectors().col(k).data() + n);
+        if (opposed <= rule.not_opposed * scale)
+          result.undetermined.push_back(motion);
+        else if (opposed <= rule.hardly_opposed * scale)
+          result.hardly_held.push_back(motion);
+      }
+    result.undetermined = separate_motions(motions, result.undetermined);
+    return result;
+  }
+
+
+
+  namespace
+  {
+    /// How far a solution slides along the span of some motions (length).
+    double slip_along(const std::vector<std::vector<double>> &motions, const std::vector<Vector> &fields,
+                      const HalfSpaces &spaces, const Vector &v)
+    {
+      const auto      n = static_cast<Eigen::Index>(motions.size());
+      Eigen::MatrixXd coefficients(fields.size(), n);
+      for (Eigen::Index k = 0; k < n; ++k)
+        coefficients.col(k) = Eigen::Map<const Eigen::VectorXd>(motions[k].data(), coefficients.rows());
+      const auto at = [&](const std::size_t p) {
+        Eigen::MatrixXd each(dim, fields.size());
+        for (std::size_t i = 0; i < fields.size(); ++i)
+          for (unsigned int c = 0; c < dim; ++c)
+            each(c, i) = fields[i].local_element(dim * spaces.nodes[p] + c);
+        return Eigen::MatrixXd(each * coefficients);
+      };
+      Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(n, n + 1);
+      for (std::size_t p = 0; p < spaces.size(); ++p)
+        {
+          const Eigen::MatrixXd moved = at(p);
+          sums.leftCols(n) += moved.transpose() * moved;
+          sums.col(n) +=
+              moved.transpose() * Eigen::Map<const Eigen::Vector3d>(v.begin() + dim * spaces.nodes[p]);
+        }
+      for (Eigen::Index i = 0; i < sums.size(); ++i)
+        sums.data()[i] = Utilities::MPI::sum(sums.data()[i], v.get_mpi_communicator());
+      const Eigen::VectorXd share   = sums.leftCols(n).completeOrthogonalDecomposition().solve(sums.col(n));
+      double                largest = 0.;
+      for (std::size_t p = 0; p < spaces.size(); ++p)
+        largest = std::max(largest, (at(p) * share).norm());
+      return Utilities::MPI::max(largest, v.get_mpi_communicator());
+    }
+  } // namespace
+
+
+
+  std::vector<std::vector<double>> find_drift(const std::vector<FreeMotion> &motions,
+                                              const std::vector<Vector> &fields, const HalfSpaces &spaces,
+                                              const LooseMotions &loose, const Vector &v, const double width)
+  {
+    if (loose.hardly_held.empty() ||
+        slip_along(loose.hardly_held, fields, spaces, v) <= LooseMotionRule().slip * width)
+      return {};
+    // Few nodes may be active in a solution that drifts: these need not show what the surfaces allow.
+    const LooseMotions anywhere =
+        find_loose_motions(motions, fields, spaces, std::vector<unsigned char>(spaces.size(), 1));
+    return anywhere.hardly_held.empty() ? loose.hardly_held : anywhere.hardly_held;
+  }
+
+
+
+  void warn_of_facets(const ContactModel &model, const std::vector<FreeMotion> &motions,
+                      const std::vector<std::vector<double>> &hardly_held, Journal &journal)
+  {
+    for (const std::vector<double> &motion : hardly_held)
+      journal.note("warning: " + describe_motion(motions, motion, model.bodies()) +
+                   ": frictionless contact does not hold it but for the facets of the surfaces. How far the "
+                   "body moves that way, and what depends on it, is no property of the true bodies; "
+                   "prescribe a displacement there.");
+  }
+
+
+
+  namespace
+  {
+    /// The half-spaces that a motion of at most some length along some directions may leave, as rows (normal
+    /// parts of a step along each direction) and what is left to the bounds.
+    struct Reach
+    {
+      std::vector<double> rows, bounds;
+    };
+
+    Reach half_spaces_in_reach(const HalfSpaces &spaces, const Vector &v, const std::vector<Vector> &directions,
+                               const double length)
+    {
+      const auto      n = static_cast<Eigen::Index>(directions.size());
+      Eigen::MatrixXd parts(n, spaces.size());
+      double          largest = 0.;
+      for (std::size_t p = 0; p < spaces.size(); ++p)
+        {
+          double squares = 0.;
+          for (Eigen::Index k = 0; k < n; ++k)
+            {
+              parts(k, p) = spaces.normal_part(p, directions[k]);
+              squares += nodal_value(directions[k], spaces.nodes[p]).norm_square();
+            }
+          largest = std::max(largest, std::sqrt(squares));
+        }
+      const double rounding =
+          LooseMotionRule().rounding * length * Utilities::MPI::max(largest, v.get_mpi_communicator());
+      Reach        result;
+      for (std::size_t p = 0; p < spaces.size(); ++p)
+        {
+          const double left = std::max(0., spaces.bounds[p] - spaces.normal_part(p, v)) + rounding;
+          if (parts.col(p).norm() * length <= left)
+            continue;
+          result.rows.insert(result.rows.end(), parts.col(p).begin(), parts.col(p).end());
+          result.bounds.push_back(left);
+        }
+      for (std::vector<double> *const list : {&result.rows, &result.bounds})
+        *list = gather_lists(std::move(*list), v.get_mpi_communicator(), Receivers::all);
+      return result;
+    }
+
+    /// Linear combinations of some vectors, one for each column.
+    std::vector<Vector> combine(const std::vector<Vector> &vectors, const Eigen::MatrixXd &coefficients)
+    {
+      std::vector<Vector> result(coefficients.cols());
+      for (Eigen::Index k = 0; k < coefficients.cols(); ++k)
+        {
+          result[k].reinit(vectors[0]);
+          for (std::size_t i = 0; i < vectors.size(); ++i)
+            result[k].add(coefficients(i, k), vectors[i]);
+        }
+      return result;
+    }
+  } // namespace
+
+
+
+  void minimize_displacement(Vector &v, const std::vector<std::vector<double>> &motions,
+                             const std::vector<Vector> &fields, const HalfSpaces &spaces,
+                             const ContactModel &model, const Discretization &d,
+                             const NodePartition &unknowns)
+  {
+    const auto n = static_cast<Eigen::Index>(motions.size());
+    if (n == 0)
+      return;
+    Eigen::MatrixXd coefficients(fields.size(), n);
+    for (Eigen::Index k = 0; k < n; ++k)
+      coefficients.col(k) = Eigen::Map<const Eigen::VectorXd>(motions[k].data(), coefficients.rows());
+    const Vector u = d.transformation->to_displacement(v, unknowns);
+    const auto   z = combine(motion_fields(d.free_motions(), model.bodies(), d.nodal(), d.partition()),
+                             coefficients);
+    // |u + Z x|^2 = |y + L^-1 Z^T u|^2 + const., where Z^T Z = L L^T, y = L^T x.
+    Eigen::MatrixXd gram(n, n);
+    Eigen::VectorXd target(n);
+    for (Eigen::Index k = 0; k < n; ++k)
+      {
+        target[k] = -(z[k] * u);
+        for (Eigen::Index l = 0; l <= k; ++l)
+          gram(k, l) = gram(l, k) = z[k] * z[l];
+      }
+    const Eigen::LLT<Eigen::MatrixXd> cholesky(gram);
+    cholesky.matrixL().solveInPlace(target);
+    const Eigen::MatrixXd inverse = cholesky.matrixU().solve(Eigen::MatrixXd::Identity(n, n));
+    const auto            steps   = combine(fields, coefficients * inverse);
+    const Reach           reach   = half_spaces_in_reach(spaces, v, steps, target.norm());
+    const auto            y =
+        nearest_admissible(reach.rows, reach.bounds, std::vector<double>(target.begin(), target.end()));
+    for (Eigen::Index k = 0; k < n; ++k)
+      v.add(y[k], steps[k]);
+  }
+} // namespace Signorini
