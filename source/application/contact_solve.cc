@@ -241,8 +241,8 @@ namespace Signorini
     {
       const HalfSpaces    &spaces   = algebraic.problem.half_spaces;
       const NodePartition &unknowns = algebraic.hierarchy->finest().matrix.partition();
-      const auto fields = motions_of_unknowns(model, *d.constrained, unknowns, *d.transformation);
-      const LooseMotions loose = find_loose_motions(d.free_motions(), fields, spaces, active);
+      const auto           fields   = motions_of_unknowns(model, *d.constrained, unknowns, *d.transformation);
+      const LooseMotions   loose    = find_loose_motions(d.free_motions(), fields, spaces, active);
       auto drifting = find_drift(d.free_motions(), fields, spaces, loose, algebraic.v, mean_width(d));
       if (!drifting.empty())
         return drifting;

@@ -141,7 +141,8 @@ namespace Signorini
         for (std::size_t m = 0; m < fields.size(); ++m)
           done += work[m] * motion[m];
         return is_rotation(motions, motion) && sums[0] <= LooseMotionRule().hardly_opposed * sums[1] &&
-               std::abs(done) <= FreedomRule().work_of_facets * loads * std::sqrt(sums[1] / std::max(sums[2], 1.));
+               std::abs(done) <=
+                   FreedomRule().work_of_facets * loads * std::sqrt(sums[1] / std::max(sums[2], 1.));
       }
 
       /// The motions; work of the loads on them; sum of the loads (force).

@@ -33,7 +33,7 @@ namespace Signorini
       sums.data()[i] = Utilities::MPI::sum(sums.data()[i], fields[0].get_mpi_communicator());
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(sums.leftCols(n));
     const double                                         scale = sums.col(n).maxCoeff();
-    const LooseMotionRule                                 rule;
+    const LooseMotionRule                                rule;
     LooseMotions                                         result;
     for (Eigen::Index k = 0; k < n; ++k)
       {
@@ -124,8 +124,8 @@ namespace Signorini
       std::vector<double> rows, bounds;
     };
 
-    Reach half_spaces_in_reach(const HalfSpaces &spaces, const Vector &v, const std::vector<Vector> &directions,
-                               const double length)
+    Reach half_spaces_in_reach(const HalfSpaces &spaces, const Vector &v,
+                               const std::vector<Vector> &directions, const double length)
     {
       const auto      n = static_cast<Eigen::Index>(directions.size());
       Eigen::MatrixXd parts(n, spaces.size());
@@ -142,7 +142,7 @@ namespace Signorini
         }
       const double rounding =
           LooseMotionRule().rounding * length * Utilities::MPI::max(largest, v.get_mpi_communicator());
-      Reach        result;
+      Reach result;
       for (std::size_t p = 0; p < spaces.size(); ++p)
         {
           const double left = std::max(0., spaces.bounds[p] - spaces.normal_part(p, v)) + rounding;
@@ -184,8 +184,8 @@ namespace Signorini
     for (Eigen::Index k = 0; k < n; ++k)
       coefficients.col(k) = Eigen::Map<const Eigen::VectorXd>(motions[k].data(), coefficients.rows());
     const Vector u = d.transformation->to_displacement(v, unknowns);
-    const auto   z = combine(motion_fields(d.free_motions(), model.bodies(), d.nodal(), d.partition()),
-                             coefficients);
+    const auto   z =
+        combine(motion_fields(d.free_motions(), model.bodies(), d.nodal(), d.partition()), coefficients);
     // |u + Z x|^2 = |y + L^-1 Z^T u|^2 + const., where Z^T Z = L L^T, y = L^T x.
     Eigen::MatrixXd gram(n, n);
     Eigen::VectorXd target(n);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include "gathered_states.h"
 #include "interior_point.h"
 #include "single_threaded.h"
 
@@ -30,17 +31,6 @@ namespace Signorini
 
     using States = std::vector<NodeState>;
     using Flags  = std::vector<unsigned char>;
-
-    double normal_part(const Eigen::VectorXd &x, const std::size_t node, const Vector3 &n)
-    {
-      return n[0] * x[dim * node] + n[1] * x[dim * node + 1] + n[2] * x[dim * node + 2];
-    }
-
-    void add_normal(Eigen::VectorXd &x, const std::size_t node, const Vector3 &n, const double length)
-    {
-      for (unsigned int c = 0; c < dim; ++c)
-        x[dim * node + c] += length * n[c];
-    }
   } // namespace
 
 
@@ -80,15 +70,6 @@ namespace Signorini
 
   namespace
   {
-    Eigen::VectorXd residual_of(const States &states)
-    {
-      Eigen::VectorXd result(dim * states.size());
-      for (std::size_t i = 0; i < states.size(); ++i)
-        for (unsigned int c = 0; c < dim; ++c)
-          result[dim * i + c] = states[i].residual[c];
-      return result;
-    }
-
     /// Without normal parts at active nodes.
     Eigen::VectorXd in_planes(Eigen::VectorXd x, const States &states, const Flags &active)
     {

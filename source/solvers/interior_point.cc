@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Signorini authors
 
 #include "interior_point.h"
+#include "gathered_states.h"
 #include "single_threaded.h"
 
 namespace Signorini
@@ -20,20 +21,16 @@ namespace Signorini
     , lower(lower)
     , cholesky(cholesky)
     , place(states.size(), none)
-    , load(dim * states.size())
+    , load(residual_of(states))
     , s(Eigen::VectorXd::Zero(dim * states.size()))
     , regularization(Rule().regularization)
   {
     for (std::size_t i = 0; i < states.size(); ++i)
-      {
-        for (unsigned int c = 0; c < dim; ++c)
-          load[dim * i + c] = states[i].residual[c];
-        if (states[i].room >= 0.)
-          {
-            place[i] = constrained.size();
-            constrained.push_back(i);
-          }
-      }
+      if (states[i].room >= 0.)
+        {
+          place[i] = constrained.size();
+          constrained.push_back(i);
+        }
   }
 
 
@@ -42,13 +39,16 @@ namespace Signorini
   {
     Eigen::VectorXd result(constrained.size());
     for (std::size_t p = 0; p < constrained.size(); ++p)
-      {
-        const std::size_t i = constrained[p];
-        result[p]           = 0.;
-        for (unsigned int c = 0; c < dim; ++c)
-          result[p] += states[i].normal[c] * x[dim * i + c];
-      }
+      result[p] = normal_part(x, constrained[p], states[constrained[p]].normal);
     return result;
+  }
+
+
+
+  void InteriorPoint::subtract_pressures(Eigen::VectorXd &forces, const Eigen::VectorXd &pressures) const
+  {
+    for (std::size_t p = 0; p < constrained.size(); ++p)
+      add_normal(forces, constrained[p], states[constrained[p]].normal, -pressures[p]);
   }
 
 
@@ -81,9 +81,7 @@ namespace Signorini
   {
     const Eigen::VectorXd pressures = ((products - l.cwiseProduct(way_defect)).array() / w.array()).matrix();
     Eigen::VectorXd       forces    = force_defect;
-    for (std::size_t p = 0; p < constrained.size(); ++p)
-      for (unsigned int c = 0; c < dim; ++c)
-        forces[dim * constrained[p] + c] -= pressures[p] * states[constrained[p]].normal[c];
+    subtract_pressures(forces, pressures);
     Change                result;
     const Eigen::VectorXd way = normal_parts(result.s = cholesky.solve(forces));
     result.w                  = way_defect - way;
@@ -128,9 +126,7 @@ namespace Signorini
     for (unsigned int k = 0; k < Rule().n_iterations && rest > Rule().tolerance; ++k)
       {
         force_defect = load - matrix * s;
-        for (Eigen::Index p = 0; p < n; ++p)
-          for (unsigned int c = 0; c < dim; ++c)
-            force_defect[dim * constrained[p] + c] -= l[p] * states[constrained[p]].normal[c];
+        subtract_pressures(force_defect, l);
         way_defect              = room - normal_parts(s) - w;
         const double complement = w.dot(l) / static_cast<double>(n);
         rest = std::max({complement / (scale_w * scale_l), force_defect.norm() / load.norm(),

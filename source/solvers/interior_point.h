@@ -65,6 +65,7 @@ namespace Signorini
     Change          newton(const Eigen::VectorXd &products) const;
     double          longest(const Change &change) const;
     Eigen::VectorXd normal_parts(const Eigen::VectorXd &x) const;
+    void            subtract_pressures(Eigen::VectorXd &forces, const Eigen::VectorXd &pressures) const;
 
     const GatheredBlocks         &matrix;
     const std::vector<NodeState> &states;

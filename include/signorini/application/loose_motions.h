@@ -54,8 +54,8 @@ namespace Signorini
   void warn_of_facets(const ContactModel &model, const std::vector<FreeMotion> &motions,
                       const std::vector<std::vector<double>> &hardly_held, Journal &journal);
 
-  /// Collective. Of all solutions the one with the smallest displacement (sum of squares over the nodes): moves
-  /// a solution along what nothing determines, as far as contact allows.
+  /// Collective. Of all solutions the one with the smallest displacement (sum of squares over the nodes):
+  /// moves a solution along what nothing determines, as far as contact allows.
   /// @param motions coefficients of the fields
   /// @param fields of motions_of_unknowns()
   /// @param unknowns partition of v

@@ -76,8 +76,8 @@ namespace Signorini
   RigidBalance balance_rigid_motions(const std::vector<double> &motions, const std::vector<double> &gaps,
                                      const std::vector<double> &loads);
 
-  /// The point of a polyhedron that is nearest to a target: min |x - target|, G x <= bounds. The origin must be
-  /// in it (Lawson & Hanson 1974, chapter 23, problem LDP).
+  /// The point of a polyhedron that is nearest to a target: min |x - target|, G x <= bounds. The origin must
+  /// be in it (Lawson & Hanson 1974, chapter 23, problem LDP).
   /// @param rows G row by row
   /// @param bounds not negative
   std::vector<double> nearest_admissible(const std::vector<double> &rows, const std::vector<double> &bounds,
