@@ -23,6 +23,9 @@ import tempfile
 import threading
 
 HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path.append(os.path.dirname(HERE))
+from run_environment import session_folder  # noqa: E402
+
 KINDS = ('parameters', 'deck', 'mesh', 'surface')
 NUMBERS = [b'0', b'-1', b'1', b'2', b'-0.', b'255', b'65536', b'2147483647', b'2147483648', b'-2147483648', b'4294967295', b'4294967296',
            b'9223372036854775807', b'-9223372036854775808', b'18446744073709551615', b'99999999999999999999999', b'1e308', b'-1e308', b'1e-308',
@@ -203,7 +206,7 @@ def run_program(programs, kind, path):
     """As read_files says it, from exit code and messages of a program."""
     with tempfile.TemporaryDirectory() as session, tempfile.TemporaryFile() as said, tempfile.TemporaryFile() as errors:
         process = subprocess.Popen(command_for(programs, kind, path), stdin=subprocess.DEVNULL, stdout=said, stderr=errors,
-                                   env=dict(ENVIRONMENT, OMPI_MCA_orte_tmpdir_base=session, PRTE_MCA_prte_tmpdir_base=session), preexec_fn=set_limits)
+                                   env=dict(ENVIRONMENT, **session_folder(session)), preexec_fn=set_limits)
         timer = threading.Timer(120, process.kill)
         timer.start()
         _, status, used = os.wait4(process.pid, 0)
