@@ -140,13 +140,13 @@ namespace Signorini
             }
           largest = std::max(largest, std::sqrt(squares));
         }
-      const double rounding =
-          LooseMotionRule().rounding * length * Utilities::MPI::max(largest, v.get_mpi_communicator());
+      largest = Utilities::MPI::max(largest, v.get_mpi_communicator());
       Reach result;
       for (std::size_t p = 0; p < spaces.size(); ++p)
         {
-          const double left = std::max(0., spaces.bounds[p] - spaces.normal_part(p, v)) + rounding;
-          if (parts.col(p).norm() * length <= left)
+          const double left  = std::max(0., spaces.bounds[p] - spaces.normal_part(p, v));
+          const double slope = parts.col(p).norm();
+          if (slope <= LooseMotionRule().rounding * largest || slope * length <= left)
             continue;
           result.rows.insert(result.rows.end(), parts.col(p).begin(), parts.col(p).end());
           result.bounds.push_back(left);

@@ -101,11 +101,12 @@ namespace Signorini
 
 
 
-  ContactSubspace::ContactSubspace(const MultigridHierarchy &hierarchy, const unsigned int level)
+  ContactSubspace::ContactSubspace(const MultigridHierarchy &hierarchy, const unsigned int level,
+                                   const std::vector<NodeIndex> &nodes)
     : finest(hierarchy.level(level))
+    , contact_nodes(nodes)
   {
-    const NodePartition          &partition = finest.matrix.partition();
-    const std::vector<NodeIndex> &nodes     = finest.contact_nodes;
+    const NodePartition &partition = finest.matrix.partition();
     for (const NodeIndex first : first_nodes(partition))
       contact_begin.push_back(std::lower_bound(nodes.begin(), nodes.end(), first) - nodes.begin());
     const unsigned int coarsest = choose_level(hierarchy, level);
@@ -127,11 +128,10 @@ namespace Signorini
 
   std::optional<NodeIndex> ContactSubspace::contact_index(const NodeIndex node) const
   {
-    const auto &nodes = finest.contact_nodes;
-    const auto  place = std::lower_bound(nodes.begin(), nodes.end(), node);
-    if (place == nodes.end() || *place != node)
+    const auto place = std::lower_bound(contact_nodes.begin(), contact_nodes.end(), node);
+    if (place == contact_nodes.end() || *place != node)
       return {};
-    return place - nodes.begin();
+    return place - contact_nodes.begin();
   }
 
 
@@ -194,7 +194,7 @@ namespace Signorini
     const NodePartition         &own = finest.matrix.partition();
     std::vector<FixedDirections> masks(coarse.fixed.begin(),
                                        coarse.fixed.begin() + coarse.matrix.partition().n_owned());
-    for (const NodeIndex node : finest.contact_nodes)
+    for (const NodeIndex node : contact_nodes)
       if (own.owns(node))
         masks.push_back(finest.fixed[own.to_local(node)]);
     space.fixed = import_ghost_masks(space.matrix.partition(), masks);
@@ -249,7 +249,7 @@ namespace Signorini
         space.numbering.find(partition.to_global(i), node, index);
         if (!index)
           continue;
-        const unsigned int row = finest.matrix.partition().to_local(finest.contact_nodes[*index]);
+        const unsigned int row = finest.matrix.partition().to_local(contact_nodes[*index]);
         if (const int p = contact.at(row); p >= 0)
           {
             const HalfSpaces &half_spaces = contact.half_spaces();
@@ -276,7 +276,7 @@ namespace Signorini
         space.numbering.find(space.matrix.partition().to_global(i), node, index);
         if (!index)
           continue;
-        const unsigned int row = finest.matrix.partition().to_local(finest.contact_nodes[*index]);
+        const unsigned int row = finest.matrix.partition().to_local(contact_nodes[*index]);
         if (const int p = contact.at(row); p >= 0)
           contact.set_active(p, steps[i].is_active != 0.);
       }

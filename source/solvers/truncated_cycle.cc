@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/algebra/gathered_lists.h>
 #include <signorini/solvers/truncated_cycle.h>
 
 #include <deal.II/base/mpi.h>
@@ -11,7 +12,7 @@ namespace Signorini
 
   TruncatedCycle::TruncatedCycle(MultigridHierarchy &hierarchy, const unsigned int level,
                                  const SmoothingParameters &coarse_smoothing, const ObstacleProblem &problem,
-                                 ContactState &contact)
+                                 ContactState &contact, const bool has_good_start)
     : hierarchy(hierarchy)
     , level(level)
     , problem(problem)
@@ -19,6 +20,7 @@ namespace Signorini
     , cycle(hierarchy, coarse_smoothing, level - 1)
     , has_subspace(problem.semidefinite && ContactSubspace::exists(hierarchy, level))
     , motions(hierarchy.level(level).matrix, problem.free_motions, problem.rhs)
+    , stays_blocked(!has_good_start)
   {
     for (Vector *vector : {&coarse_defect, &coarse_correction})
       hierarchy.level(level - 1).matrix.partition().reinit(*vector);
@@ -85,10 +87,23 @@ namespace Signorini
 
 
 
+  std::vector<NodeIndex> TruncatedCycle::nodes_of_subspace() const
+  {
+    const NodePartition   &partition = hierarchy.level(level).matrix.partition();
+    std::vector<NodeIndex> own;
+    for (const NodeIndex node : hierarchy.level(level).contact_nodes)
+      if (partition.owns(node))
+        if (const unsigned int row = partition.to_local(node); contact.at(row) >= 0 || motions.moves(row))
+          own.push_back(node);
+    return gather_lists(std::move(own), partition.communicator(), Receivers::all);
+  }
+
+
+
   void TruncatedCycle::minimize_in_subspace()
   {
     if (!subspace)
-      subspace.emplace(hierarchy, level);
+      subspace.emplace(hierarchy, level, nodes_of_subspace());
     subspace->run(correction, new_residual, contact, motions);
   }
 

@@ -125,10 +125,11 @@ namespace Signorini
   {
     ConvergenceReport    report;
     const bool           accelerates = parameters.method == SolverMethod::accelerated;
-    const bool           trusts_set  = start(v, problem, report) && accelerates && !problem.semidefinite;
+    const bool           good_start  = start(v, problem, report);
+    const bool           trusts_set  = good_start && accelerates && !problem.semidefinite;
     InterfaceSweepPolicy sweeps(parameters.smoothing, trusts_set && !hierarchy.has_slow_interface(),
                                 parameters.starts_with_interface_sweeps);
-    TruncatedCycle       cycle(hierarchy, level, parameters.smoothing, problem, contact);
+    TruncatedCycle       cycle(hierarchy, level, parameters.smoothing, problem, contact, good_start);
     SubstepCheck         check(matrix(), problem, report, parameters.check_monotonicity);
     SafetyNet            net(hierarchy, parameters, level, report);
     Vector               residual;

@@ -21,9 +21,9 @@ namespace Signorini
     /// How far surfaces may slide along a motion that facets oppose, in widths of a face: on a radius of
     /// ten faces that is a hundredth of a radian. Solutions that drift slide by 1e2 to 1e6 of them.
     double slip = .1;
-    /// The normal part that a motion may keep where nothing opposes it, relative to the motion: rounding of
-    /// eigenvectors.
-    double rounding = 1e-11;
+    /// The normal part of a motion at a node, relative to the motion, that does not oppose it: rounding of
+    /// eigenvectors (2e-12 on a plate on balls, whose facets make 1e-5).
+    double rounding = 1e-9;
   };
 
   /// Motions that slide along active contacts, as coefficients of the free motions.

@@ -10,8 +10,7 @@
 
 namespace Signorini
 {
-  /// Minimizes over the contact nodes of both sides and the functions of a coarse level at once, in all
-  /// half-spaces. Rigid motions of bodies that only contact holds have no stiffness but that of the nodes
+  /// Minimizes over contact nodes and the functions of a coarse level at once, in all half-spaces. Rigid motions of bodies that only contact holds have no stiffness but that of the nodes
   /// that touch: coarse corrections that do not see the half-spaces run into the next node, are shortened,
   /// and one node more is active after each iteration. Here the body moves, bends and is indented at the same
   /// time.
@@ -42,7 +41,10 @@ namespace Signorini
     static bool exists(const MultigridHierarchy &hierarchy, const unsigned int level);
 
     /// Collective. Of a level of the hierarchy, with the levels below it.
-    ContactSubspace(const MultigridHierarchy &hierarchy, const unsigned int level);
+    /// @param nodes contact nodes of the level, sorted, those of all ranks: all that half-spaces restrict,
+    ///   and what moves freely beside these
+    ContactSubspace(const MultigridHierarchy &hierarchy, const unsigned int level,
+                    const std::vector<NodeIndex> &nodes);
 
     /// Collective. Adds the minimizer to v, without motions that are idle then, and updates
     /// residual = rhs - A v.
@@ -99,6 +101,8 @@ namespace Signorini
                                           const ContactState &contact);
 
     const MultigridLevel  &finest;
+    std::vector<NodeIndex> contact_nodes;
+    /// How many of them the ranks before each rank own, and all of them.
     std::vector<NodeIndex> contact_begin;
     /// Finest first.
     std::vector<Space>      spaces;

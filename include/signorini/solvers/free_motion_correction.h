@@ -52,6 +52,9 @@ namespace Signorini
       return driven;
     }
 
+    /// Whether a motion moves a node of this rank.
+    bool moves(const unsigned int row) const;
+
     /// Collective. Subtracts A s from a residual, which is tangential at active nodes; s minimizes over the
     /// motions. Returns the coefficients of s.
     std::vector<double> minimize(Vector &residual) const;

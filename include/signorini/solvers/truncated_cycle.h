@@ -23,9 +23,10 @@ namespace Signorini
   public:
     /// All must outlive the object; the truncation of the hierarchy is changed.
     /// @param level the finest one of the problem
+    /// @param has_good_start whether most of the active set is known
     TruncatedCycle(MultigridHierarchy &hierarchy, const unsigned int level,
                    const SmoothingParameters &coarse_smoothing, const ObstacleProblem &problem,
-                   ContactState &contact);
+                   ContactState &contact, const bool has_good_start);
 
     /// How a run goes about it.
     struct Plan
@@ -85,6 +86,10 @@ namespace Signorini
     /// semidefinite problems.
     double add_better(const double length);
 
+    /// Collective. Contact nodes for the subspace: those with half-spaces, and those of bodies that nothing
+    /// else holds. The others move as coarse functions do.
+    std::vector<NodeIndex> nodes_of_subspace() const;
+
     /// Collective. Adds the minimizer in the contact subspace to the correction, and updates new_residual.
     void minimize_in_subspace();
 
@@ -104,8 +109,9 @@ namespace Signorini
     bool searched = false, keeps_active = false;
     /// Whether nodes in the way left little of the last coarse correction, or nothing holds the bodies.
     bool is_blocked = false;
-    /// Whether that was so after the last minimizer, too: the next iterations begin with one.
-    bool stays_blocked = false;
+    /// Whether that was so after the last minimizer, too, or nothing is known yet: the next iterations begin
+    /// with one.
+    bool stays_blocked;
     /// Energy norm of a coarse correction of which something was cut off or shortened; else zero.
     double cut_off = 0.;
   };
