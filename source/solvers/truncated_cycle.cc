@@ -12,7 +12,7 @@ namespace Signorini
 
   TruncatedCycle::TruncatedCycle(MultigridHierarchy &hierarchy, const unsigned int level,
                                  const SmoothingParameters &coarse_smoothing, const ObstacleProblem &problem,
-                                 ContactState &contact, const bool has_good_start)
+                                 ContactState &contact, const bool knows_contact)
     : hierarchy(hierarchy)
     , level(level)
     , problem(problem)
@@ -20,7 +20,7 @@ namespace Signorini
     , cycle(hierarchy, coarse_smoothing, level - 1)
     , has_subspace(problem.semidefinite && ContactSubspace::exists(hierarchy, level))
     , motions(hierarchy.level(level).matrix, problem.free_motions, problem.rhs)
-    , stays_blocked(!has_good_start)
+    , stays_blocked(!knows_contact)
   {
     for (Vector *vector : {&coarse_defect, &coarse_correction})
       hierarchy.level(level - 1).matrix.partition().reinit(*vector);

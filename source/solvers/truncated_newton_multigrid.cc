@@ -18,6 +18,8 @@ namespace Signorini
       /// A longer step along a conjugate direction, in corrections of the V-cycle, is the ratio of two
       /// rounding errors: a motion that costs nothing.
       double longest_step = 100.;
+      /// A(v), the forces of a start, relative to the loads: less is rounding, of a rigid motion.
+      double no_forces = 1e-6;
       /// Tolerance on the levels that only give a start: two or three iterations each.
       double start_tolerance = 1e-2;
     };
@@ -120,16 +122,30 @@ namespace Signorini
 
 
 
+  namespace
+  {
+    /// Whether A v is more than rounding.
+    bool has_forces(const NodeBlockMatrix &matrix, const Vector &v, const Vector &rhs)
+    {
+      Vector forces;
+      forces.reinit(v);
+      matrix.vmult(forces, v);
+      return forces.l2_norm() > AccelerationRule().no_forces * rhs.l2_norm();
+    }
+  } // namespace
+
+
+
   ConvergenceReport TruncatedNewtonMultigrid::solve(Vector &v, const ObstacleProblem &problem,
                                                     const Monitor &monitor)
   {
     ConvergenceReport    report;
-    const bool           accelerates = parameters.method == SolverMethod::accelerated;
-    const bool           good_start  = start(v, problem, report);
-    const bool           trusts_set  = good_start && accelerates && !problem.semidefinite;
+    const bool           accelerates   = parameters.method == SolverMethod::accelerated;
+    const bool           knows_contact = !problem.semidefinite || has_forces(matrix(), v, problem.rhs);
+    const bool           trusts_set    = start(v, problem, report) && accelerates && !problem.semidefinite;
     InterfaceSweepPolicy sweeps(parameters.smoothing, trusts_set && !hierarchy.has_slow_interface(),
                                 parameters.starts_with_interface_sweeps);
-    TruncatedCycle       cycle(hierarchy, level, parameters.smoothing, problem, contact, good_start);
+    TruncatedCycle       cycle(hierarchy, level, parameters.smoothing, problem, contact, knows_contact);
     SubstepCheck         check(matrix(), problem, report, parameters.check_monotonicity);
     SafetyNet            net(hierarchy, parameters, level, report);
     Vector               residual;

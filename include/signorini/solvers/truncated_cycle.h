@@ -23,10 +23,10 @@ namespace Signorini
   public:
     /// All must outlive the object; the truncation of the hierarchy is changed.
     /// @param level the finest one of the problem
-    /// @param has_good_start whether most of the active set is known
+    /// @param knows_contact whether the start is that of another mesh or load, say, in contact
     TruncatedCycle(MultigridHierarchy &hierarchy, const unsigned int level,
                    const SmoothingParameters &coarse_smoothing, const ObstacleProblem &problem,
-                   ContactState &contact, const bool has_good_start);
+                   ContactState &contact, const bool knows_contact);
 
     /// How a run goes about it.
     struct Plan
