@@ -4,6 +4,7 @@
 #include "parameter_names.h"
 
 #include <signorini/algebra/input_error.h>
+#include <signorini/algebra/parameter_choice.h>
 #include <signorini/application/parameters.h>
 #include <signorini/mesh/expression.h>
 #include <signorini/mesh/size_limit.h>

@@ -5,6 +5,11 @@ add_test(NAME utilities/check_layers.planted
 add_test(NAME utilities/headers_alone
          COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/utilities/headers_alone.py ${PROJECT_BINARY_DIR})
 set_tests_properties(utilities/headers_alone PROPERTIES PROCESSORS 2)
+if(SIGNORINI_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  add_test(NAME utilities/sources_alone
+           COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/utilities/sources_alone.py ${PROJECT_BINARY_DIR})
+  set_tests_properties(utilities/sources_alone PROPERTIES PROCESSORS 2 TIMEOUT 900)
+endif()
 if(DOXYGEN_FOUND)
   add_test(NAME utilities/doxygen COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/utilities/doxygen_log.py
                                           $<TARGET_FILE:Doxygen::doxygen> ${PROJECT_BINARY_DIR}/doc/Doxyfile)
