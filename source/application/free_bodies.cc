@@ -87,7 +87,7 @@ namespace Signorini
                      const std::vector<double> &flight)
   {
     throw InputError("The loads press no body into contact that could hold it: " +
-                     describe_motion(motions, flight, model.bodies()) +
+                     describe_flight(motions, flight, model.bodies()) +
                      ", would fly away. Prescribe displacements, or change the loads.");
   }
 

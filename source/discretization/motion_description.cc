@@ -122,6 +122,23 @@ namespace Signorini
               all - *largest <= negligible * negligible * all};
     }
 
+    /// The same motion the other way where that is the usual one to say: the largest component of its
+    /// direction, or the first of those, is positive.
+    PartMotion oriented(PartMotion part)
+    {
+      Vector3 &direction = part.is_translation ? part.motion.translation : part.motion.rotation;
+      double   largest   = 0.;
+      for (unsigned int c = 0; c < dim; ++c)
+        if (std::abs(direction[c]) > (1. + negligible) * std::abs(largest))
+          largest = direction[c];
+      if (largest < 0.)
+        {
+          part.motion.translation *= -1.;
+          part.motion.rotation *= -1.;
+        }
+      return part;
+    }
+
     std::string print_axis_point(const PartMotion &part)
     {
       return print_vector(part.point(), not_shown * part.motion.length);
@@ -146,10 +163,9 @@ namespace Signorini
         return "rotation about any axis through " + print_axis_point(group[0]);
       if (group.size() == dim)
         return "translation in any direction";
-      Vector3 normal = cross_product_3d(group[0].motion.translation, group[1].motion.translation);
-      if (normal[0] + normal[1] + normal[2] < 0.)
-        normal *= -1.;
-      return "translation in any direction normal to " + print_direction(normal);
+      PartMotion normal         = group[0];
+      normal.motion.translation = cross_product_3d(group[0].motion.translation, group[1].motion.translation);
+      return "translation in any direction normal to " + print_direction(oriented(normal).motion.translation);
     }
 
     bool can_be_said_together(const std::vector<PartMotion> &group)
@@ -167,6 +183,15 @@ namespace Signorini
   std::string describe_motion(const std::vector<FreeMotion> &motions, const std::vector<double> &coefficients,
                               const Bodies &bodies)
   {
+    const PartMotion part = oriented(largest_part(motions, coefficients, bodies));
+    return bodies.part_name(part.motion.part) + ", " + describe(part);
+  }
+
+
+
+  std::string describe_flight(const std::vector<FreeMotion> &motions, const std::vector<double> &coefficients,
+                              const Bodies &bodies)
+  {
     const PartMotion part = largest_part(motions, coefficients, bodies);
     return bodies.part_name(part.motion.part) + ", " + describe(part);
   }
@@ -181,7 +206,7 @@ namespace Signorini
     // Of a part, translations and rotations.
     std::map<std::pair<unsigned int, bool>, std::vector<PartMotion>> groups;
     for (const std::vector<double> &coefficients : basis)
-      if (const PartMotion part = largest_part(motions, coefficients, bodies);
+      if (const PartMotion part = oriented(largest_part(motions, coefficients, bodies));
           part.is_alone && (part.is_translation || part.is_pure_rotation()))
         groups[{part.motion.part, part.is_translation}].push_back(part);
       else

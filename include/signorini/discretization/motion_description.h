@@ -16,6 +16,10 @@ namespace Signorini
   std::string describe_motion(const std::vector<FreeMotion> &motions, const std::vector<double> &coefficients,
                               const Bodies &bodies);
 
+  /// The same of a motion that goes one way only.
+  std::string describe_flight(const std::vector<FreeMotion> &motions, const std::vector<double> &coefficients,
+                              const Bodies &bodies);
+
   /// Several motions, which span what is free: the translations of a part together, its rotations about axes
   /// through one point together.
   std::vector<std::string> describe_motions(const std::vector<FreeMotion>          &motions,
