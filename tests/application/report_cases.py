@@ -35,6 +35,9 @@ LOOK = '''(selector => {
   return [colours.size, sum];
 })'''
 
+# Points of a picture with colours from the upper half of the scale: green to yellow, neither the axes nor white.
+BRIGHT = LOOK.replace('colours.add(c)', 'if (data[i + 1] > 85 && data[i + 2] < data[i + 1] && data[i] < 250) colours.add(i)')
+
 NUMBERS = '''[...document.querySelectorAll('[data-key]')].map(e => [e.dataset.key, e.dataset.value, e.textContent])'''
 
 
@@ -178,6 +181,14 @@ def report_kinds(p):
             is_quiet(b, out)
             check(('bad' in b.evaluate('document.querySelector(".verdict").className')) == (code == 1), f'{name}: verdict')
             moves(b, '#bodies-panel', lambda: b.drag('#bodies-panel canvas', 100, 30))
+        # One looks into a bore, not at the unloaded half of it from behind.
+        settings = ['eye/Mesh=tube', 'eye/Convert to tetrahedra=false', 'eye/Round divisions=3, 44, 5', 'eye/Dirichlet=outer: (0, -0.05, 0)', 'pin/Mesh=tube', 'pin/Round divisions=2, 36, 4']
+        bore = run(p, folder, os.path.join(TOP, 'tests', 'application', 'eye.prm'), '--set', 'Pair bearing/First region=1', *[a for s in settings for a in ('--set', f'Body {s}')])
+        b.open(os.path.join(bore, 'report.html'))
+        b.rest()
+        bright = b.evaluate(f'{BRIGHT}("#contact-panel")')[0]
+        check(bright > 100, f'{bright} points of the picture show pressure')
+        is_quiet(b, bore)
 
 
 def report_ranks(p):

@@ -38,9 +38,12 @@ const fragmentShader = `
   uniform sampler2D map;
   uniform vec2 limits;
   uniform vec3 plain;
+  uniform bool is_open;
   varying vec2 v_value;
   varying vec3 v_place;
   void main() {
+    // One looks through faces from behind, into bores: a dot is left here and there.
+    if (is_open && !gl_FrontFacing && (mod(gl_FragCoord.x, 5.0) > 1.0 || mod(gl_FragCoord.y, 5.0) > 1.0)) discard;
     vec3 normal = normalize(cross(dFdx(v_place), dFdy(v_place)));
     float light = 0.62 + 0.38 * abs(dot(normal, normalize(vec3(-0.35, 0.45, 0.82))));
     float t = clamp((v_value.x - limits.x) / max(limits.y - limits.x, 1e-30), 0.0, 1.0);
@@ -67,7 +70,8 @@ function edgesOf(triangles, kinds) {
 
 export class View {
   // Throws where there is no WebGL.
-  constructor(place, scene, surfaces, {onPick} = {}) {
+  // isOpen: surfaces without thickness, seen from their front.
+  constructor(place, scene, surfaces, {onPick, isOpen = false} = {}) {
     this.place = place;
     this.scene = scene;
     this.onPick = onPick;
@@ -78,7 +82,7 @@ export class View {
     this.canvas.tabIndex = 0;
     this.world = new World();
     this.camera = new OrthographicCamera();
-    this.uniforms = {map: {value: colours()}, limits: {value: new Vector2(0, 1)}, plain: {value: new Color(0.72, 0.73, 0.75)}};
+    this.uniforms = {map: {value: colours()}, limits: {value: new Vector2(0, 1)}, plain: {value: new Color(0.72, 0.73, 0.75)}, is_open: {value: isOpen}};
     this.material = new ShaderMaterial({vertexShader, fragmentShader, uniforms: this.uniforms, side: DoubleSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1});
     this.lineMaterial = new LineBasicMaterial({color: 0x1d2733, transparent: true, opacity: 0.35});
     this.scale = 1;
@@ -255,7 +259,9 @@ export class View {
     const ray = new Raycaster();
     ray.setFromCamera(new Vector2((2 * (e.clientX - box.left)) / box.width - 1, 1 - (2 * (e.clientY - box.top)) / box.height), this.camera);
     const shown = this.surfaces.filter(drawn => drawn.isShown);
-    const hit = ray.intersectObjects(shown.map(drawn => drawn.mesh))[0];
+    const hits = ray.intersectObjects(shown.map(drawn => drawn.mesh));
+    const isFront = hit => hit.face.normal.dot(ray.ray.direction) < 0;
+    const hit = (this.uniforms.is_open.value && hits.find(isFront)) || hits[0];
     if (!hit || !this.onPick) return this.onPick && this.onPick(null);
     const {surface} = shown.find(drawn => drawn.mesh === hit.object);
     const corners = [hit.face.a, hit.face.b, hit.face.c];

@@ -159,11 +159,11 @@ class Store {
   }
 }
 
-function startView(panel, scene, surfaces) {
+function startView(panel, scene, surfaces, options) {
   try {
     // three.js would tell the console.
     if (!document.createElement('canvas').getContext('webgl2')) throw new Error('it does not make a context');
-    const view = new View(panel.picture, scene, surfaces);
+    const view = new View(panel.picture, scene, surfaces, options);
     panel.start(view);
     return view;
   } catch (error) {
@@ -344,6 +344,9 @@ export function contactSection(scene, context) {
     chosen = Number(s);
     if (panel.view) {
       panel.view.show(surface => surface.index === chosen);
+      // Pressures on the other sides may be larger.
+      panel.surfaces = [sides[chosen]];
+      panel.choose(panel.field);
       panel.view.lookAtAll();
       look(false);
     }
@@ -352,7 +355,7 @@ export function contactSection(scene, context) {
   };
   const start = () => {
     panel.options.append(select('Surface', sides.map((s, i) => [String(i), `${(pairs[s.pair] || {}).name}: ${s.name}`]), '0', choose));
-    if (startView(panel, scene, sides))
+    if (startView(panel, scene, sides, {isOpen: true}))
       panel.options.append(h('span', {class: 'looks'}, h('button', {type: 'button', onclick: () => look(false)}, 'contact zone'), h('button', {type: 'button', onclick: () => look(true)}, 'whole surface')));
     choose(0);
     if (scene.states.length > 1) store.onState(k => curve.setState(k));
