@@ -248,7 +248,10 @@ namespace Signorini
         return drifting;
       note_undetermined(loose, model, d, journal);
       warn_of_facets(model, d.free_motions(), loose.hardly_held, journal);
-      minimize_displacement(algebraic.v, loose.undetermined, fields, spaces, model, d, unknowns);
+      if (!loose.undetermined.empty())
+        minimize_displacement(
+            algebraic.v, d.transformation->to_displacement(algebraic.v, unknowns), loose.undetermined, fields,
+            motion_fields(d.free_motions(), model.bodies(), d.nodal(), d.partition()), spaces);
       return {};
     }
 

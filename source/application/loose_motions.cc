@@ -172,20 +172,15 @@ namespace Signorini
 
 
 
-  void minimize_displacement(Vector &v, const std::vector<std::vector<double>> &motions,
-                             const std::vector<Vector> &fields, const HalfSpaces &spaces,
-                             const ContactModel &model, const Discretization &d,
-                             const NodePartition &unknowns)
+  void minimize_displacement(Vector &v, const Vector &u, const std::vector<std::vector<double>> &motions,
+                             const std::vector<Vector> &fields, const std::vector<Vector> &displacements,
+                             const HalfSpaces &spaces)
   {
-    const auto n = static_cast<Eigen::Index>(motions.size());
-    if (n == 0)
-      return;
+    const auto      n = static_cast<Eigen::Index>(motions.size());
     Eigen::MatrixXd coefficients(fields.size(), n);
     for (Eigen::Index k = 0; k < n; ++k)
       coefficients.col(k) = Eigen::Map<const Eigen::VectorXd>(motions[k].data(), coefficients.rows());
-    const Vector u = d.transformation->to_displacement(v, unknowns);
-    const auto   z =
-        combine(motion_fields(d.free_motions(), model.bodies(), d.nodal(), d.partition()), coefficients);
+    const std::vector<Vector> z = combine(displacements, coefficients);
     // |u + Z x|^2 = |y + L^-1 Z^T u|^2 + const., where Z^T Z = L L^T, y = L^T x.
     Eigen::MatrixXd gram(n, n);
     Eigen::VectorXd target(n);

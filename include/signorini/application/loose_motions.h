@@ -13,6 +13,7 @@ namespace Signorini
 
   // What contact leaves loose: rigid motions of a solution that nothing determines, or only facets do.
 
+  /// When a motion counts as loose.
   struct LooseMotionRule
   {
     /// The mean square of the normal parts of a motion at active nodes, relative to that of the motion that
@@ -56,13 +57,12 @@ namespace Signorini
 
   /// Collective. Of all solutions the one with the smallest displacement (sum of squares over the nodes):
   /// moves a solution along what nothing determines, as far as contact allows.
-  /// @param motions coefficients of the fields
-  /// @param fields of motions_of_unknowns()
-  /// @param unknowns partition of v
-  void minimize_displacement(Vector &v, const std::vector<std::vector<double>> &motions,
-                             const std::vector<Vector> &fields, const HalfSpaces &half_spaces,
-                             const ContactModel &model, const Discretization &discretization,
-                             const NodePartition &unknowns);
+  /// @param v the solution, u its displacement
+  /// @param motions coefficients of the fields; not empty
+  /// @param fields of motions_of_unknowns(); `displacements` are the same motions as motion_fields()
+  void minimize_displacement(Vector &v, const Vector &u, const std::vector<std::vector<double>> &motions,
+                             const std::vector<Vector> &fields, const std::vector<Vector> &displacements,
+                             const HalfSpaces &half_spaces);
 } // namespace Signorini
 
 #endif
