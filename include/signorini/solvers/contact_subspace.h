@@ -33,7 +33,7 @@ namespace Signorini
       /// of what the whole one would have. Where contact lacks, 1e-7 to .03 is left; on nested starts of the
       /// lug .99 and more, and .19 to .7 in the first iterations on fine finished meshes, where the coarse
       /// functions are too stiff for the contact zone: .3 and .6 save one iteration in one of nine cases.
-      double least_decrease = .6;
+      double least_decrease = .1;
     };
 
     /// Whether a level of a hierarchy has contact nodes, and a level below it that is small enough.
