@@ -53,15 +53,22 @@ namespace Signorini
 
   namespace
   {
+    /// Coefficients of the free motions by column.
+    Eigen::MatrixXd as_columns(const std::vector<std::vector<double>> &motions)
+    {
+      Eigen::MatrixXd result(motions[0].size(), motions.size());
+      for (std::size_t k = 0; k < motions.size(); ++k)
+        result.col(k) = Eigen::Map<const Eigen::VectorXd>(motions[k].data(), result.rows());
+      return result;
+    }
+
     /// How far a solution slides along the span of some motions (length).
     double slip_along(const std::vector<std::vector<double>> &motions, const std::vector<Vector> &fields,
                       const HalfSpaces &spaces, const Vector &v)
     {
-      const auto      n = static_cast<Eigen::Index>(motions.size());
-      Eigen::MatrixXd coefficients(fields.size(), n);
-      for (Eigen::Index k = 0; k < n; ++k)
-        coefficients.col(k) = Eigen::Map<const Eigen::VectorXd>(motions[k].data(), coefficients.rows());
-      const auto at = [&](const std::size_t p) {
+      const auto            n            = static_cast<Eigen::Index>(motions.size());
+      const Eigen::MatrixXd coefficients = as_columns(motions);
+      const auto            at           = [&](const std::size_t p) {
         Eigen::MatrixXd each(dim, fields.size());
         for (std::size_t i = 0; i < fields.size(); ++i)
           for (unsigned int c = 0; c < dim; ++c)
@@ -176,11 +183,9 @@ namespace Signorini
                              const std::vector<Vector> &fields, const std::vector<Vector> &displacements,
                              const HalfSpaces &spaces)
   {
-    const auto      n = static_cast<Eigen::Index>(motions.size());
-    Eigen::MatrixXd coefficients(fields.size(), n);
-    for (Eigen::Index k = 0; k < n; ++k)
-      coefficients.col(k) = Eigen::Map<const Eigen::VectorXd>(motions[k].data(), coefficients.rows());
-    const std::vector<Vector> z = combine(displacements, coefficients);
+    const auto                n            = static_cast<Eigen::Index>(motions.size());
+    const Eigen::MatrixXd     coefficients = as_columns(motions);
+    const std::vector<Vector> z            = combine(displacements, coefficients);
     // |u + Z x|^2 = |y + L^-1 Z^T u|^2 + const., where Z^T Z = L L^T, y = L^T x.
     Eigen::MatrixXd gram(n, n);
     Eigen::VectorXd target(n);

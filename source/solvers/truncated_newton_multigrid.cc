@@ -18,7 +18,7 @@ namespace Signorini
       /// A longer step along a conjugate direction, in corrections of the V-cycle, is the ratio of two
       /// rounding errors: a motion that costs nothing.
       double longest_step = 100.;
-      /// A(v), the forces of a start, relative to the loads: less is rounding, of a rigid motion.
+      /// A v, the forces of a start, relative to the loads: less is rounding, of a rigid motion.
       double no_forces = 1e-6;
       /// Tolerance on the levels that only give a start: two or three iterations each.
       double start_tolerance = 1e-2;

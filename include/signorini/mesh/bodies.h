@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+// One class, and longer than a header should be: bodies, parts, materials, boundaries and sets of nodes get
+// their numbers in one go, with the meshes that have them. To be split: names and numbers from meshes and
+// shapes.
+
 #ifndef signorini_mesh_bodies_h
 #define signorini_mesh_bodies_h
 

@@ -23,7 +23,7 @@ namespace Signorini
   public:
     /// All must outlive the object; the truncation of the hierarchy is changed.
     /// @param level the finest one of the problem
-    /// @param knows_contact whether the start is that of another mesh or load, say, in contact
+    /// @param knows_contact whether the start carries loads, as that of another mesh or load does
     TruncatedCycle(MultigridHierarchy &hierarchy, const unsigned int level,
                    const SmoothingParameters &coarse_smoothing, const ObstacleProblem &problem,
                    ContactState &contact, const bool knows_contact);
