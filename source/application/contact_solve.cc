@@ -243,11 +243,16 @@ namespace Signorini
       const NodePartition &unknowns = algebraic.hierarchy->finest().matrix.partition();
       const auto           fields   = motions_of_unknowns(model, *d.constrained, unknowns, *d.transformation);
       const LooseMotions   loose    = find_loose_motions(d.free_motions(), fields, spaces, active);
-      auto drifting = find_drift(d.free_motions(), fields, spaces, loose, algebraic.v, mean_width(d));
+      const double         width    = mean_width(d);
+      auto                 drifting = find_drift(d.free_motions(), fields, spaces, loose, algebraic.v, width);
       if (!drifting.empty())
         return drifting;
       note_undetermined(loose, model, d, journal);
-      warn_of_facets(model, d.free_motions(), loose.hardly_held, journal);
+      warn_of_facets(model, d.free_motions(),
+                     !loose.hardly_held.empty() ? loose.hardly_held
+                                                : find_rotations_of_the_mesh(d.free_motions(), fields, spaces,
+                                                                             active, algebraic.v, width),
+                     journal);
       if (!loose.undetermined.empty())
         minimize_displacement(
             algebraic.v, d.transformation->to_displacement(algebraic.v, unknowns), loose.undetermined, fields,

@@ -14,32 +14,57 @@ namespace Signorini
 {
   using namespace dealii;
 
+  namespace
+  {
+    /// Sums of products of motions over active nodes: of their normal parts; of the whole motions. How many
+    /// nodes both move.
+    struct MotionsAtContact
+    {
+      Eigen::MatrixXd normal, whole, nodes;
+    };
+
+    MotionsAtContact at_contact(const std::vector<Vector> &fields, const HalfSpaces &spaces,
+                                const std::vector<unsigned char> &active)
+    {
+      const auto      n    = static_cast<Eigen::Index>(fields.size());
+      Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(n, 3 * n);
+      for (std::size_t p = 0; p < spaces.size(); ++p)
+        if (active[p])
+          {
+            Eigen::VectorXd normal(n);
+            Eigen::MatrixXd whole(dim, n);
+            for (Eigen::Index i = 0; i < n; ++i)
+              {
+                normal[i] = spaces.normal_part(p, fields[i]);
+                for (unsigned int c = 0; c < dim; ++c)
+                  whole(c, i) = fields[i].local_element(dim * spaces.nodes[p] + c);
+              }
+            sums.leftCols(n) += normal * normal.transpose();
+            sums.middleCols(n, n) += whole.transpose() * whole;
+            const Eigen::VectorXd moves = (whole.colwise().squaredNorm().array() > 0.).cast<double>();
+            sums.rightCols(n) += moves * moves.transpose();
+          }
+      for (Eigen::Index i = 0; i < sums.size(); ++i)
+        sums.data()[i] = Utilities::MPI::sum(sums.data()[i], fields[0].get_mpi_communicator());
+      return {sums.leftCols(n), sums.middleCols(n, n), sums.rightCols(n)};
+    }
+  } // namespace
+
+
+
   LooseMotions find_loose_motions(const std::vector<FreeMotion> &motions, const std::vector<Vector> &fields,
                                   const HalfSpaces &spaces, const std::vector<unsigned char> &active)
   {
-    const auto n = static_cast<Eigen::Index>(fields.size());
-    // Normal parts of two motions; in the last column whole motions.
-    Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(n, n + 1);
-    for (std::size_t p = 0; p < spaces.size(); ++p)
-      if (active[p])
-        for (Eigen::Index i = 0; i < n; ++i)
-          {
-            for (Eigen::Index j = 0; j < n; ++j)
-              sums(i, j) += spaces.normal_part(p, fields[i]) * spaces.normal_part(p, fields[j]);
-            for (unsigned int c = 0; c < dim; ++c)
-              sums(i, n) += Utilities::fixed_power<2>(fields[i].local_element(dim * spaces.nodes[p] + c));
-          }
-    for (Eigen::Index i = 0; i < sums.size(); ++i)
-      sums.data()[i] = Utilities::MPI::sum(sums.data()[i], fields[0].get_mpi_communicator());
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(sums.leftCols(n));
-    const double                                         scale = sums.col(n).maxCoeff();
+    const MotionsAtContact                               sums = at_contact(fields, spaces, active);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(sums.normal);
+    const double                                         scale = sums.whole.diagonal().maxCoeff();
     const LooseMotionRule                                rule;
     LooseMotions                                         result;
-    for (Eigen::Index k = 0; k < n; ++k)
+    for (Eigen::Index k = 0; k < eigen.eigenvalues().size(); ++k)
       {
         const double              opposed = eigen.eigenvalues()[k];
-        const std::vector<double> motion(eigen.eigenvectors().col(k).data(),
-                                         eigen.eigenvectors().col(k).data() + n);
+        const Eigen::VectorXd     column  = eigen.eigenvectors().col(k);
+        const std::vector<double> motion(column.begin(), column.end());
         if (opposed <= rule.not_opposed * scale)
           result.undetermined.push_back(motion);
         else if (opposed <= rule.hardly_opposed * scale)
@@ -106,6 +131,46 @@ namespace Signorini
     const LooseMotions anywhere =
         find_loose_motions(motions, fields, spaces, std::vector<unsigned char>(spaces.size(), 1));
     return anywhere.hardly_held.empty() ? loose.hardly_held : anywhere.hardly_held;
+  }
+
+
+
+  std::vector<std::vector<double>> find_rotations_of_the_mesh(const std::vector<FreeMotion>    &motions,
+                                                              const std::vector<Vector>        &fields,
+                                                              const HalfSpaces                 &spaces,
+                                                              const std::vector<unsigned char> &active,
+                                                              const Vector &v, const double width)
+  {
+    constexpr LooseMotionRule                         rule;
+    std::map<unsigned int, std::vector<Eigen::Index>> parts;
+    for (std::size_t m = 0; m < motions.size(); ++m)
+      parts[motions[m].part].push_back(m);
+    const MotionsAtContact           sums = at_contact(fields, spaces, active);
+    std::vector<std::vector<double>> result;
+    for (const auto &[part, own] : parts)
+      {
+        const Eigen::MatrixXd                                whole = sums.whole(own, own);
+        const double                                         nodes = sums.nodes(own[0], own[0]);
+        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(sums.normal(own, own));
+        for (Eigen::Index k = 0; k < eigen.eigenvalues().size(); ++k)
+          {
+            const double          opposed  = eigen.eigenvalues()[k];
+            const Eigen::VectorXd x        = eigen.eigenvectors().col(k);
+            Vector3               rotation = {};
+            std::vector<double>   motion(motions.size(), 0.);
+            for (std::size_t i = 0; i < own.size(); ++i)
+              {
+                motion[own[i]] = x[i];
+                rotation += x[i] / motions[own[i]].length * motions[own[i]].rotation;
+              }
+            const double elsewhere = nodes * std::pow(rule.offset * width * rotation.norm(), 2);
+            if (opposed > rule.not_opposed * whole.diagonal().maxCoeff() &&
+                opposed <= std::min(rule.slides * x.dot(whole * x), elsewhere) &&
+                slip_along({motion}, fields, spaces, v) > rule.slip * width)
+              result.push_back(motion);
+          }
+      }
+    return result;
   }
 
 

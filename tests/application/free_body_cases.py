@@ -32,6 +32,29 @@ end
 """
 
 
+VEE = """set Bodies        = shaft, block
+set Contact pairs = vee
+subsection Body shaft
+  set Mesh          = vee.msh
+  set Volumes       = shaft
+  set Young modulus = 210e3
+  set Poisson ratio = 0.3
+  set Volume force  = (0, -0.077, 0)
+end
+subsection Body block
+  set Mesh          = vee.msh
+  set Volumes       = block
+  set Young modulus = 210e3
+  set Poisson ratio = 0.3
+  set Dirichlet     = bottom: (0, 0, 0)
+end
+subsection Pair vee
+  set First  = shaft: shank
+  set Second = block: groove
+end
+"""
+
+
 def held_points(s):
     """The shares of the moments that points carry, from the notes."""
     words = (re.search(r'is held in [xyz] and carries a force of \S+, whose moment is (\S+) of contact force', note) for note in s['notes'])
@@ -93,6 +116,25 @@ def ball_joint(p):
                 near(s['pairs'][0]['max_recovered_pressure'], upright['pairs'][0]['max_recovered_pressure'], .05, 'largest pressure')
         text = refused(p, path, 'Body ball/Rigid=end: force (3000, 0, -10000)')
         check('The loads move body ball, rotation about the axis' in text and 'Prescribe a displacement' in text, text)
+
+
+def shaft_in_vee(p):
+    """A shaft in a V-block, on a coarse mesh: how the nodes lie that touch turns it (by 3 degrees until others touch), and a warning
+    says so; none where it is prescribed."""
+    with tempfile.TemporaryDirectory() as folder:
+        make_mesh(os.path.join(TOP, 'tests', 'application', 'vee.geo'), os.path.join(folder, 'vee.msh'))
+        path = os.path.join(folder, 'vee.prm')
+        with open(path, 'w') as f:
+            f.write(VEE)
+        s = p.solve(path)
+        warnings = [note for note in s['notes'] if 'but for the facets' in note]
+        axis = [float(w) for w in re.search(r'axis through \((.*?)\)', ' '.join(warnings)).group(1).split(',')]
+        check(len(warnings) == 1 and abs(axis[0]) <= .5 and abs(axis[1] - 14.142) <= .5, f'notes: {s["notes"]}')
+        check(s['converged'] and any('translation (0, 0, 1)' in note for note in s['notes']), f'notes: {s["notes"]}')
+        certificate(s)
+        near(s['pairs'][0]['force'][1], s['bodies'][0]['load'][1], 1e-9, 'weight')
+        held = p.solve(path, 'Body shaft/Dirichlet=ends: (0, *, 0)')
+        check(not any('but for the facets' in note for note in held['notes']), f'notes: {held["notes"]}')
 
 
 def lug_by_force(p):

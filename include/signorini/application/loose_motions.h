@@ -19,6 +19,13 @@ namespace Signorini
     /// The mean square of the normal parts of a motion at active nodes, relative to that of the motion that
     /// moves these most: zero to rounding; what facets of round surfaces give.
     double not_opposed = 1e-10, hardly_opposed = 1e-4;
+    /// How far from the active nodes, in widths of a face, the surfaces may touch in truth. A coarse shaft in
+    /// a V-block turns by 3 degrees until two rows of nodes are active, half a face to either side of where
+    /// it would touch.
+    double offset = 1.;
+    /// The mean square of normal parts relative to that of the motion, both at active nodes, up to which it
+    /// slides there: 0.04 in that V-block. A block that tilts about an edge does not.
+    double slides = .1;
     /// How far surfaces may slide along a motion that facets oppose, in widths of a face: on a radius of
     /// ten faces that is a hundredth of a radian. Solutions that drift slide by 1e2 to 1e6 of them.
     double slip = .1;
@@ -50,6 +57,16 @@ namespace Signorini
                                               const std::vector<Vector>     &fields,
                                               const HalfSpaces &half_spaces, const LooseMotions &loose,
                                               const Vector &v, const double width);
+
+  /// Collective. Rotations of single parts along which a solution slides by more than a tenth of a face, and
+  /// that nothing would oppose if the surfaces touched a little way from the active nodes: how the nodes lie
+  /// there stops them.
+  /// @param active of the solution v; @param width of a face (length)
+  std::vector<std::vector<double>> find_rotations_of_the_mesh(const std::vector<FreeMotion>    &motions,
+                                                              const std::vector<Vector>        &fields,
+                                                              const HalfSpaces                 &half_spaces,
+                                                              const std::vector<unsigned char> &active,
+                                                              const Vector &v, const double width);
 
   /// Warns of motions that only facets oppose.
   void warn_of_facets(const ContactModel &model, const std::vector<FreeMotion> &motions,
