@@ -49,7 +49,8 @@ namespace Signorini
                                 ? " and no boundary of what moves belongs to a contact pair"
                                 : ", which \"Solver/Method = active set amg\" needs") +
                            ". Prescribe displacements on more of its boundaries, e.g. a symmetry plane "
-                           "\"name: (0, *, *)\".");
+                           "\"name: (0, *, *)\"." +
+                           model.bodies().hint_at_volumes(motions[m].body));
         }
     std::set<std::string> names;
     for (const FreeMotion &motion : motions)

@@ -123,10 +123,10 @@ namespace Signorini
   std::set<types::material_id> Bodies::material_ids(const unsigned int body, const std::string &volume,
                                                     const std::string &where) const
   {
-    const auto number = std::find(volumes[body].begin(), volumes[body].end(), volume) - volumes[body].begin();
-    if (!volume.empty() && !has_volume(body, volume))
-      throw InputError(where + ": the mesh has no volume \"" + volume + "\"; it has " +
-                       listed(volumes[body]) + ".");
+    const std::vector<std::string> &names  = volumes[body];
+    const auto                      number = std::find(names.begin(), names.end(), volume) - names.begin();
+    if (!volume.empty() && number == static_cast<std::ptrdiff_t>(names.size()))
+      throw InputError(where + ": the mesh has no volume \"" + volume + "\"; it has " + listed(names) + ".");
     std::set<types::material_id> result;
     for (types::material_id id = 0; id < materials.size(); ++id)
       if (materials[id].body == body && (volume.empty() || materials[id].volume == number))

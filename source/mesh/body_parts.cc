@@ -75,6 +75,19 @@ namespace Signorini
 
 
 
+  std::string Bodies::hint_at_volumes(const unsigned int body) const
+  {
+    const auto n_own =
+        std::count_if(parts.begin(), parts.end(), [body](const BodyPart &p) { return p.body == body; });
+    if (n_own < 2 || volumes[body].size() < 2)
+      return "";
+    return " Its mesh is of " + std::to_string(n_own) + " parts with the volumes " + listed(volumes[body]) +
+           ": if they are bodies of their own, choose that of this one with Body " + names[body] +
+           "/Volumes.";
+  }
+
+
+
   std::string Bodies::boundary_name(const types::boundary_id id) const
   {
     const auto body = static_cast<unsigned int>(

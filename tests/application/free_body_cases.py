@@ -135,6 +135,9 @@ def shaft_in_vee(p):
         near(s['pairs'][0]['force'][1], s['bodies'][0]['load'][1], 1e-9, 'weight')
         held = p.solve(path, 'Body shaft/Dirichlet=ends: (0, *, 0)')
         check(not any('but for the facets' in note for note in held['notes']), f'notes: {held["notes"]}')
+        # The mesh of both for each of them.
+        text = refused(p, path, 'Body shaft/Volumes=', 'Body block/Volumes=')
+        check('block, shaft: if they are bodies of their own, choose that of this one with Body shaft/Volumes.' in text, text)
 
 
 def lug_by_force(p):

@@ -136,11 +136,8 @@ namespace Signorini
     std::set<dealii::types::material_id> material_ids(const unsigned int body, const std::string &volume = "",
                                                       const std::string &where = "") const;
 
-    /// Whether the mesh of a body has a volume of that name.
-    bool has_volume(const unsigned int body, const std::string &name) const
-    {
-      return std::find(volumes[body].begin(), volumes[body].end(), name) != volumes[body].end();
-    }
+    /// What to do where the mesh of a body may be that of several, as a sentence after a space; else empty.
+    std::string hint_at_volumes(const unsigned int body) const;
 
     /// Connected parts, those of the first body first. Cells of different parts have different materials.
     unsigned int n_parts() const
