@@ -29,10 +29,10 @@ STAMP = ['Body upper/Dirichlet=', 'Body upper/Rigid=top: force (0, 0, -2.5*t^2),
          'Body upper/Probes=a: (0.2, 0.3, 0.9); b: (1, 1, 0.1)', 'Body lower/Dirichlet=bottom: (0, 0, 0)']
 # Name, parameter file (or its text) and settings.
 CASES = [
-    ('hexahedra', HERTZ, ADAPTIVE + ['Refinement/Adaptive cycles=7', 'Refinement/Max dofs=20000']),
-    ('tetrahedra', HERTZ, ADAPTIVE + [f'Body ball/{TETRAHEDRA}', f'Body block/{TETRAHEDRA}', 'Refinement/Adaptive cycles=6', 'Refinement/Max dofs=15000']),
-    ('both kinds and steps', HERTZ, ADAPTIVE + [f'Body block/{TETRAHEDRA}', DOWN, 'Refinement/Adaptive cycles=4', 'Refinement/Final global cycles=1',
-                                                'Load steps=6']),
+    ('hexahedra', HERTZ, ADAPTIVE + ['Refinement/Adaptive cycles=5', 'Refinement/Max dofs=6000']),
+    ('tetrahedra', HERTZ, ADAPTIVE + [f'Body ball/{TETRAHEDRA}', f'Body block/{TETRAHEDRA}', 'Refinement/Adaptive cycles=4', 'Refinement/Max dofs=5000']),
+    ('both kinds and steps', HERTZ, ADAPTIVE + [f'Body block/{TETRAHEDRA}', DOWN, 'Refinement/Adaptive cycles=2', 'Refinement/Final global cycles=1',
+                                                'Load steps=4']),
     ('bolts and steps', STRAPS, ['Load steps=5', 'Refinement/Global cycles=1', 'Solver/Compare linear multigrid=false',
                                  'Body upper/Probes=a: (1, 1, 0.5); b: (3, 0, 1)']),
     ('stamp and steps', PATCH_TEST, STAMP + ['Load steps=0.2, 0.5, 0.7, 1.1, 2', 'Refinement/Adaptive cycles=3']),
@@ -410,7 +410,7 @@ def checkpoint_and_signal(p):
 
 def killed_and_resumed(p):
     """SIGKILL at random moments, then --resume on another number of ranks: the results of a run that nobody disturbed."""
-    n, seed = int(os.environ.get('SIGNORINI_KILLS', 5)), int(os.environ.get('SIGNORINI_KILL_SEED', 1))
+    n, seed = int(os.environ.get('SIGNORINI_KILLS', 10)), int(os.environ.get('SIGNORINI_KILL_SEED', 1))
     n_ranks = [int(r) for r in os.environ.get('SIGNORINI_KILL_RANKS', '1 2').split()]
     chance = random.Random(seed)
     with tempfile.TemporaryDirectory() as folder:

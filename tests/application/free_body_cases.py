@@ -137,7 +137,7 @@ def shaft_in_vee(p):
         check(not any('but for the facets' in note for note in held['notes']), f'notes: {held["notes"]}')
         # The mesh of both for each of them.
         text = refused(p, path, 'Body shaft/Volumes=', 'Body block/Volumes=')
-        check('block, shaft: if they are bodies of their own, choose that of this one with Body shaft/Volumes.' in text, text)
+        check('"block", "shaft": if they are bodies of their own, choose that of this one with Body shaft/Volumes.' in text, text)
 
 
 def lug_by_force(p):
