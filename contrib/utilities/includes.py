@@ -51,7 +51,7 @@ class Tree:
                 self.texts[path] = f.read()
         self.tags = tags_of(self.headers + self.sources)
         self.declared = collections.defaultdict(set)
-        for path in self.headers:
+        for path in self.headers + [p for p in self.sources if p.endswith('.h')]:
             for tag in self.tags[path]:
                 if tag.get('scope') == 'Signorini' and tag['kind'] != 'namespace':
                     self.declared[tag['name']].add(path)
@@ -71,6 +71,10 @@ class Tree:
                 self.reached[path] |= self.reach(target)
         return self.reached[path]
 
+    def headers_of(self, name, path):
+        """Headers that declare a name for a file: public ones, and those of its own folder in source/."""
+        return sorted(p for p in self.declared[name] if p in self.headers or os.path.dirname(p) == os.path.dirname(path))
+
     def missing(self, path):
         """Names of ours that a file uses without a header for them."""
         code = NOT_CODE.sub(' ', self.texts[path])
@@ -79,7 +83,7 @@ class Tree:
         known = set()
         for p in self.reach(path):
             known |= {tag['name'] for tag in self.tags[p]} | set(FORWARD.findall(self.texts[p]))
-        return sorted(name for name in used - known if name in self.declared)
+        return sorted(name for name in used - known if self.headers_of(name, path))
 
 
 def main():
@@ -93,7 +97,7 @@ def main():
     for path in tree.headers + tree.sources:
         for name in tree.missing(path):
             found += 1
-            where = ' or '.join(f'<{os.path.relpath(p, os.path.join(tree.top, "include"))}>' for p in sorted(tree.declared[name]))
+            where = ' or '.join(os.path.relpath(p, tree.top) for p in tree.headers_of(name, path))
             print(f'{os.path.relpath(path, tree.top)} uses {name} without {where}')
     print(f'{len(tree.headers)} headers, {len(tree.sources)} sources, {found} missing includes')
     return found > 0 or not tree.headers

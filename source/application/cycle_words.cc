@@ -8,11 +8,18 @@
 
 namespace Signorini
 {
+  std::string count_iterations(const unsigned int n)
+  {
+    return std::to_string(n) + (n == 1 ? " iteration" : " iterations");
+  }
+
+
+
   std::string describe(const CycleResult &result, const bool has_indicator)
   {
     std::ostringstream line;
     line << "cycle " << result.cycle << ": " << result.cells << " cells, " << result.dofs << " unknowns, "
-         << result.nonlinear.iterations << " iterations";
+         << count_iterations(result.nonlinear.iterations);
     if (result.has_linear)
       line << " (linear multigrid " << result.linear.iterations << ", with conjugate gradients "
            << result.linear_cg.iterations << ", difference " << result.difference << ")";

@@ -11,6 +11,9 @@
 
 namespace Signorini
 {
+  /// "1 iteration", "2 iterations".
+  std::string count_iterations(const unsigned int n);
+
   /// What a cycle says on the terminal.
   std::string describe(const CycleResult &result, const bool has_indicator);
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include "cycle_words.h"
+
 #include <signorini/algebra/input_error.h>
 #include <signorini/application/journal.h>
 #include <signorini/application/load_steps.h>
@@ -68,7 +70,7 @@ namespace Signorini
     std::string describe(const StepResult &step)
     {
       std::ostringstream line;
-      line << "step t = " << step.time << ": " << step.report.iterations << " iterations, "
+      line << "step t = " << step.time << ": " << count_iterations(step.report.iterations) << ", "
            << step.active_nodes << " contact nodes active";
       for (const PairResult &pair : step.pairs)
         line << ", force of " << pair.name << " " << pair.force.norm();

@@ -23,6 +23,23 @@ namespace Signorini
       Eigen::MatrixXd normal, whole, nodes;
     };
 
+    void sum_over_ranks(Eigen::MatrixXd &values, const MPI_Comm communicator)
+    {
+      const auto n = static_cast<std::size_t>(values.size());
+      Utilities::MPI::sum(ArrayView<const double>(values.data(), n), communicator,
+                          ArrayView<double>(values.data(), n));
+    }
+
+    /// The displacements of motions at a node, by column.
+    Eigen::MatrixXd motions_at(const std::vector<Vector> &fields, const unsigned int node)
+    {
+      Eigen::MatrixXd result(dim, fields.size());
+      for (std::size_t i = 0; i < fields.size(); ++i)
+        for (unsigned int c = 0; c < dim; ++c)
+          result(c, i) = fields[i].local_element(dim * node + c);
+      return result;
+    }
+
     MotionsAtContact at_contact(const std::vector<Vector> &fields, const HalfSpaces &spaces,
                                 const std::vector<unsigned char> &active)
     {
@@ -32,20 +49,15 @@ namespace Signorini
         if (active[p])
           {
             Eigen::VectorXd normal(n);
-            Eigen::MatrixXd whole(dim, n);
             for (Eigen::Index i = 0; i < n; ++i)
-              {
-                normal[i] = spaces.normal_part(p, fields[i]);
-                for (unsigned int c = 0; c < dim; ++c)
-                  whole(c, i) = fields[i].local_element(dim * spaces.nodes[p] + c);
-              }
+              normal[i] = spaces.normal_part(p, fields[i]);
+            const Eigen::MatrixXd whole = motions_at(fields, spaces.nodes[p]);
             sums.leftCols(n) += normal * normal.transpose();
             sums.middleCols(n, n) += whole.transpose() * whole;
             const Eigen::VectorXd moves = (whole.colwise().squaredNorm().array() > 0.).cast<double>();
             sums.rightCols(n) += moves * moves.transpose();
           }
-      for (Eigen::Index i = 0; i < sums.size(); ++i)
-        sums.data()[i] = Utilities::MPI::sum(sums.data()[i], fields[0].get_mpi_communicator());
+      sum_over_ranks(sums, fields[0].get_mpi_communicator());
       return {sums.leftCols(n), sums.middleCols(n, n), sums.rightCols(n)};
     }
   } // namespace
@@ -94,11 +106,7 @@ namespace Signorini
       const auto            n            = static_cast<Eigen::Index>(motions.size());
       const Eigen::MatrixXd coefficients = as_columns(motions);
       const auto            at           = [&](const std::size_t p) {
-        Eigen::MatrixXd each(dim, fields.size());
-        for (std::size_t i = 0; i < fields.size(); ++i)
-          for (unsigned int c = 0; c < dim; ++c)
-            each(c, i) = fields[i].local_element(dim * spaces.nodes[p] + c);
-        return Eigen::MatrixXd(each * coefficients);
+        return Eigen::MatrixXd(motions_at(fields, spaces.nodes[p]) * coefficients);
       };
       Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(n, n + 1);
       for (std::size_t p = 0; p < spaces.size(); ++p)
@@ -108,8 +116,7 @@ namespace Signorini
           sums.col(n) +=
               moved.transpose() * Eigen::Map<const Eigen::Vector3d>(v.begin() + dim * spaces.nodes[p]);
         }
-      for (Eigen::Index i = 0; i < sums.size(); ++i)
-        sums.data()[i] = Utilities::MPI::sum(sums.data()[i], v.get_mpi_communicator());
+      sum_over_ranks(sums, v.get_mpi_communicator());
       const Eigen::VectorXd share   = sums.leftCols(n).completeOrthogonalDecomposition().solve(sums.col(n));
       double                largest = 0.;
       for (std::size_t p = 0; p < spaces.size(); ++p)
