@@ -23,9 +23,10 @@ namespace Signorini
       /// Corrections below this multiple of the iterate may be rounding: the square root of what the energy
       /// can resolve, with room for the condition of the matrix.
       double near_rounding = 1e-9;
-      /// So many iterations that do not halve the smallest correction are stagnation: rounding makes new
-      /// smallest ones by chance (a light shaft in a V-block: 40 iterations instead of 28).
-      std::size_t patience = 6;
+      /// So many iterations that do not halve the smallest correction, some of them with a larger one than
+      /// the one before, are stagnation: rounding makes new smallest ones by chance (a light shaft in a
+      /// V-block: 40 iterations instead of 28). Slow methods are not halved so fast either, but go down.
+      std::size_t patience = 6, rises = 2;
       double      progress = .5;
     };
 
@@ -185,9 +186,12 @@ namespace Signorini
     if (!report.converged && report.history.size() > rule.patience &&
         correction <= rule.near_rounding * iterate)
       {
-        const auto latest = report.history.end() - static_cast<std::ptrdiff_t>(rule.patience);
-        if (*std::min_element(latest, report.history.end()) >
-            rule.progress * *std::min_element(report.history.begin(), latest))
+        const auto  latest = report.history.end() - static_cast<std::ptrdiff_t>(rule.patience);
+        std::size_t rises  = 0;
+        for (auto it = latest; it != report.history.end(); ++it)
+          rises += *it > *(it - 1);
+        if (rises >= rule.rises && *std::min_element(latest, report.history.end()) >
+                                       rule.progress * *std::min_element(report.history.begin(), latest))
           {
             report.converged = report.stagnated = true;
             std::ostringstream text;
