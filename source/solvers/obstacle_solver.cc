@@ -18,18 +18,6 @@ namespace Signorini
 
   namespace
   {
-    struct StagnationRule
-    {
-      /// Corrections below this multiple of the iterate may be rounding: the square root of what the energy
-      /// can resolve, with room for the condition of the matrix.
-      double near_rounding = 1e-9;
-      /// So many iterations that do not halve the smallest correction, some of them with a larger one than
-      /// the one before, are stagnation: rounding makes new smallest ones by chance (a light shaft in a
-      /// V-block: 40 iterations instead of 28). Slow methods are not halved so fast either, but go down.
-      std::size_t patience = 6, rises = 2;
-      double      progress = .5;
-    };
-
     const std::map<SolverMethod, std::string> &method_names()
     {
       static const std::map<SolverMethod, std::string> names = {
@@ -158,6 +146,38 @@ namespace Signorini
 
 
 
+  namespace
+  {
+    struct StagnationRule
+    {
+      /// Corrections below this multiple of the iterate may be rounding: the square root of what the energy
+      /// can resolve, with room for the condition of the matrix.
+      double near_rounding = 1e-9;
+      /// So many iterations that do not halve the smallest correction, and so many of them with a larger one
+      /// than the one before: rounding makes new smallest ones by chance (a light shaft in a V-block: 40
+      /// iterations instead of 28). Slow methods do not halve it so fast either, but go down.
+      std::size_t patience = 6, rises = 2;
+      double      progress = .5;
+    };
+  } // namespace
+
+
+
+  bool is_at_rounding(const std::vector<double> &corrections, const double iterate)
+  {
+    const StagnationRule rule;
+    if (corrections.size() <= rule.patience || corrections.back() > rule.near_rounding * iterate)
+      return false;
+    const auto  latest = corrections.end() - static_cast<std::ptrdiff_t>(rule.patience);
+    std::size_t rises  = 0;
+    for (auto it = latest; it != corrections.end(); ++it)
+      rises += *it > *(it - 1);
+    return rises >= rule.rises && *std::min_element(latest, corrections.end()) >
+                                      rule.progress * *std::min_element(corrections.begin(), latest);
+  }
+
+
+
   ObstacleSolver::ObstacleSolver(MultigridHierarchy &hierarchy, const SolverParameters &parameters,
                                  const unsigned int level)
     : hierarchy(hierarchy)
@@ -182,23 +202,13 @@ namespace Signorini
     const double bound =
         parameters.absolute_tolerance > 0. ? parameters.absolute_tolerance : parameters.tolerance * iterate;
     report.converged = correction <= bound;
-    const StagnationRule rule;
-    if (!report.converged && report.history.size() > rule.patience &&
-        correction <= rule.near_rounding * iterate)
+    if (!report.converged && is_at_rounding(report.history, iterate))
       {
-        const auto  latest = report.history.end() - static_cast<std::ptrdiff_t>(rule.patience);
-        std::size_t rises  = 0;
-        for (auto it = latest; it != report.history.end(); ++it)
-          rises += *it > *(it - 1);
-        if (rises >= rule.rises && *std::min_element(latest, report.history.end()) >
-                                       rule.progress * *std::min_element(report.history.begin(), latest))
-          {
-            report.converged = report.stagnated = true;
-            std::ostringstream text;
-            text << "stopped at rounding: the correction, " << correction / iterate
-                 << " of the iterate, does not become smaller any more";
-            report.note = text.str();
-          }
+        report.converged = report.stagnated = true;
+        std::ostringstream text;
+        text << "stopped at rounding: the correction, " << correction / iterate
+             << " of the iterate, does not become smaller any more";
+        report.note = text.str();
       }
     if (monitor)
       monitor(report.iterations, iterate > 0. ? correction / iterate : 0., n_active);

@@ -29,10 +29,10 @@ STAMP = ['Body upper/Dirichlet=', 'Body upper/Rigid=top: force (0, 0, -2.5*t^2),
          'Body upper/Probes=a: (0.2, 0.3, 0.9); b: (1, 1, 0.1)', 'Body lower/Dirichlet=bottom: (0, 0, 0)']
 # Name, parameter file (or its text) and settings.
 CASES = [
-    ('hexahedra', HERTZ, ADAPTIVE + ['Refinement/Adaptive cycles=5', 'Refinement/Max dofs=6000']),
-    ('tetrahedra', HERTZ, ADAPTIVE + [f'Body ball/{TETRAHEDRA}', f'Body block/{TETRAHEDRA}', 'Refinement/Adaptive cycles=4', 'Refinement/Max dofs=5000']),
-    ('both kinds and steps', HERTZ, ADAPTIVE + [f'Body block/{TETRAHEDRA}', DOWN, 'Refinement/Adaptive cycles=2', 'Refinement/Final global cycles=1',
-                                                'Load steps=4']),
+    ('hexahedra', HERTZ, ADAPTIVE + ['Refinement/Adaptive cycles=7', 'Refinement/Max dofs=20000']),
+    ('tetrahedra', HERTZ, ADAPTIVE + [f'Body ball/{TETRAHEDRA}', f'Body block/{TETRAHEDRA}', 'Refinement/Adaptive cycles=6', 'Refinement/Max dofs=15000']),
+    ('both kinds and steps', HERTZ, ADAPTIVE + [f'Body block/{TETRAHEDRA}', DOWN, 'Refinement/Adaptive cycles=4', 'Refinement/Final global cycles=1',
+                                                'Load steps=6']),
     ('bolts and steps', STRAPS, ['Load steps=5', 'Refinement/Global cycles=1', 'Solver/Compare linear multigrid=false',
                                  'Body upper/Probes=a: (1, 1, 0.5); b: (3, 0, 1)']),
     ('stamp and steps', PATCH_TEST, STAMP + ['Load steps=0.2, 0.5, 0.7, 1.1, 2', 'Refinement/Adaptive cycles=3']),
@@ -186,7 +186,7 @@ class Case:
             with open(self.prm, 'w') as f:
                 f.write(prm)
         self.settings = settings
-        self.references, self.times, self.n_kills = {}, {}, 0
+        self.references, self.times, self.n_kills, self.n_resumed = {}, {}, 0, 0
 
     def arguments(self, out, *more):
         return [*more, self.prm, '--output', out] + [x for s in self.settings + ['Output/Checkpoint=always', 'Output/Measure sweeps=false'] for x in ('--set', s)]
@@ -237,6 +237,7 @@ class Case:
                     # The machine may have been busy when it was measured.
                     self.times[ranks] = min(self.times[ranks], time.time() - begin)
                     story.append(f'{ranks} ranks to the end' + (f' from {who[-1][1]}' if who[-1][1] else ''))
+                    self.n_resumed += who[-1][1] is not None
                     self.judge(out, who[-1], story)
                     break
                 return story
@@ -419,6 +420,7 @@ def killed_and_resumed(p):
             case = cases[i % len(cases)]
             print(f'{i}: {case.name}: ' + ', '.join(case.killed(chance, n_ranks)), flush=True)
         kills = sum(case.n_kills for case in cases)
-        print(f'{n} runs, {kills} kills')
-        # On a busy machine a run may end before its time to be killed comes.
-        check(kills > 0, f'no kill in {n} runs')
+        resumed = sum(case.n_resumed for case in cases)
+        print(f'{n} runs, {kills} kills, {resumed} went on from a checkpoint')
+        # On a busy machine a run may end before its time to be killed comes, or be killed before it has saved a state.
+        check(kills > 0 and resumed > 0, f'{n} runs: {kills} kills, {resumed} went on from a checkpoint')

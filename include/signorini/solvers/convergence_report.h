@@ -65,6 +65,11 @@ namespace Signorini
 
   /// Geometric mean of the last (at most 5) reductions above rounding level.
   double convergence_rate(const std::vector<double> &history);
+
+  /// Whether corrections (energy norms, one entry per iteration) have become rounding of the iterate:
+  /// doc/algorithm.md (61).
+  /// @param iterate its energy norm
+  bool is_at_rounding(const std::vector<double> &corrections, const double iterate);
 } // namespace Signorini
 
 #endif
