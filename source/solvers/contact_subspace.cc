@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Signorini authors
 
 #include <signorini/algebra/galerkin_product.h>
+#include <signorini/algebra/gathered_lists.h>
 #include <signorini/solvers/contact_subspace.h>
 
 #include <deal.II/base/mpi.h>
@@ -76,6 +77,19 @@ namespace Signorini
 
   namespace
   {
+    /// Local numbers of those of a list that this rank owns.
+    std::vector<unsigned int> owned_rows_of(const std::vector<NodeIndex> &nodes,
+                                            const NodePartition          &partition)
+    {
+      std::vector<unsigned int> rows;
+      for (const NodeIndex node : nodes)
+        if (partition.owns(node))
+          rows.push_back(partition.to_local(node));
+      return rows;
+    }
+
+
+
     /// The level with the number of nodes that is nearest to the wanted one.
     unsigned int choose_level(const MultigridHierarchy &hierarchy, const unsigned int finest)
     {
@@ -102,9 +116,11 @@ namespace Signorini
 
 
   ContactSubspace::ContactSubspace(const MultigridHierarchy &hierarchy, const unsigned int level,
-                                   const std::vector<NodeIndex> &nodes)
+                                   const std::vector<NodeIndex> &nodes,
+                                   const std::vector<Vector>    &free_motions)
     : finest(hierarchy.level(level))
     , contact_nodes(nodes)
+    , motion_functions(free_motions, owned_rows_of(nodes, finest.matrix.partition()))
   {
     const NodePartition &partition = finest.matrix.partition();
     for (const NodeIndex first : first_nodes(partition))
@@ -112,8 +128,10 @@ namespace Signorini
     const unsigned int coarsest = choose_level(hierarchy, level);
     for (unsigned int l = level; l > coarsest; --l)
       add_space(hierarchy, l - 1);
-    fill_empty_directions();
-    gather_matrix();
+    NodeBlockMatrix &coarsest_matrix = spaces.back().matrix;
+    const auto couplings = motion_functions.couple(coarsest_matrix, own_contact_numbers(), finest.scale);
+    EmptyDirections().fill(coarsest_matrix, all_rows(coarsest_matrix), finest.scale);
+    gather_matrix(couplings);
     partition.reinit(step);
     partition.reinit(product);
     for (Space &space : spaces)
@@ -204,24 +222,45 @@ namespace Signorini
 
 
 
-  void ContactSubspace::fill_empty_directions()
+  std::vector<unsigned int> ContactSubspace::own_contact_numbers() const
   {
-    NodeBlockMatrix &coarsest = spaces.back().matrix;
-    EmptyDirections().fill(coarsest, all_rows(coarsest), finest.scale);
+    const Space              &space = spaces.back();
+    const NodePartition      &own   = finest.matrix.partition();
+    std::vector<unsigned int> numbers;
+    for (std::size_t k = 0; k < contact_nodes.size(); ++k)
+      if (own.owns(contact_nodes[k]))
+        numbers.push_back(space.matrix.partition().to_local(space.numbering.of_contact(k)));
+    return numbers;
   }
 
 
 
-  void ContactSubspace::gather_matrix()
+  void ContactSubspace::gather_matrix(const MotionFunctions::Couplings &couplings)
   {
     const NodeBlockMatrix          &matrix    = spaces.back().matrix;
     const NodePartition            &partition = matrix.partition();
+    const MPI_Comm                  comm      = partition.communicator();
+    const unsigned int              n_motions = motion_functions.n_nodes();
     GatheredObstacleProblem::Blocks mine;
+    const std::vector<Block> with_nodes = gather_lists(couplings.with_nodes, comm, Receivers::rank_zero);
+    if (Utilities::MPI::this_mpi_process(comm) == 0)
+      for (unsigned int m = 0; m < n_motions; ++m)
+        {
+          for (unsigned int k = 0; k < n_motions; ++k)
+            mine.add(m, k, couplings.own[m * n_motions + k]);
+          for (std::size_t node = 0; node < partition.n_global(); ++node)
+            mine.add(m, n_motions + node, transpose(with_nodes[node * n_motions + m]));
+        }
     for (unsigned int row = 0; row < matrix.n_rows(); ++row)
-      matrix.visit_row(row, [&](const RowEntry &entry) {
-        mine.add(partition.to_global(row), partition.to_global(entry.column), entry.block());
-      });
-    problem.set_matrix(mine, partition.n_global(), partition.communicator());
+      {
+        const std::size_t number = n_motions + partition.to_global(row);
+        for (unsigned int m = 0; m < n_motions; ++m)
+          mine.add(number, m, couplings.with_nodes[row * n_motions + m]);
+        matrix.visit_row(row, [&](const RowEntry &entry) {
+          mine.add(number, n_motions + partition.to_global(entry.column), entry.block());
+        });
+      }
+    problem.set_matrix(mine, n_motions + partition.n_global(), comm);
   }
 
 
@@ -229,6 +268,14 @@ namespace Signorini
   std::vector<NodeState> ContactSubspace::restrict_state(const Vector &v, const Vector &residual,
                                                          const ContactState &contact)
   {
+    std::vector<NodeState> states;
+    const auto             work = motion_functions.work(residual);
+    if (Utilities::MPI::this_mpi_process(finest.matrix.partition().communicator()) == 0)
+      for (const Vector3 &w : work)
+        {
+          states.emplace_back();
+          states.back().residual = w;
+        }
     const Vector *above = &residual;
     for (Space &space : spaces)
       {
@@ -238,13 +285,13 @@ namespace Signorini
           project_free(space.fixed[i], space.values, i);
         above = &space.values;
       }
-    const Space           &space     = spaces.back();
-    const NodePartition   &partition = space.matrix.partition();
-    std::vector<NodeState> states(partition.n_owned());
+    const Space         &space     = spaces.back();
+    const NodePartition &partition = space.matrix.partition();
     for (unsigned int i = 0; i < partition.n_owned(); ++i)
       {
+        NodeState &state = states.emplace_back();
         for (unsigned int c = 0; c < dim; ++c)
-          states[i].residual[c] = space.values.local_element(dim * i + c);
+          state.residual[c] = space.values.local_element(dim * i + c);
         std::optional<NodeIndex> node, index;
         space.numbering.find(partition.to_global(i), node, index);
         if (!index)
@@ -253,9 +300,9 @@ namespace Signorini
         if (const int p = contact.at(row); p >= 0)
           {
             const HalfSpaces &half_spaces = contact.half_spaces();
-            states[i].normal              = half_spaces.normals[p];
-            states[i].room      = std::max(0., half_spaces.bounds[p] - half_spaces.normal_part(p, v));
-            states[i].is_active = contact.active()[p];
+            state.normal                  = half_spaces.normals[p];
+            state.room      = std::max(0., half_spaces.bounds[p] - half_spaces.normal_part(p, v));
+            state.is_active = contact.active()[p];
           }
       }
     return states;
@@ -265,8 +312,17 @@ namespace Signorini
 
   void ContactSubspace::run(Vector &v, Vector &residual, ContactState &contact, FreeMotionCorrection &motions)
   {
-    const std::vector<NodeStep> steps = problem.solve(restrict_state(v, residual, contact));
-    Space                      &space = spaces.back();
+    std::vector<NodeStep> steps = problem.solve(restrict_state(v, residual, contact));
+    Space                &space = spaces.back();
+    const MPI_Comm        comm  = space.matrix.partition().communicator();
+    std::vector<Vector3>  coefficients(motion_functions.n_nodes());
+    if (Utilities::MPI::this_mpi_process(comm) == 0)
+      {
+        for (unsigned int m = 0; m < coefficients.size(); ++m)
+          coefficients[m] = steps[m].step;
+        steps.erase(steps.begin(), steps.begin() + coefficients.size());
+      }
+    coefficients = Utilities::MPI::broadcast(comm, coefficients);
     space.values.zero_out_ghost_values();
     for (unsigned int i = 0; i < steps.size(); ++i)
       {
@@ -282,6 +338,8 @@ namespace Signorini
       }
     for (std::size_t k = spaces.size(); k-- > 0;)
       spaces[k].to_finer.prolongate(k > 0 ? spaces[k - 1].values : step, spaces[k].values);
+    step.zero_out_ghost_values();
+    motion_functions.add(step, coefficients);
     motions.update(contact);
     motions.remove_idle(step, v, contact);
     finest.matrix.vmult(product, step);

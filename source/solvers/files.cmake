@@ -16,6 +16,7 @@ signorini_add_layer(solvers
   line_search.cc
   linear_multigrid.cc
   monotone_multigrid.cc
+  motion_functions.cc
   multigrid_hierarchy.cc
   node_phases.cc
   obstacle_problem.cc

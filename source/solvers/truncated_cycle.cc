@@ -103,7 +103,7 @@ namespace Signorini
   void TruncatedCycle::minimize_in_subspace()
   {
     if (!subspace)
-      subspace.emplace(hierarchy, level, nodes_of_subspace());
+      subspace.emplace(hierarchy, level, nodes_of_subspace(), problem.free_motions);
     subspace->run(correction, new_residual, contact, motions);
   }
 

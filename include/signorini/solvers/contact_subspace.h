@@ -6,6 +6,7 @@
 
 #include <signorini/solvers/free_motion_correction.h>
 #include <signorini/solvers/gathered_obstacle_problem.h>
+#include <signorini/solvers/motion_functions.h>
 #include <signorini/solvers/multigrid_hierarchy.h>
 
 namespace Signorini
@@ -16,8 +17,8 @@ namespace Signorini
   /// active after each iteration. Here the body moves, bends and is indented at the same time.
   ///
   /// The space is that of the coarse functions, set to zero at the contact nodes, and of all motions of
-  /// those: nested products of transfers, in which contact nodes are nodes of every level. Its matrix does
-  /// not depend on the active set.
+  /// those: nested products of transfers, in which contact nodes are nodes of every level; and of the rigid
+  /// motions of bodies that only contact holds. Its matrix does not depend on the active set.
   class ContactSubspace
   {
   public:
@@ -42,8 +43,10 @@ namespace Signorini
     /// Collective. Of a level of the hierarchy, with the levels below it.
     /// @param nodes contact nodes of the level, sorted, those of all ranks: all that half-spaces restrict,
     ///   and what moves freely beside these
+    /// @param free_motions rigid motions that nothing but contact holds: orthonormal, A m = 0; must outlive
+    ///   the object
     ContactSubspace(const MultigridHierarchy &hierarchy, const unsigned int level,
-                    const std::vector<NodeIndex> &nodes);
+                    const std::vector<NodeIndex> &nodes, const std::vector<Vector> &free_motions);
 
     /// Collective. Adds the minimizer to v, without motions that are idle then, and updates
     /// residual = rhs - A v.
@@ -92,10 +95,12 @@ namespace Signorini
     void          add_space(const MultigridHierarchy &hierarchy, const unsigned int coarse_level);
     NodalTransfer make_transfer(const MultigridLevel &coarse, const NodePartition &level_above,
                                 const NodePartition &space_above, const Numbering &numbering) const;
-    void          fill_empty_directions();
-    void          gather_matrix();
+    /// Collective. Local numbers in the coarsest space of the contact nodes that this rank owns.
+    std::vector<unsigned int> own_contact_numbers() const;
+    /// Collective. On rank 0 the nodes of motions come in front of its own.
+    void gather_matrix(const MotionFunctions::Couplings &couplings);
 
-    /// rhs - A v at the owned nodes of the coarsest space, and what holds them.
+    /// rhs - A v at the nodes of motions and the owned nodes of the coarsest space, and what holds them.
     std::vector<NodeState> restrict_state(const Vector &v, const Vector &residual,
                                           const ContactState &contact);
 
@@ -103,6 +108,7 @@ namespace Signorini
     std::vector<NodeIndex> contact_nodes;
     /// How many of them the ranks before each rank own, and all of them.
     std::vector<NodeIndex> contact_begin;
+    MotionFunctions        motion_functions;
     /// Finest first.
     std::vector<Space>      spaces;
     GatheredObstacleProblem problem;
