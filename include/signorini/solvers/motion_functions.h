@@ -20,6 +20,7 @@ namespace Signorini
   class MotionFunctions
   {
   public:
+    /// What keeps them apart from coarse functions.
     struct Rule
     {
       /// Part of their energy that is added to it. What coarse functions can do as well is left to these
