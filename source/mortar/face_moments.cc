@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include "gap_fit.h"
+
 #include <signorini/mortar/face_map.h>
 #include <signorini/mortar/face_moments.h>
 #include <signorini/mortar/surface_values.h>
@@ -100,6 +102,13 @@ namespace Signorini
       std::array<double, 3> s = {{.5, .5, .5}}, t = {{.5, .5, .5}};
     };
 
+    /// Where the gap is fitted.
+    struct FitRule
+    {
+      /// Part of the face that may be uncovered, or covered twice: rounding.
+      double uncovered = 1e-6;
+    };
+
     /// Integrates the moments of one face, overlay triangle by overlay triangle.
     class FaceIntegrator
     {
@@ -111,6 +120,7 @@ namespace Signorini
         , prescribed_gap(prescribed_gap)
         , face(nonmortar, index)
         , mortar_face(face)
+        , fit(nonmortar.faces[index].n_corners)
       {
         moments.face = index;
       }
@@ -182,11 +192,25 @@ namespace Signorini
         moments.covered += area;
       }
 
+      /// After the last triangle: the gap becomes what displacements of linear elements can follow. One that
+      /// bends away within the face would else count as penetration. Prescribed gaps are taken as they are.
+      void remove_bubbles()
+      {
+        if (prescribed_gap ||
+            !(std::abs(moments.covered - moments.area) <= FitRule().uncovered * moments.area))
+          return;
+        const std::array<Vector3, 4> bubbles = fit.bubble_moments();
+        for (unsigned int a = 0; a < 4; ++a)
+          moments.gap[a] -= bubbles[a];
+      }
+
       FaceMoments moments;
 
     private:
       void add_functions(const double weight, const Vector3 &gap, const std::array<double, 4> &phi)
       {
+        if (!prescribed_gap)
+          fit.add(weight, gap, phi);
         for (unsigned int a = 0; a < 4; ++a)
           {
             const double w = weight * phi[a];
@@ -237,6 +261,7 @@ namespace Signorini
       const GapFunction         &prescribed_gap;
       const FaceMap              face;
       FaceMap                    mortar_face;
+      GapFit                     fit;
       unsigned int               mortar_index = numbers::invalid_unsigned_int;
       std::array<std::size_t, 4> slots        = {};
     };
@@ -283,6 +308,7 @@ namespace Signorini
             for (std::size_t i = triangles.start[f]; i < triangles.start[f + 1]; ++i)
               integrator.add_face_triangle(static_cast<unsigned int>(triangles.list[i]));
             add(integrator, f, triangles);
+            integrator.remove_bubbles();
             mine.push_back(std::move(integrator.moments));
           }
       return mine;

@@ -5,6 +5,7 @@ signorini_add_layer(mortar
   face_map.cc
   face_moments.cc
   face_shares.cc
+  gap_fit.cc
   geometric_penetration.cc
   multiplier_nodes.cc
   pair_conflicts.cc

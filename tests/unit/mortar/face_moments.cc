@@ -63,6 +63,44 @@ TEST(WeightedGap, ParabolaAgainstTensorProduct)
     }
 }
 
+namespace
+{
+  /// Weighted gaps of an obstacle above a plane grid, at a height over each point.
+  PairCoupling under(const Grid &grid, const std::function<double(const Point<3> &)> &height)
+  {
+    const auto non     = make_surface(grid);
+    const auto moments = compute_face_moments(
+        non,
+        [&](Vector3 &gap, const Point<3> &x, const Vector3 &normal) {
+          gap = height(x) * normal;
+          return true;
+        },
+        MPI_COMM_SELF);
+    return couple(non, non, moments, {}, false);
+  }
+} // namespace
+
+// Linear elements cannot follow an obstacle that bends away within a face: its height counts at the nodes.
+// With all of it they would touch h²/6 too early along each axis.
+TEST(WeightedGap, SmoothObstacleIsTakenAtNodes)
+{
+  const auto height = [](const Point<3> &x) { return x[0] * x[0] - .3 * x[0] * x[1] + .5 * x[1] * x[1]; };
+  const auto pair   = under({6, 6}, height);
+  ASSERT_EQ(pair.gaps.size(), 49u);
+  for (std::size_t row = 0; row < pair.gaps.size(); ++row)
+    EXPECT_NEAR(pair.gaps[row], height(pair.positions[row]), 1e-12);
+}
+
+// Waves within a face are no curvature that nodes stand for: what counts is still a mean.
+TEST(WeightedGap, RoughObstacleIsWeighted)
+{
+  const unsigned int n    = 6;
+  const auto         pair = under(
+              {n, n}, [&](const Point<3> &x) { return 1. + .1 * std::cos(6. * dealii::numbers::PI * n * x[0]); });
+  for (std::size_t row = 0; row < pair.gaps.size(); ++row)
+    EXPECT_NEAR(pair.gaps[row], 1., .03);
+}
+
 // A mortar surface at a linear height: Phi(x) - x is linear, and the weighted gap of a linear function is
 // its value at the node.
 TEST(WeightedGap, LinearGapIsExactAtNodes)
