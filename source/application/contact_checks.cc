@@ -26,9 +26,6 @@ namespace Signorini
       /// and what is taken for one unless it is asked for. Fits of shafts are a thousandth; linear elasticity
       /// ends at a tenth.
       double overlap = .5, small_overlap = .01;
-      /// Product of the normals from where on surfaces do not face each other: 60 degrees, as for obstacles.
-      /// Gaps at grazing angles are no distances.
-      double facing = -.5;
       /// What prescribed displacements add to the overlap of two surfaces, as a share of the largest of them:
       /// more than different meshes make of the same field.
       double held_overlap = .02;
@@ -367,7 +364,7 @@ namespace Signorini
             const Vector3  other         = on_mortar.normal(cell.mortar_triangle, cell.mortar[c]);
             if (pair.prescribed_gap)
               f(x, n, pair.prescribed_gap(x));
-            else if (n * other < ContactRule().facing)
+            else if (may_touch(n, other))
               f(x, n, initial_gap(non, mor, cell, corner, x, image) * n);
           }
     }

@@ -33,6 +33,14 @@ namespace Signorini
 
 
 
+  bool may_touch(const Vector3 &normal, const Vector3 &other)
+  {
+    constexpr double touching_cosine = -.5;
+    return normal * other < touching_cosine;
+  }
+
+
+
   SurfaceValues::SurfaceValues(const ContactSurface &surface)
     : surface(surface)
   {

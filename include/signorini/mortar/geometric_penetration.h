@@ -15,7 +15,8 @@ namespace Signorini
   /// (lengths).
   struct GeometricPenetration
   {
-    /// Least initial_gap()·n(x), and least of that after deformation; infinite where nothing is covered.
+    /// Least initial_gap()·n(x), and least of that after deformation; infinite where nothing is covered by
+    /// what it may touch.
     double min_initial_gap, min_gap;
 
     /// Largest n(x)·(u_non(x) - u_mor(Phi(x))) - initial_gap()·n(x): negative if the surfaces are apart.

@@ -24,6 +24,10 @@ namespace Signorini
                       const OverlayTriangle &cell, const std::array<double, 3> &weights,
                       const dealii::Point<3> &x, const dealii::Point<3> &image);
 
+  /// Whether surfaces with these unit normals may touch: less than 60 degrees from being opposite, as for
+  /// obstacles. Gaps at grazing angles are no distances.
+  bool may_touch(const Vector3 &normal, const Vector3 &other);
+
   /// The two surfaces of a pair, with overlay triangles of the mapping between them (those of this rank's own
   /// faces, say). Refers to all of them.
   struct FacingSurfaces
