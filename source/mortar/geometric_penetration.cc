@@ -36,12 +36,12 @@ namespace Signorini
       for (const std::array<double, 3> &sample : samples)
         {
           const auto weights = compose(cell.nonmortar, sample), image_weights = compose(cell.mortar, sample);
-          const Point<3> x        = non.point(cell.nonmortar_triangle, weights);
-          const Point<3> image    = mor.point(cell.mortar_triangle, image_weights);
-          const Vector3  n        = non.normal(cell.nonmortar_triangle, weights);
+          const Point<3> x     = non.point(cell.nonmortar_triangle, weights);
+          const Point<3> image = mor.point(cell.mortar_triangle, image_weights);
+          const Vector3  n     = non.normal(cell.nonmortar_triangle, weights);
           if (!prescribed_gap && !may_touch(n, mor.normal(cell.mortar_triangle, image_weights)))
             continue;
-          const Vector3  relative = non.value(displacement_nonmortar, cell.nonmortar_triangle, x) -
+          const Vector3 relative = non.value(displacement_nonmortar, cell.nonmortar_triangle, x) -
                                    mor.value(displacement_mortar, cell.mortar_triangle, image);
           const double initial =
               prescribed_gap ? prescribed_gap(x) : initial_gap(nonmortar, mortar, cell, sample, x, image) * n;

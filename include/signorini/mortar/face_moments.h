@@ -27,8 +27,8 @@ namespace Signorini
     double covered = 0., area = 0.;
     /// 4x4 row by row: products of corner functions (area).
     std::array<double, 16> mass = {};
-    /// Corner function times initial_gap() (area * length), on faces that are covered whole without its
-    /// bubbles (doc/algorithm.md, (17a)); or, with a prescribed gap, that gap in component 0.
+    /// Corner function times initial_gap() without its bubbles (area * length; doc/algorithm.md, (17a)); or,
+    /// with a prescribed gap, that gap in component 0.
     std::array<Vector3, 4> gap;
     /// For each mortar vertex (index of its surface): products of its bilinear function with the corner
     /// functions.
