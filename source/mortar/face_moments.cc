@@ -109,6 +109,9 @@ namespace Signorini
       /// (DroppingRule). A roller that ends over its plates is a press fit of 1,250, 584, 238, 0 N there with
       /// .5, .35, .25, .15 (doc/algorithm.md, (17a)).
       double covered = .15;
+      /// Part of the face where the mapping may be turned: rounding. There is no gap to be fitted where it
+      /// is.
+      double turned = 1e-6;
     };
 
     /// Integrates the moments of one face, overlay triangle by overlay triangle.
@@ -156,6 +159,7 @@ namespace Signorini
           }
         // Negative where the mapping is turned, so that the cells of a face add up to what they cover.
         const double area = cell.share() * Signorini::triangle_area(nonmortar.mesh, cell.nonmortar_triangle);
+        turned += std::max(0., -area);
         const TriangleRule &rule =
             triangle_rule(face.is_parallelogram() && mortar_face.is_parallelogram() && !prescribed_gap);
         ShapeOnTriangle phi_at(face, x), theta_at(mortar_face, y);
@@ -198,7 +202,8 @@ namespace Signorini
       /// bends away within the face would else count as penetration. Prescribed gaps are taken as they are.
       void remove_bubbles()
       {
-        if (prescribed_gap || !(moments.covered >= FitRule().covered * moments.area))
+        if (prescribed_gap || turned > FitRule().turned * moments.area ||
+            !(moments.covered >= FitRule().covered * moments.area))
           return;
         const std::array<Vector3, 4> bubbles = fit.bubble_moments();
         for (unsigned int a = 0; a < 4; ++a)
@@ -258,11 +263,13 @@ namespace Signorini
           }
       }
 
-      const ContactSurface      &nonmortar, &mortar;
-      const GapFunction         &prescribed_gap;
-      const FaceMap              face;
-      FaceMap                    mortar_face;
-      GapFit                     fit;
+      const ContactSurface &nonmortar, &mortar;
+      const GapFunction    &prescribed_gap;
+      const FaceMap         face;
+      FaceMap               mortar_face;
+      GapFit                fit;
+      /// Area where the mapping is turned.
+      double                     turned       = 0.;
       unsigned int               mortar_index = numbers::invalid_unsigned_int;
       std::array<std::size_t, 4> slots        = {};
     };

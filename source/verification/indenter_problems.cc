@@ -149,12 +149,12 @@ namespace Signorini
     const Indenter quartic    = {"(x^2+y^2)^2", [](const double x) { return 8. / 3. * std::pow(x, 4); },
                                  [](const double x) { return 32. / 3. * std::pow(x, 3); }, .2};
     // A flat of the radius 0.1 with a rounded edge of the radius 0.5.
-    const auto     root  = [](const double x) { return std::sqrt(std::max(0., x * x - .01)); };
-    const auto     arc   = [](const double x) { return .1 * std::acos(std::min(1., .1 / x)); };
-    const Indenter punch = {"max(sqrt(x^2+y^2)-0.1, 0)^2",
-                            [=](const double x) { return 2. * x * (root(x) - arc(x)); },
-                            [=](const double x) { return 2. * (2. * root(x) - arc(x)); }, .13, .1};
-    constexpr double any = VerifiedQuantity::any_order;
+    const auto       root  = [](const double x) { return std::sqrt(std::max(0., x * x - .01)); };
+    const auto       arc   = [](const double x) { return .1 * std::acos(std::min(1., .1 / x)); };
+    const Indenter   punch = {"max(sqrt(x^2+y^2)-0.1, 0)^2",
+                              [=](const double x) { return 2. * x * (root(x) - arc(x)); },
+                              [=](const double x) { return 2. * (2. * root(x) - arc(x)); }, .13, .1};
+    constexpr double any   = VerifiedQuantity::any_order;
     return {
         problem("hertz-half-space", "A rigid paraboloid on a half-space: Hertz' sphere on a plane.",
                 paraboloid, {}),
@@ -165,6 +165,7 @@ namespace Signorini
             quartic, {}),
         problem("indenter-tetrahedra", "A rigid indenter of fourth power on a half-space of tetrahedra.",
                 quartic, {1.8, any, .85}, {"Body block/Convert to tetrahedra=true"}),
-        problem("indenter-punch", "A rigid flat punch with a rounded edge on a half-space.", punch, {any, any, 1.})};
+        problem("indenter-punch", "A rigid flat punch with a rounded edge on a half-space.", punch,
+                {any, any, 1.})};
   }
 } // namespace Signorini
