@@ -501,7 +501,9 @@ def held_by_contact(p):
             near(found[2], 7.7e-5 * 4 / 3 * math.pi * 1e3, .07, 'weight of the ball')
             check(max(abs(found[0]), abs(found[1])) <= 1e-9 * found[2], f'weight: force {found}')
         if name == 'plate':
-            check(any('warning: body plate, rotation about the axis' in n and 'but for the facets' in n for n in s['notes']), f'notes: {s["notes"]}')
+            # Whether it slides by a tenth of a face, so that a point is held, is rounding here.
+            check(any('body plate, rotation about the axis through (-0.25, 0, 1.5)' in n and ('but for the facets' in n or 'is held in' in n) for n in s['notes']),
+                  f'notes: {s["notes"]}')
             for ball, centre in (('one', '(2, 0, 0)'), ('two', '(-1.5, 1.5, 0)'), ('three', '(-1.5, -1.5, 0)')):
                 check(sum(f'nothing determines body {ball}, rotation' in n for n in s['notes']) == 1 and
                       any(f'nothing determines body {ball}, rotation about any axis through {centre}:' in n for n in s['notes']), f'notes: {s["notes"]}')
