@@ -133,6 +133,9 @@ namespace Signorini
         throw InputError("The parameter file \"" + file + "\" cannot be opened.");
       std::ostringstream text;
       text << in.rdbuf();
+      if (text.str().find('\0') != std::string::npos)
+        throw InputError("The parameter file \"" + file +
+                         "\" has zero bytes, as texts in UTF-16 have: save it in UTF-8.");
       return text.str();
     }
 

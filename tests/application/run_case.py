@@ -646,6 +646,11 @@ def errors(p):
             f.write(text)
         run = subprocess.run([*p.command, path, '--check'], env=p.environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         check(run.returncode == 1 and b'No entry with name <Load sreps>' in run.stderr, f'not UTF-8: {run.returncode}, {run.stderr}')
+        # Zero bytes end a message (AFL++): UTF-16.
+        with open(path, 'wb') as f:
+            f.write(text.decode('latin-1').encode('utf-16'))
+        run = subprocess.run([*p.command, path, '--check'], env=p.environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        check(run.returncode == 1 and run.stderr.endswith(b'has zero bytes, as texts in UTF-16 have: save it in UTF-8.\n'), f'UTF-16: {run.returncode}, {run.stderr}')
 
 
 def command_line(p):
