@@ -106,8 +106,8 @@ namespace Signorini
     struct FitRule
     {
       /// Part of the face that must be covered, as of the functions of nodes with a multiplier
-      /// (DroppingRule). A roller that ends over its plates is a press fit of 1,250, 584, 238, 0 N there with
-      /// .5, .35, .25, .15 (doc/algorithm.md, (17a)).
+      /// (DroppingRule). A roller that ends over its plates, with 0.001 of clearance left, carries 1,250,
+      /// 584, 238, 0 N there with .5, .35, .25, .15 (test roller_between_plates).
       double covered = .15;
       /// Part of the face where the mapping may be turned: rounding. There is no gap to be fitted where it
       /// is.
