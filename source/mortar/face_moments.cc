@@ -21,6 +21,8 @@ namespace Signorini
   {
     using Corners = std::array<Point<3>, 3>;
 
+    constexpr std::array<double, 3> corner_weights[3] = {{{1., 0., 0.}}, {{0., 1., 0.}}, {{0., 0., 1.}}};
+
     /// Points (barycentric) and weights (sum 1) on a triangle.
     struct TriangleRule
     {
@@ -169,6 +171,9 @@ namespace Signorini
             add_point(rule.weights[q] * area, gap_at(cell, rule.points[q], p, image),
                       phi_at(rule.points[q], p), theta_at(rule.points[q], image));
           }
+        if (!prescribed_gap)
+          for (unsigned int i = 0; i < 3; ++i)
+            fit.add(0., gap_at(cell, corner_weights[i], x[i], y[i]), phi_at(corner_weights[i], x[i]));
         moments.covered += area;
       }
 
@@ -180,34 +185,40 @@ namespace Signorini
         const TriangleRule &rule = triangle_rule(false);
         for (unsigned int i = 0; i < 3; ++i)
           x[i] = nonmortar.mesh.vertices[t[i]];
+        const auto has_gap = [&](Vector3 &gap, const std::array<double, 3> &w) {
+          Vector3 normal;
+          for (unsigned int i = 0; i < 3; ++i)
+            normal += w[i] * nonmortar.mesh.vertex_normals[t[i]];
+          const double   length = normal.norm();
+          const Point<3> p      = combine(x, w) + nonmortar.offset(triangle, w);
+          return length > 0. && image(gap, p, normal / length);
+        };
         std::vector<Vector3> gaps(rule.points.size());
         for (std::size_t q = 0; q < gaps.size(); ++q)
-          {
-            Vector3 normal;
-            for (unsigned int i = 0; i < 3; ++i)
-              normal += rule.points[q][i] * nonmortar.mesh.vertex_normals[t[i]];
-            const double   length = normal.norm();
-            const Point<3> p      = combine(x, rule.points[q]) + nonmortar.offset(triangle, rule.points[q]);
-            if (!(length > 0.) || !image(gaps[q], p, normal / length))
-              return;
-          }
+          if (!has_gap(gaps[q], rule.points[q]))
+            return;
         const double    area = triangle_area(x);
         ShapeOnTriangle phi_at(face, x);
         for (std::size_t q = 0; q < gaps.size(); ++q)
           add_functions(rule.weights[q] * area, gaps[q], phi_at(rule.points[q], combine(x, rule.points[q])));
+        for (unsigned int i = 0; i < 3; ++i)
+          if (Vector3 gap; has_gap(gap, corner_weights[i]))
+            fit.add(0., gap, phi_at(corner_weights[i], x[i]));
         moments.covered += area;
       }
 
       /// After the last triangle: the gap becomes what displacements of linear elements can follow. One that
       /// bends away within the face would else count as penetration. Prescribed gaps are taken as they are.
-      void remove_bubbles()
+      void smooth_gap()
       {
-        if (prescribed_gap || turned > FitRule().turned * moments.area ||
-            !(moments.covered >= FitRule().covered * moments.area))
+        if (prescribed_gap || turned > FitRule().turned * moments.area || !(moments.covered > 0.))
           return;
-        const std::array<Vector3, 4> bubbles = fit.bubble_moments();
+        std::array<Vector3, 4> normals;
         for (unsigned int a = 0; a < 4; ++a)
-          moments.gap[a] -= bubbles[a];
+          normals[a] = nonmortar.mesh.vertex_normals[nonmortar.faces[moments.face].corners[a]];
+        const std::array<Vector3, 4> change = fit.correction(normals, moments.covered >= FitRule().covered * moments.area);
+        for (unsigned int a = 0; a < 4; ++a)
+          moments.gap[a] += change[a];
       }
 
       FaceMoments moments;
@@ -316,7 +327,7 @@ namespace Signorini
             for (std::size_t i = triangles.start[f]; i < triangles.start[f + 1]; ++i)
               integrator.add_face_triangle(static_cast<unsigned int>(triangles.list[i]));
             add(integrator, f, triangles);
-            integrator.remove_bubbles();
+            integrator.smooth_gap();
             mine.push_back(std::move(integrator.moments));
           }
       return mine;

@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <vector>
 
 namespace Signorini
 {
@@ -27,20 +28,34 @@ namespace Signorini
     /// @param phi the corner functions there
     void add(const double weight, const Vector3 &gap, const std::array<double, 4> &phi);
 
-    /// Products of the corner functions with the bubbles of the gap (area * length), times the part of what
-    /// is no corner function that these bubbles account for: of a smooth gap all, of a rough one little.
-    std::array<Vector3, 4> bubble_moments() const;
+    /// What the products of the corner functions with the gap (area * length) must change by to be those of
+    /// the gap that linear elements can follow (doc/algorithm.md, (17a) and (17b)): without bubbles, and at
+    /// corners not below the gap of the face along their normals.
+    /// @param has_bubbles false where too little of the face is covered to tell
+    std::array<Vector3, 4> correction(const std::array<Vector3, 4> &normals, const bool has_bubbles) const;
 
   private:
     /// Three or four corner functions and three or two bubbles.
     static constexpr int n = 6;
+    using Basis            = Eigen::Matrix<double, n, 1>;
     using Products         = Eigen::Matrix<double, n, n>;
     using Values           = Eigen::Matrix<double, n, dim>;
 
-    const unsigned int n_corners;
-    Products           gram   = Products::Zero();
-    Values             right  = Values::Zero();
-    double             square = 0.;
+    struct Sample
+    {
+      double          weight;
+      Basis           basis;
+      Eigen::Vector3d gap;
+    };
+
+    /// Bubbles times the part of what is no corner function that they account for: of a smooth gap all, of a
+    /// rough one little. The corner functions that are left of the gap without them.
+    Values fit_with_bubbles() const;
+
+    const unsigned int  n_corners;
+    Products            gram  = Products::Zero();
+    Values              right = Values::Zero();
+    std::vector<Sample> samples;
   };
 } // namespace Signorini
 

@@ -101,6 +101,29 @@ TEST(WeightedGap, RoughObstacleIsWeighted)
     EXPECT_NEAR(pair.gaps[row], 1., .03);
 }
 
+// A crease within a face: dual functions have negative parts, and the nodes where the surfaces touch would have
+// to go into each other, those beside them would touch too late.
+TEST(WeightedGap, CreaseIsTakenAtNodes)
+{
+  for (const double crease : {.4, .46, .5, .58, .63})
+    {
+      const auto height = [=](const Point<3> &x) { return std::max(0., x[0] - crease); };
+      const auto pair   = under({6, 6}, height);
+      ASSERT_EQ(pair.gaps.size(), 49u);
+      for (std::size_t row = 0; row < pair.gaps.size(); ++row)
+        {
+          const Point<3> &x = pair.positions[row];
+          EXPECT_GE(pair.gaps[row], -1e-14);
+          // Of a face of width 1/6.
+          EXPECT_NEAR(pair.gaps[row], height(x), .015) << crease << " at " << x;
+          if (x[0] < crease - 1. / 6. - 1e-12)
+            {
+              EXPECT_NEAR(pair.gaps[row], 0., 1e-14);
+            }
+        }
+    }
+}
+
 // A mortar surface at a linear height: Phi(x) - x is linear, and the weighted gap of a linear function is
 // its value at the node.
 TEST(WeightedGap, LinearGapIsExactAtNodes)
