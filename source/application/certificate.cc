@@ -81,6 +81,7 @@ namespace Signorini
       if (pair.approach > 0.)
         {
           c.geometric_penetration = std::max(c.geometric_penetration, pair.max_penetration / pair.approach);
+          c.loaded_gap            = std::max(c.loaded_gap, pair.loaded_gap / pair.approach);
           c.gap_doubt             = std::max(c.gap_doubt, pair.gap_doubt / pair.approach);
         }
       c.moment_balance = std::max(c.moment_balance, pair.moment_balance);
@@ -154,6 +155,12 @@ namespace Signorini
                                text_of(pair.max_penetration) + ", " +
                                text_of(pair.max_penetration / pair.approach) +
                                " of what contact does there; refine the contact surfaces");
+      if (pair.loaded_gap > rule.loaded_gap * pair.approach)
+        c.objections.push_back(
+            name + "contact forces act where the true surfaces are " + text_of(pair.loaded_gap) + " apart, " +
+            text_of(pair.loaded_gap / pair.approach) +
+            " of what contact does there; refine the contact surfaces, or choose the other "
+            "side as \"Nonmortar\"");
       if (!mapping_errors.empty())
         c.objections.push_back(
             name + "the contact mapping has errors where the bodies touch (" + mapping_errors +

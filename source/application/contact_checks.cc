@@ -6,6 +6,7 @@
 #include <signorini/algebra/gathered_lists.h>
 #include <signorini/algebra/input_error.h>
 #include <signorini/application/contact_checks.h>
+#include <signorini/mortar/face_claims.h>
 #include <signorini/mortar/surface_values.h>
 
 #include <iomanip>
@@ -65,7 +66,10 @@ namespace Signorini
     {
       LostContact result;
       for_lost_faces(pair, coupling, [&](const FaceMoments &m, const DroppedNode::Reason reason) {
-        (reason == DroppedNode::other_pair ? result.by_other_pairs : result.by_conditions) += m.covered;
+        if (reason != DroppedNode::other_pair)
+          result.by_conditions += m.covered;
+        else if (!is_far(m))
+          result.by_other_pairs += m.covered;
       });
       result.covered        = coupling.covered_area;
       result.by_conditions  = Utilities::MPI::sum(result.by_conditions, comm);

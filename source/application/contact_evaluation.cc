@@ -74,16 +74,20 @@ namespace Signorini
       double  scale = 0., n_nodes = 0., square = 0.;
     };
 
-    GeometricPenetration penetration_of(const Discretization &d, const ContactPair &pair,
-                                        const Vector &displacement)
+    /// @param pressure by row
+    GeometricPenetration penetration_of(const Discretization &d, const unsigned int p,
+                                        const Vector &displacement, const std::vector<double> &row_pressure)
     {
-      const MPI_Comm comm      = d.nodal().communicator();
-      const auto     displaced = vertex_values(pair.nonmortar.surface, d.partition(), displacement);
+      const MPI_Comm     comm      = d.nodal().communicator();
+      const ContactPair &pair      = d.pairs[p];
+      const auto         pressure  = spread_rows(d.couplings[p], *pair.halo, row_pressure);
+      const auto         displaced = vertex_values(pair.nonmortar.surface, d.partition(), displacement);
       if (pair.obstacle)
-        return sample_rigid_penetration(pair.nonmortar.surface, *pair.obstacle, displaced, comm);
+        return sample_rigid_penetration(pair.nonmortar.surface, *pair.obstacle, displaced, pressure, comm);
       return sample_geometric_penetration(
           {pair.nonmortar.surface, pair.mortar.surface, pair.mapping->overlay()}, displaced,
-          vertex_values(pair.mortar.surface, d.partition(), displacement), pair.prescribed_gap, comm);
+          vertex_values(pair.mortar.surface, d.partition(), displacement), pressure, pair.prescribed_gap,
+          comm);
     }
 
     /// What contact does where bodies touch, and how well the gap is known there.
@@ -219,9 +223,10 @@ namespace Signorini
     result.force_on_mortar = pair.obstacle ? -result.force : sum(forces.mortar.force, comm);
     result.moment          = sum(forces.nonmortar.moment, comm);
     measure_contact(result, pair, is_active, sum(forces.nonmortar.moment + forces.mortar.moment, comm), comm);
-    const auto penetration     = penetration_of(d, pair, solution.displacement);
+    const auto penetration     = penetration_of(d, p, solution.displacement, stress.pressure);
     result.min_gap             = penetration.min_gap;
     result.max_penetration     = std::max(0., penetration.max_penetration());
+    result.loaded_gap          = penetration.loaded_gap;
     result.mean_pressure       = result.contact_area > 0. ? result.load / result.contact_area : 0.;
     result.initial_penetration = std::max(0., -penetration.min_initial_gap);
     return result;

@@ -9,6 +9,7 @@
 #include <signorini/application/pair_pieces.h>
 #include <signorini/application/ties.h>
 #include <signorini/mesh/surface_extraction.h>
+#include <signorini/mortar/face_claims.h>
 #include <signorini/mortar/face_shares.h>
 #include <signorini/surface/mapping_quality.h>
 
@@ -169,7 +170,7 @@ namespace Signorini
       return chosen;
     }
 
-    void map_pair(ContactPair &pair, const MPI_Comm comm, const unsigned int cycle, Journal &journal)
+    void map_pair(ContactPair &pair, const MPI_Comm comm, Journal &journal)
     {
       const unsigned int    rank      = Utilities::MPI::this_mpi_process(comm);
       const ContactSurface &nonmortar = pair.nonmortar.surface;
@@ -185,13 +186,6 @@ namespace Signorini
                            "\" do not face each other anywhere: there is not a single overlay cell.");
         pair.mapping_time = time.stop();
       }
-      if (const std::string errors = describe_errors(sum_reports(pair.mapping->report(), comm));
-          !errors.empty())
-        journal.note("warning: pair " + pair.name + ", cycle " + std::to_string(cycle) +
-                     ": the contact mapping has errors (" + errors +
-                     "): pressures and forces near those places are wrong. Look at the surfaces with "
-                     "signorini-map; a finer or smoother mesh on the bent or folded parts, or the other side "
-                     "as nonmortar side, helps.");
       const auto time = journal.measure(Phase::mortar);
       pair.halo       = std::make_shared<const SurfaceHalo>(nonmortar, comm);
       pair.moments    = pair.halo->add_ghosts(compute_face_moments(
@@ -216,11 +210,9 @@ namespace Signorini
     class PairMaker
     {
     public:
-      PairMaker(const ContactModel &model, const ConstrainedSpace &constrained, const unsigned int cycle,
-                Journal &journal)
+      PairMaker(const ContactModel &model, const ConstrainedSpace &constrained, Journal &journal)
         : model(model)
         , constrained(constrained)
-        , cycle(cycle)
         , journal(journal)
       {
       }
@@ -251,19 +243,24 @@ namespace Signorini
         if (pair.obstacle)
           meet_obstacle(pair, model.communicator(), journal);
         else
-          map_pair(pair, model.communicator(), cycle, journal);
+          map_pair(pair, model.communicator(), journal);
         return pair;
       }
 
     private:
       const ContactModel     &model;
       const ConstrainedSpace &constrained;
-      const unsigned int      cycle;
       Journal                &journal;
     };
 
-    std::vector<PairCoupling> couple_pairs(const std::vector<ContactPair> &pairs, const MPI_Comm comm)
+    /// Couples pairs whose moments are still those of all that they cover.
+    std::vector<PairCoupling> couple_pairs(std::vector<ContactPair> &pairs, const MPI_Comm comm)
     {
+      std::vector<ClaimedFaces> claims;
+      for (ContactPair &pair : pairs)
+        claims.push_back({pair.nonmortar.surface, pair.moments, pair.is_tied});
+      if (pairs.size() > 1)
+        leave_faces_to_nearest(claims, comm);
       std::vector<std::set<NodeIndex>> nonmortar_nodes, mortar_nodes;
       for (const ContactPair &pair : pairs)
         {
@@ -310,23 +307,65 @@ namespace Signorini
           coupling.gaps[row] = gap;
     }
 
-    void note_dropped_nodes(const ContactPair &pair, const PairCoupling &coupling, const unsigned int cycle,
-                            const MPI_Comm comm, Journal &journal)
+    /// What is said of several pairs at once, for there may be many: "pair a, cycle 0", "pairs a, b, cycle
+    /// 0".
+    struct NotedPairs
     {
-      std::map<std::string, unsigned int> reasons;
-      std::vector<unsigned int>           counts(DroppedNode::n_reasons, 0);
-      for (const DroppedNode &node : coupling.dropped)
-        ++counts[node.reason];
-      Utilities::MPI::sum(counts, comm, counts);
-      for (unsigned int reason = 0; reason < counts.size(); ++reason)
-        if (counts[reason] > 0)
-          reasons[to_string(static_cast<DroppedNode::Reason>(reason))] = counts[reason];
-      for (const auto &[reason, n] : reasons)
-        journal.note("pair " + pair.name + ", cycle " + std::to_string(cycle) + ": " + std::to_string(n) +
-                     " nonmortar nodes without multiplier (" + reason + ").");
-      if (coupling.lost_area > 1e-12 * coupling.area)
-        journal.note("pair " + pair.name + ": an area of " + std::to_string(coupling.lost_area) +
-                     " is covered but carries no multiplier.");
+      std::vector<std::string> names, values;
+
+      void add(const std::string &name, const std::string &value)
+      {
+        names.push_back(name);
+        values.push_back(value);
+      }
+
+      std::string in_cycle(const unsigned int cycle) const
+      {
+        return (names.size() > 1 ? "pairs " : "pair ") + Patterns::Tools::to_string(names) + ", cycle " +
+               std::to_string(cycle) + ": ";
+      }
+    };
+
+    void note_mapping_errors(const std::vector<ContactPair> &pairs, const unsigned int cycle,
+                             const MPI_Comm comm, Journal &journal)
+    {
+      NotedPairs noted;
+      for (const ContactPair &pair : pairs)
+        if (pair.mapping)
+          if (const std::string errors = describe_errors(sum_reports(pair.mapping->report(), comm));
+              !errors.empty())
+            noted.add(pair.name, errors);
+      if (!noted.names.empty())
+        journal.note(
+            "warning: " + noted.in_cycle(cycle) + "the contact mapping has errors (" +
+            (noted.values.size() == 1 ? noted.values[0] : "of each pair: mappings/errors in summary.json") +
+            "): pressures and forces near those places are wrong. Look at the surfaces with "
+            "signorini-map; a finer or smoother mesh on the bent or folded parts, or the other side "
+            "as nonmortar side, helps.");
+    }
+
+    void note_dropped_nodes(const CoupledPairs &coupled, const unsigned int cycle, Journal &journal)
+    {
+      std::vector<NotedPairs> noted(DroppedNode::n_reasons);
+      for (unsigned int p = 0; p < coupled.pairs.size(); ++p)
+        {
+          std::vector<unsigned int> counts(DroppedNode::n_reasons, 0);
+          for (const DroppedNode &node : coupled.couplings[p].dropped)
+            ++counts[node.reason];
+          Utilities::MPI::sum(counts, coupled.model.communicator(), counts);
+          for (unsigned int reason = 0; reason < counts.size(); ++reason)
+            if (counts[reason] > 0)
+              noted[reason].add(coupled.pairs[p].name, std::to_string(counts[reason]));
+        }
+      for (unsigned int reason = 0; reason < noted.size(); ++reason)
+        if (!noted[reason].names.empty())
+          journal.note(noted[reason].in_cycle(cycle) + Patterns::Tools::to_string(noted[reason].values) +
+                       " nonmortar nodes without multiplier (" +
+                       to_string(static_cast<DroppedNode::Reason>(reason)) + ").");
+      for (unsigned int p = 0; p < coupled.pairs.size(); ++p)
+        if (const PairCoupling &coupling = coupled.couplings[p]; coupling.lost_area > 1e-12 * coupling.area)
+          journal.note("pair " + coupled.pairs[p].name + ": an area of " +
+                       std::to_string(coupling.lost_area) + " is covered but carries no multiplier.");
     }
 
     void note_overlap(const CoupledPairs &coupled, const unsigned int p, Journal &journal)
@@ -363,12 +402,16 @@ namespace Signorini
   {
     std::vector<bool> turned = turned_before;
     turned.resize(model.pairs().size(), false);
-    const PairMaker          maker(model, *constrained, cycle, journal);
+    const PairMaker          maker(model, *constrained, journal);
     std::vector<ContactPair> pairs;
     for (unsigned int p = 0; p < turned.size(); ++p)
       pairs.push_back(maker.make(model.pairs()[p], turned[p]));
 
-    const auto                time      = journal.measure(Phase::mortar);
+    const auto                            time = journal.measure(Phase::mortar);
+    std::vector<std::vector<FaceMoments>> covered;
+    if (pairs.size() > 1)
+      for (const ContactPair &pair : pairs)
+        covered.push_back(pair.moments);
     std::vector<PairCoupling> couplings = couple_pairs(pairs, model.communicator());
     while (true)
       {
@@ -379,17 +422,22 @@ namespace Signorini
           {
             turned[p] = true;
             pairs[p]  = maker.make(model.pairs()[p], true);
+            if (pairs.size() > 1)
+              covered[p] = pairs[p].moments;
           }
+        for (unsigned int p = 0; p < covered.size(); ++p)
+          pairs[p].moments = covered[p];
         couplings = couple_pairs(pairs, model.communicator());
       }
     const CoupledPairs coupled{model, *constrained, pairs, couplings};
     refuse_lost_contact(coupled);
     refuse_dense_coupling(coupled);
+    note_mapping_errors(pairs, cycle, model.communicator(), journal);
+    note_dropped_nodes(coupled, cycle, journal);
     for (unsigned int p = 0; p < pairs.size(); ++p)
       {
         if (model.pairs()[p].definition.gap == GapKind::nodal)
           use_nodal_gaps(couplings[p], pairs[p]);
-        note_dropped_nodes(pairs[p], couplings[p], cycle, model.communicator(), journal);
         if (cycle == 0)
           note_overlap(coupled, p, journal);
       }

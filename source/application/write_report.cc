@@ -110,6 +110,7 @@ namespace Signorini
       for (const char *const name : {"force_balance", "body_force_balance", "body_moment_balance"})
         json.number(name, std::max(rule.balance, asked));
       json.number("gap_doubt", rule.gap_doubt);
+      json.number("loaded_gap", rule.loaded_gap);
       json.number("geometric_penetration", rule.geometric_penetration);
       json.number("moment_balance", rule.moment_balance);
       json.end('}');

@@ -216,7 +216,8 @@ namespace Signorini
         std::array<Vector3, 4> normals;
         for (unsigned int a = 0; a < 4; ++a)
           normals[a] = nonmortar.mesh.vertex_normals[nonmortar.faces[moments.face].corners[a]];
-        const std::array<Vector3, 4> change = fit.correction(normals, moments.covered >= FitRule().covered * moments.area);
+        const std::array<Vector3, 4> change =
+            fit.correction(normals, moments.covered >= FitRule().covered * moments.area);
         for (unsigned int a = 0; a < 4; ++a)
           moments.gap[a] += change[a];
       }

@@ -2,6 +2,7 @@ signorini_add_layer(mortar
   contact_forces.cc
   contact_indicator.cc
   dual_basis.cc
+  face_claims.cc
   face_map.cc
   face_moments.cc
   face_shares.cc
@@ -15,4 +16,4 @@ signorini_add_layer(mortar
   surface_values.cc
 )
 # tests/application/broken.cmake puts another object in its place.
-set_source_files_properties(mortar/pair_coupling.cc PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+set_source_files_properties(mortar/gap_fit.cc mortar/pair_coupling.cc PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)

@@ -33,7 +33,7 @@ namespace Signorini
     const Eigen::LDLT<Products> factors(gram);
     Values                      fit = factors.solve(right);
     const auto                  k = static_cast<Eigen::Index>(n_corners), m = n - k;
-    const Eigen::MatrixXd       mixed = gram.topRightCorner(k, m);
+    const Eigen::MatrixXd       mixed   = gram.topRightCorner(k, m);
     const auto                  corners = gram.topLeftCorner(k, k).ldlt();
     const Eigen::MatrixXd among     = gram.bottomRightCorner(m, m) - mixed.transpose() * corners.solve(mixed);
     const double          explained = (fit.bottomRows(m).transpose() * among * fit.bottomRows(m)).trace();
@@ -43,6 +43,31 @@ namespace Signorini
     fit.bottomRows(m) *= explained > 0. ? explained / (explained + left) : 0.;
     fit.topRows(k) = corners.solve(right.topRows(k) - mixed * fit.bottomRows(m));
     return fit;
+  }
+
+
+
+  double GapFit::missing(const unsigned int corner, const Values &fit, const Eigen::Vector3d &normal) const
+  {
+    const Basis along   = fit * normal;
+    double      nearest = 0.;
+    for (const Sample &sample : samples)
+      nearest = std::max(nearest, sample.basis[corner]);
+    double least = std::numeric_limits<double>::infinity(), greatest = -least, above = 0., below = 0.;
+    for (const Sample &sample : samples)
+      {
+        const double gap = sample.gap.dot(normal), rest = gap - sample.basis.dot(along);
+        above = std::max(above, rest);
+        below = std::max(below, -rest);
+        if (sample.basis[corner] >= .5 * nearest)
+          {
+            least    = std::min(least, gap);
+            greatest = std::max(greatest, gap);
+          }
+      }
+    const double raise = std::min(above, least - along[corner]),
+                 lower = std::min(below, along[corner] - greatest);
+    return std::max(0., raise) - std::max(0., lower);
   }
 
 
@@ -57,28 +82,11 @@ namespace Signorini
       fit = fit_with_bubbles();
     else
       fit.topRows(k) = gram.topLeftCorner(k, k).ldlt().solve(right.topRows(k));
-    change.bottomRows(m)          = -fit.bottomRows(m);
+    change.bottomRows(m) = -fit.bottomRows(m);
     for (unsigned int a = 0; a < n_corners; ++a)
       {
         const Eigen::Vector3d normal(normals[a][0], normals[a][1], normals[a][2]);
-        const Basis           along = fit * normal;
-        double                nearest = 0.;
-        for (const Sample &sample : samples)
-          nearest = std::max(nearest, sample.basis[a]);
-        double least = std::numeric_limits<double>::infinity(), greatest = -least, above = 0., below = 0.;
-        for (const Sample &sample : samples)
-          {
-            const double gap = sample.gap.dot(normal), rest = gap - sample.basis.dot(along);
-            above = std::max(above, rest);
-            below = std::max(below, -rest);
-            if (sample.basis[a] >= .5 * nearest)
-              {
-                least    = std::min(least, gap);
-                greatest = std::max(greatest, gap);
-              }
-          }
-        const double raise = std::min(above, least - along[a]), lower = std::min(below, along[a] - greatest);
-        change.row(a)      = (std::max(0., raise) - std::max(0., lower)) * normal.transpose();
+        change.row(a) = missing(a, fit, normal) * normal.transpose();
       }
     const Values moments = gram * change;
     for (unsigned int a = 0; a < n_corners; ++a)

@@ -30,7 +30,7 @@ namespace Signorini
 
     /// What the products of the corner functions with the gap (area * length) must change by to be those of
     /// the gap that linear elements can follow (doc/algorithm.md, (17a) and (17b)): without bubbles, and at
-    /// corners not below the gap of the face along their normals.
+    /// corners not outside the range of the gap beside them along their normals.
     /// @param has_bubbles false where too little of the face is covered to tell
     std::array<Vector3, 4> correction(const std::array<Vector3, 4> &normals, const bool has_bubbles) const;
 
@@ -51,6 +51,11 @@ namespace Signorini
     /// Bubbles times the part of what is no corner function that they account for: of a smooth gap all, of a
     /// rough one little. The corner functions that are left of the gap without them.
     Values fit_with_bubbles() const;
+
+    /// What the fit lacks at a corner to be within the range that the gap has in the half of the face around
+    /// it, along a unit normal; no more than the fit is wrong by anywhere, so that linear gaps are what they
+    /// are where the corner is not covered.
+    double missing(const unsigned int corner, const Values &fit, const Eigen::Vector3d &normal) const;
 
     const unsigned int  n_corners;
     Products            gram  = Products::Zero();

@@ -3,6 +3,7 @@
 
 #include <signorini/mortar/geometric_penetration.h>
 #include <signorini/mortar/surface_values.h>
+#include <signorini/surface/contact_mapping.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -23,32 +24,86 @@ namespace Signorini
 
 
 
+  GapUnderLoad::GapUnderLoad(const ContactSurface &surface, const std::vector<double> &pressure)
+    : surface(surface)
+    , pressure(pressure)
+    , area(surface.faces.size(), 0.)
+    , least(surface.faces.size(), std::numeric_limits<double>::infinity())
+  {
+  }
+
+
+
+  void GapUnderLoad::add(const unsigned int triangle, const double part, const double gap)
+  {
+    const unsigned int face = surface.triangle_face[triangle];
+    if (!(gap < std::numeric_limits<double>::infinity()))
+      return;
+    area[face] += part;
+    least[face] = std::min(least[face], gap);
+  }
+
+
+
+  double GapUnderLoad::mean(const MPI_Comm communicator) const
+  {
+    double sum = 0., load = 0.;
+    for (std::size_t f = 0; f < area.size(); ++f)
+      {
+        const ContactSurface::Face &face = surface.faces[f];
+        if (!(area[f] > 0.))
+          continue;
+        double force = 0.;
+        for (unsigned int a = 0; a < face.n_corners; ++a)
+          force += std::max(0., pressure[face.corners[a]]) * area[f] / face.n_corners;
+        sum += force * std::max(0., least[f]);
+        load += force;
+      }
+    sum  = Utilities::MPI::sum(sum, communicator);
+    load = Utilities::MPI::sum(load, communicator);
+    return load > 0. ? sum / load : 0.;
+  }
+
+
+
   GeometricPenetration sample_geometric_penetration(const FacingSurfaces       &pair,
                                                     const std::vector<Vector3> &displacement_nonmortar,
                                                     const std::vector<Vector3> &displacement_mortar,
+                                                    const std::vector<double>  &pressure,
                                                     const GapFunction          &prescribed_gap,
                                                     const MPI_Comm              communicator)
   {
     const auto &[nonmortar, mortar, overlay] = pair;
     const SurfaceValues non(nonmortar), mor(mortar);
+    GapUnderLoad        under_load(nonmortar, pressure);
     double              min_initial = std::numeric_limits<double>::infinity(), min_gap = min_initial;
     for (const OverlayTriangle &cell : overlay)
-      for (const std::array<double, 3> &sample : samples)
-        {
-          const auto weights = compose(cell.nonmortar, sample), image_weights = compose(cell.mortar, sample);
-          const Point<3> x     = non.point(cell.nonmortar_triangle, weights);
-          const Point<3> image = mor.point(cell.mortar_triangle, image_weights);
-          const Vector3  n     = non.normal(cell.nonmortar_triangle, weights);
-          if (!prescribed_gap && !may_touch(n, mor.normal(cell.mortar_triangle, image_weights)))
-            continue;
-          const Vector3 relative = non.value(displacement_nonmortar, cell.nonmortar_triangle, x) -
-                                   mor.value(displacement_mortar, cell.mortar_triangle, image);
-          const double initial =
-              prescribed_gap ? prescribed_gap(x) : initial_gap(nonmortar, mortar, cell, sample, x, image) * n;
-          min_initial = std::min(min_initial, initial);
-          min_gap     = std::min(min_gap, initial - n * relative);
-        }
-    return {Utilities::MPI::min(min_initial, communicator), Utilities::MPI::min(min_gap, communicator)};
+      {
+        double least = std::numeric_limits<double>::infinity();
+        for (const std::array<double, 3> &sample : samples)
+          {
+            const auto weights       = compose(cell.nonmortar, sample),
+                       image_weights = compose(cell.mortar, sample);
+            const Point<3> x         = non.point(cell.nonmortar_triangle, weights);
+            const Point<3> image     = mor.point(cell.mortar_triangle, image_weights);
+            const Vector3  n         = non.normal(cell.nonmortar_triangle, weights);
+            if (!prescribed_gap && !may_touch(n, mor.normal(cell.mortar_triangle, image_weights)))
+              continue;
+            const Vector3 relative = non.value(displacement_nonmortar, cell.nonmortar_triangle, x) -
+                                     mor.value(displacement_mortar, cell.mortar_triangle, image);
+            const double initial = prescribed_gap
+                                       ? prescribed_gap(x)
+                                       : initial_gap(nonmortar, mortar, cell, sample, x, image) * n;
+            min_initial          = std::min(min_initial, initial);
+            least                = std::min(least, initial - n * relative);
+          }
+        min_gap = std::min(min_gap, least);
+        under_load.add(cell.nonmortar_triangle,
+                       std::abs(cell.share()) * triangle_area(nonmortar.mesh, cell.nonmortar_triangle),
+                       least);
+      }
+    return {Utilities::MPI::min(min_initial, communicator), Utilities::MPI::min(min_gap, communicator),
+            under_load.mean(communicator)};
   }
 
 

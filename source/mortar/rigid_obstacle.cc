@@ -4,6 +4,7 @@
 #include <signorini/algebra/input_error.h>
 #include <signorini/mesh/expression.h>
 #include <signorini/mortar/rigid_obstacle.h>
+#include <signorini/surface/contact_mapping.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
@@ -273,6 +274,7 @@ namespace Signorini
 
   GeometricPenetration sample_rigid_penetration(const ContactSurface &surface, const RigidObstacle &obstacle,
                                                 const std::vector<Vector3> &displacement,
+                                                const std::vector<double>  &pressure,
                                                 const MPI_Comm              communicator)
   {
     // Corners, middles of edges and centres of the triangles of own faces, displaced; normals as they were.
@@ -285,31 +287,38 @@ namespace Signorini
                                                            {{1. / 3., 1. / 3., 1. / 3.}}}};
     const double                               size    = surface.extent();
     const unsigned int                         rank    = Utilities::MPI::this_mpi_process(communicator);
+    GapUnderLoad                               under_load(surface, pressure);
     double min_initial = std::numeric_limits<double>::infinity(), min_gap = min_initial;
     for (unsigned int t = 0; t < surface.mesh.triangles.size(); ++t)
       if (surface.faces[surface.triangle_face[t]].worker == rank)
-        for (const auto &w : samples)
-          {
-            Vector3 x, u, n;
-            for (unsigned int i = 0; i < 3; ++i)
-              {
-                const unsigned int v = surface.mesh.triangles[t][i];
-                x += w[i] * Vector3(surface.mesh.vertices[v]);
-                u += w[i] * displacement[v];
-                n += w[i] * surface.mesh.vertex_normals[v];
-              }
-            x += surface.offset(t, w);
-            if (!(n.norm() > 0.))
-              continue;
-            n /= n.norm();
-            double gap;
-            if (obstacle.gap(gap, Point<3>(x), n, size))
-              {
-                min_initial = std::min(min_initial, gap);
-                if (obstacle.gap(gap, Point<3>(x + u), n, size))
-                  min_gap = std::min(min_gap, gap);
-              }
-          }
-    return {Utilities::MPI::min(min_initial, communicator), Utilities::MPI::min(min_gap, communicator)};
+        {
+          double least = std::numeric_limits<double>::infinity();
+          for (const auto &w : samples)
+            {
+              Vector3 x, u, n;
+              for (unsigned int i = 0; i < 3; ++i)
+                {
+                  const unsigned int v = surface.mesh.triangles[t][i];
+                  x += w[i] * Vector3(surface.mesh.vertices[v]);
+                  u += w[i] * displacement[v];
+                  n += w[i] * surface.mesh.vertex_normals[v];
+                }
+              x += surface.offset(t, w);
+              if (!(n.norm() > 0.))
+                continue;
+              n /= n.norm();
+              double gap;
+              if (obstacle.gap(gap, Point<3>(x), n, size))
+                {
+                  min_initial = std::min(min_initial, gap);
+                  if (obstacle.gap(gap, Point<3>(x + u), n, size))
+                    least = std::min(least, gap);
+                }
+            }
+          min_gap = std::min(min_gap, least);
+          under_load.add(t, triangle_area(surface.mesh, t), least);
+        }
+    return {Utilities::MPI::min(min_initial, communicator), Utilities::MPI::min(min_gap, communicator),
+            under_load.mean(communicator)};
   }
 } // namespace Signorini

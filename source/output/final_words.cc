@@ -84,16 +84,28 @@ namespace Signorini
       out << '\n';
     }
 
-    /// Errors of the contact mapping, which most runs do not have.
+    /// Errors of the contact mapping, which most runs do not have. Those that do not matter are said in one
+    /// line: a bearing may have them in all of its pairs.
     void print_mapping_errors(std::ostream &out, const Results &results)
     {
+      std::vector<const MappingResult *> harmless;
       for (const MappingResult &mapping : results.mappings)
-        if (const std::string errors = describe_errors(mapping.report); !errors.empty())
-          out << "WARNING: pair " << mapping.pair << ": the contact mapping has errors (" << errors << "): "
-              << (mapping.errors_matter
-                      ? "pressures and forces near those places are wrong"
-                      : "none is near where the bodies touch, so that nothing above depends on them")
-              << '\n';
+        if (const std::string errors = describe_errors(mapping.report); errors.empty())
+          continue;
+        else if (!mapping.errors_matter)
+          harmless.push_back(&mapping);
+        else
+          out << "WARNING: pair " << mapping.pair << ": the contact mapping has errors (" << errors
+              << "): pressures and forces near those places are wrong\n";
+      if (harmless.empty())
+        return;
+      out << "WARNING: pair" << (harmless.size() > 1 ? "s " : " ");
+      for (std::size_t i = 0; i < harmless.size(); ++i)
+        out << (i > 0 ? ", " : "") << harmless[i]->pair;
+      out << ": the contact mapping has errors ("
+          << (harmless.size() > 1 ? "of each pair: mappings/errors in summary.json"
+                                  : describe_errors(harmless[0]->report))
+          << "): none is near where the bodies touch, so that nothing above depends on them\n";
     }
 
     void print_smallness(std::ostream &out, const Results &results)

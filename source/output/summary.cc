@@ -159,6 +159,7 @@ namespace Signorini
       json.number("coverage", pair.coverage);
       json.number("min_gap", pair.min_gap);
       json.number("max_penetration", pair.max_penetration);
+      json.number("loaded_gap", pair.loaded_gap);
       json.number("initial_penetration", pair.initial_penetration);
       json.number("area_without_multiplier", pair.lost_area);
       json.number("dropped_nodes", pair.dropped_nodes);
@@ -258,6 +259,7 @@ namespace Signorini
       json.end(']');
       json.number("penetration", c.penetration);
       json.number("geometric_penetration", c.geometric_penetration);
+      json.number("loaded_gap", c.loaded_gap);
       json.number("gap_doubt", c.gap_doubt);
       json.number("tension", c.tension);
       json.number("complementarity", c.complementarity);
@@ -407,6 +409,8 @@ namespace Signorini
         << "  penetration      " << c.penetration << "   (algebraic, largest / largest displacement)\n"
         << "  geometric        " << c.geometric_penetration
         << "   (of the true surfaces, sampled on all overlay cells, / approach)\n"
+        << "  gap under load   " << c.loaded_gap
+        << "   (of the true surfaces, mean over the contact forces, / approach)\n"
         << "  doubt of the gap " << c.gap_doubt
         << "   (what is not known of the surfaces in contact / approach)\n"
         << "  tension          " << c.tension << "   (largest / largest pressure)\n"

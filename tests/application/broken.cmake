@@ -1,7 +1,7 @@
-# Programs that are broken on purpose: one source with one change (a sign), the rest as it is. `signorini verify` has to
+# Programs that are broken on purpose: one source with one change, the rest as it is. A case that passes otherwise has to
 # notice them. The object comes before the archive, which has the same symbols and is not asked for them any more: its source
 # compiles alone there (SKIP_UNITY_BUILD_INCLUSION in its files.cmake).
-function(signorini_add_broken_program name source right wrong)
+function(signorini_add_broken_program name case source right wrong)
   set(original ${PROJECT_SOURCE_DIR}/source/${source})
   set(copy ${CMAKE_CURRENT_BINARY_DIR}/broken/${name}.cc)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${original})
@@ -21,15 +21,18 @@ function(signorini_add_broken_program name source right wrong)
   target_precompile_headers(${target} REUSE_FROM signorini_headers)
   deal_ii_setup_target(${target})
   signorini_compile_options(${target})
-  target_link_libraries(${target} signorini)
-  add_test(NAME application/verify_broken.${name}
-           COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/application/run_case.py $<TARGET_FILE:${target}> verify_broken 1)
-  set_tests_properties(application/verify_broken.${name} PROPERTIES TIMEOUT 600)
+  target_link_libraries(${target} signorini Eigen3::Eigen)
+  add_test(NAME application/${case}.${name}
+           COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/application/run_case.py $<TARGET_FILE:${target}> ${case} 1)
+  set_tests_properties(application/${case}.${name} PROPERTIES TIMEOUT 600)
 endfunction()
 
 # The gap counts with the wrong sign.
-signorini_add_broken_program(gap mortar/pair_coupling.cc
+signorini_add_broken_program(gap verify_broken mortar/pair_coupling.cc
   "(prescribed_gap ? gap[0] : gap * normal) / weight" "-(prescribed_gap ? gap[0] : gap * normal) / weight")
 # Contact forces act on the mortar side in the wrong direction.
-signorini_add_broken_program(coupling mortar/pair_coupling.cc
+signorini_add_broken_program(coupling verify_broken mortar/pair_coupling.cc
   "m_sum.values[q] / weight" "-m_sum.values[q] / weight")
+# The weighted gap may be below the gap.
+signorini_add_broken_program(crease chamfered_block_broken mortar/gap_fit.cc
+  "std::max(0., raise)" "0. * raise")

@@ -131,7 +131,7 @@ function mapping(s) {
 
 function certificate(s, run) {
   const meaning = {
-    penetration: 'of the nodes, relative to the largest displacement', geometric_penetration: 'of the true surfaces, relative to the approach', gap_doubt: 'by how much the gap may be wrong, relative to the approach',
+    penetration: 'of the nodes, relative to the largest displacement', geometric_penetration: 'of the true surfaces, relative to the approach', loaded_gap: 'of the true surfaces, mean over the contact forces, relative to the approach', gap_doubt: 'by how much the gap may be wrong, relative to the approach',
     tension: 'relative to the largest pressure', complementarity: 'pressure times opening, relative to the largest pressure times the largest displacement', equilibrium: 'what is left of the nodal forces, relative to their norm', force_balance: 'of the two sides of the pairs, relative to the load',
     moment_balance: 'of the two sides of the pairs', body_force_balance: 'what is left of all forces on a body', body_moment_balance: 'what is left of their moments',
   };

@@ -18,6 +18,9 @@ namespace Signorini
     /// Least initial_gap()·n(x), and least of that after deformation; infinite where nothing is covered by
     /// what it may touch.
     double min_initial_gap, min_gap;
+    /// Over what gap the contact forces act: mean over them of the least gap after deformation of the face
+    /// that they act on, none counted below zero; zero without forces.
+    double loaded_gap;
 
     /// Largest n(x)·(u_non(x) - u_mor(Phi(x))) - initial_gap()·n(x): negative if the surfaces are apart.
     double max_penetration() const
@@ -26,15 +29,37 @@ namespace Signorini
     }
   };
 
+  /// The least gap of every face, and its mean over the contact forces.
+  class GapUnderLoad
+  {
+  public:
+    /// @param pressure per vertex of the nonmortar surface; must outlive this
+    GapUnderLoad(const ContactSurface &surface, const std::vector<double> &pressure);
+
+    /// Part of a face with its least gap.
+    void add(const unsigned int triangle, const double area, const double gap);
+
+    /// Collective. See GeometricPenetration::loaded_gap.
+    double mean(const MPI_Comm communicator) const;
+
+  private:
+    const ContactSurface      &surface;
+    const std::vector<double> &pressure;
+    /// By face; the gap is infinite without a part.
+    std::vector<double> area, least;
+  };
+
   /// Collective. Samples seven points (corners, middles of edges, centre) of every overlay triangle of all
   /// ranks, with displacements at their true reference points and normals linear on triangles. The share of
   /// the surface that is covered at all is PairCoupling::covered_area / PairCoupling::area.
   /// @param pair with the overlay of this rank's own faces
   /// @param displacement_nonmortar displacement_mortar per vertex of each surface (hanging ones too)
+  /// @param pressure per vertex of the nonmortar surface, zero at hanging ones
   /// @param prescribed_gap replaces initial_gap()·n(x) if not empty
   GeometricPenetration sample_geometric_penetration(const FacingSurfaces       &pair,
                                                     const std::vector<Vector3> &displacement_nonmortar,
                                                     const std::vector<Vector3> &displacement_mortar,
+                                                    const std::vector<double>  &pressure,
                                                     const GapFunction          &prescribed_gap,
                                                     const MPI_Comm              communicator);
 

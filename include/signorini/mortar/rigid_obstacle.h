@@ -102,6 +102,7 @@ namespace Signorini
   /// Collective. As sample_geometric_penetration(), against an obstacle.
   GeometricPenetration sample_rigid_penetration(const ContactSurface &surface, const RigidObstacle &obstacle,
                                                 const std::vector<Vector3> &displacement,
+                                                const std::vector<double>  &pressure,
                                                 const MPI_Comm              communicator);
 } // namespace Signorini
 

@@ -59,7 +59,9 @@ namespace Signorini
     Vector3          force, force_on_mortar, moment;
     dealii::Point<3> centre;
     double           min_pressure = 0., max_pressure = 0., contact_area = 0., coverage = 0., min_gap = 0.,
-           max_penetration     = 0.;
+           max_penetration = 0.;
+    /// Over what gap between the true surfaces the contact forces act, in the mean (length).
+    double loaded_gap          = 0.;
     double initial_penetration = 0., lost_area = 0.;
     /// Integral of the pressure where nodes are active (force).
     double load = 0.;
@@ -138,6 +140,7 @@ namespace Signorini
     /// nodes.
     double gap_doubt             = .1;
     double geometric_penetration = .5;
+    double loaded_gap            = .25;
     /// Forces that are smaller than this part of E·u·width are rounding.
     double rounding = 1e-11;
     /// Directions that contradict each other.
@@ -152,6 +155,8 @@ namespace Signorini
     /// Largest penetration of the true surfaces, sampled at points of all overlay cells / approach of the
     /// pair (consistency error of the discretization, not of the solver).
     double geometric_penetration = 0.;
+    /// Largest PairResult::loaded_gap / approach of the pair: forces where nothing touches.
+    double loaded_gap = 0.;
     /// Largest PairResult::gap_doubt / approach of the pair.
     double gap_doubt = 0.;
     /// Largest tension / largest pressure.

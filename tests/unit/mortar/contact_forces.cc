@@ -122,7 +122,9 @@ TEST(GeometricPenetration, ConstantAndBilinearDisplacements)
     x[2] += .3;
   std::vector<Vector3> u_non(s.non.vertex_node.size(), Point<3>(.1, .2, .5));
   std::vector<Vector3> u_mor(s.mor.vertex_node.size(), Point<3>(7., 0., .1));
-  auto result = sample_geometric_penetration({s.non, s.mor, overlay}, u_non, u_mor, {}, MPI_COMM_WORLD);
+  std::vector<double>  pressure(u_non.size(), 2.);
+  auto                 result =
+      sample_geometric_penetration({s.non, s.mor, overlay}, u_non, u_mor, pressure, {}, MPI_COMM_WORLD);
   EXPECT_NEAR(result.min_initial_gap, .3, 1e-15);
   EXPECT_NEAR(result.max_penetration(), .1, 1e-15);
 
@@ -135,11 +137,12 @@ TEST(GeometricPenetration, ConstantAndBilinearDisplacements)
   };
   u_non  = bilinear(s.non);
   u_mor  = bilinear(s.mor);
-  result = sample_geometric_penetration({s.non, s.mor, overlay}, u_non, u_mor, {}, MPI_COMM_WORLD);
+  result = sample_geometric_penetration({s.non, s.mor, overlay}, u_non, u_mor, pressure, {}, MPI_COMM_WORLD);
   EXPECT_NEAR(result.min_gap, .3, 1e-14);
 
   result = sample_geometric_penetration(
-      {s.non, s.mor, overlay}, u_non, u_mor, [](const Point<3> &x) { return x[0] - 1.; }, MPI_COMM_WORLD);
+      {s.non, s.mor, overlay}, u_non, u_mor, pressure, [](const Point<3> &x) { return x[0] - 1.; },
+      MPI_COMM_WORLD);
   EXPECT_NEAR(result.min_initial_gap, -1., 1e-15);
   EXPECT_NEAR(result.max_penetration(), 1., 1e-14);
 }
@@ -148,6 +151,7 @@ TEST(GeometricPenetration, NothingCovered)
 {
   Surfaces                   s;
   const std::vector<Vector3> u_non(s.non.vertex_node.size()), u_mor(s.mor.vertex_node.size());
-  const auto result = sample_geometric_penetration({s.non, s.mor, {}}, u_non, u_mor, {}, MPI_COMM_WORLD);
+  const auto                 result = sample_geometric_penetration({s.non, s.mor, {}}, u_non, u_mor,
+                                                                   std::vector<double>(u_non.size(), 1.), {}, MPI_COMM_WORLD);
   EXPECT_EQ(result.min_gap, std::numeric_limits<double>::infinity());
 }

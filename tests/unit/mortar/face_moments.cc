@@ -101,8 +101,8 @@ TEST(WeightedGap, RoughObstacleIsWeighted)
     EXPECT_NEAR(pair.gaps[row], 1., .03);
 }
 
-// A crease within a face: dual functions have negative parts, and the nodes where the surfaces touch would have
-// to go into each other, those beside them would touch too late.
+// A crease within a face: dual functions have negative parts, and the nodes where the surfaces touch would
+// have to go into each other, those beside them would touch too late.
 TEST(WeightedGap, CreaseIsTakenAtNodes)
 {
   for (const double crease : {.4, .46, .5, .58, .63})

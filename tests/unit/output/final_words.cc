@@ -38,6 +38,30 @@ namespace
 
 
 
+// A bearing has many pairs.
+TEST(FinalWords, ErrorsThatDoNotMatterAreSaidOnce)
+{
+  Results results;
+  for (const char *const name : {"in", "out", "seat"})
+    {
+      results.mappings.emplace_back();
+      results.mappings.back().pair                       = name;
+      results.mappings.back().report                     = perfect_report();
+      results.mappings.back().report.worst_tiling_defect = 1e-3;
+      results.mappings.back().errors_matter              = std::string(name) == "seat";
+    }
+  std::ostringstream out;
+  print_final_words(out, results);
+  const std::string text = out.str();
+  EXPECT_NE(text.find("WARNING: pair seat: the contact mapping has errors (a triangle"), std::string::npos)
+      << text;
+  EXPECT_NE(
+      text.find("WARNING: pairs in, out: the contact mapping has errors (of each pair: mappings/errors in "
+                "summary.json): none is near"),
+      std::string::npos)
+      << text;
+}
+
 // Damaged surfaces: what covers a triangle twice or not at all, or a surface more than once, is the last
 // thing that is read, whatever else has been printed.
 TEST(FinalWords, WarnOfMappingErrors)
