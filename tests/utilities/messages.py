@@ -194,7 +194,7 @@ def missing(headings):
 def named_tests(catalogue):
     """Complaints about tests that entries name and that are not there."""
     known = ''
-    for file in glob.glob(os.path.join(TOP, 'tests', '*', 'files.cmake')):
+    for file in glob.glob(os.path.join(TOP, 'tests', '*', '*.cmake')):
         with open(file) as f:
             known += f.read()
     for line, _, blocks in catalogue:
