@@ -8,6 +8,7 @@
 #include <signorini/application/journal.h>
 #include <signorini/application/pair_pieces.h>
 #include <signorini/application/ties.h>
+#include <signorini/mesh/facing_parts.h>
 #include <signorini/mesh/surface_extraction.h>
 #include <signorini/mortar/face_claims.h>
 #include <signorini/mortar/face_shares.h>
@@ -229,6 +230,7 @@ namespace Signorini
           std::vector<ContactSide> sides;
           for (const PairModel::Side &side : definition.sides)
             sides.push_back(extract_side(definition, side, model, constrained));
+          leave_out_blind_parts(sides, definition);
           const unsigned int non = pair.obstacle ? 0
                                                  : choose_nonmortar(definition.definition, sides, is_turned,
                                                                     model.bodies(), journal);
@@ -247,7 +249,46 @@ namespace Signorini
         return pair;
       }
 
+      /// Of all ranks, in words.
+      std::string mapping_errors(const ContactPair &pair) const
+      {
+        return describe_errors(sum_reports(pair.mapping->report(), model.communicator()));
+      }
+
     private:
+      /// What faces nothing of the other side, beyond sharp edges.
+      void leave_out_blind_parts(std::vector<ContactSide> &sides, const PairModel &pair) const
+      {
+        const MPI_Comm           comm = model.communicator();
+        std::vector<FacingParts> parts;
+        for (const ContactSide &side : sides)
+          parts.emplace_back(side.surface);
+        if (std::all_of(parts.begin(), parts.end(), [](const FacingParts &p) { return p.n_parts() == 1; }))
+          return;
+        const double size = sides[0].surface.extent();
+        if (const auto &obstacle = pair.definition.obstacle)
+          see(
+              parts[0], sides[0].surface,
+              [&](double &distance, const Point<3> &p, const Vector3 &n) {
+                return obstacle->gap(distance, p, n, size) && obstacle->is_faced(p + distance * n, n, size);
+              },
+              comm);
+        else
+          see_each_other(parts[0], sides[0].surface, parts[1], sides[1].surface, comm);
+        for (unsigned int s = 0; s < sides.size(); ++s)
+          if (parts[s].leaves_out_anything())
+            {
+              const std::size_t n_faces = sides[s].surface.faces.size();
+              sides[s].surface =
+                  without_blind_parts(std::move(sides[s].surface), parts[s], pair.sides[s].shapes);
+              if (const std::size_t left = n_faces - sides[s].surface.faces.size(); left > 0)
+                journal.note(
+                    "pair " + pair.definition.name + ": " + std::to_string(left) + " of " +
+                    std::to_string(n_faces) + " faces of \"" + sides[s].name +
+                    "\" lie beyond sharp edges and face nothing of the other side: they are left out.");
+            }
+      }
+
       const ContactModel     &model;
       const ConstrainedSpace &constrained;
       Journal                &journal;
@@ -274,6 +315,30 @@ namespace Signorini
                                    pairs[p].moments, excluded[p],
                                    static_cast<bool>(pairs[p].prescribed_gap)));
       return couplings;
+    }
+
+    bool has_sharp_edges(const ContactPair &pair)
+    {
+      return FacingParts(pair.nonmortar.surface).n_parts() > 1 ||
+             FacingParts(pair.mortar.surface).n_parts() > 1;
+    }
+
+    /// Turns the automatic choice of a pair's sides if the mapping has errors one way and none the other way,
+    /// as it may have where a rim of one part lies over that of another one. Elsewhere errors are where
+    /// surfaces turn away from each other, and the choice matters for other pairs.
+    bool turn_for_mapping(ContactPair &pair, const PairMaker &maker, const PairModel &definition,
+                          Journal &journal)
+    {
+      if (!pair.mapping || definition.definition.nonmortar != NonmortarChoice::automatic ||
+          maker.mapping_errors(pair).empty() || !has_sharp_edges(pair))
+        return false;
+      ContactPair other = maker.make(definition, true);
+      if (!maker.mapping_errors(other).empty())
+        return false;
+      pair = std::move(other);
+      journal.note("pair " + pair.name +
+                   ": its sides are swapped, because the mapping has errors the other way round.");
+      return true;
     }
 
     /// The pairs whose automatic choice of sides is to be turned round now; none of them was before.
@@ -405,7 +470,10 @@ namespace Signorini
     const PairMaker          maker(model, *constrained, journal);
     std::vector<ContactPair> pairs;
     for (unsigned int p = 0; p < turned.size(); ++p)
-      pairs.push_back(maker.make(model.pairs()[p], turned[p]));
+      {
+        pairs.push_back(maker.make(model.pairs()[p], turned[p]));
+        turned[p] = turned[p] || turn_for_mapping(pairs[p], maker, model.pairs()[p], journal);
+      }
 
     const auto                            time = journal.measure(Phase::mortar);
     std::vector<std::vector<FaceMoments>> covered;

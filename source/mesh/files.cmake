@@ -17,6 +17,7 @@ signorini_add_layer(mesh
   deck_text.cc
   expression.cc
   extruded_mesh.cc
+  facing_parts.cc
   forest_closure.cc
   forest_ghosts.cc
   forest_pieces.cc

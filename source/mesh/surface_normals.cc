@@ -85,15 +85,17 @@ namespace Signorini
 
 
 
-  void set_normals(ContactSurface &surface, const SurfaceShapes &shapes)
+  void set_normals(ContactSurface &surface, const SurfaceShapes &shapes,
+                   const std::function<bool(unsigned int face, unsigned int vertex)> &counts)
   {
     const auto       &x       = surface.mesh.vertices;
     auto             &normals = surface.mesh.vertex_normals;
     ShapeNormals      shape_normals(surface, shapes);
     std::vector<bool> has_shape(x.size(), false);
     normals.assign(x.size(), Vector3());
-    for (const ContactSurface::Face &face : surface.faces)
+    for (unsigned int f = 0; f < surface.faces.size(); ++f)
       {
+        const ContactSurface::Face &face = surface.faces[f];
         // Half the product of the diagonals, whatever way the face is cut into triangles.
         const Vector3              area   = .5 * cross_product_3d(x[face.corners[2]] - x[face.corners[0]],
                                                                   x[face.corners[3]] - x[face.corners[1]]);
@@ -102,6 +104,8 @@ namespace Signorini
         for (unsigned int i = 0; i < face.n_corners; ++i)
           {
             const unsigned int v = face.corners[i];
+            if (counts && !counts(f, v))
+              continue;
             if (shape != nullptr && weight > 0.)
               {
                 normals[v] += weight * shape_normals(*shape, v, area / weight);

@@ -3,6 +3,7 @@ signorini_add_unit_tests(mesh RANKS "1;2;4"
   damaged_files.cc
   deck.cc
   expression.cc
+  facing_parts.cc
   forest_vertices.cc
   generated_mesh.cc
   mesh_input.cc

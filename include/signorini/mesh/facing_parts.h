@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_mesh_facing_parts_h
+#define signorini_mesh_facing_parts_h
+
+#include <signorini/mesh/boundary_shape.h>
+#include <signorini/mesh/contact_surface.h>
+
+#include <functional>
+#include <vector>
+
+namespace Signorini
+{
+  /// The parts of a whole contact surface between sharp edges (of more than 60 degrees), and how far each is
+  /// from what it faces of the other side. Boundaries are often given with more than what may touch: a block
+  /// with its walls, a plate with a slot. At such an edge the mean of the normals points nowhere.
+  class FacingParts
+  {
+  public:
+    /// @param surface must outlive this
+    explicit FacingParts(const ContactSurface &surface);
+
+    /// How many there are.
+    std::size_t n_parts() const
+    {
+      return parts.size();
+    }
+
+    /// A face faces something at a distance along its normal (length, no sign).
+    void see(const unsigned int face, const double distance);
+
+    /// Collective, after all that this rank has seen. Where nothing is seen by any part all of it stays.
+    void finish(const MPI_Comm communicator);
+
+    /// Whether a part faces nothing, or a normal does not count at some vertex.
+    bool leaves_out_anything() const;
+
+    /// Whether a face belongs to a part that faces something.
+    bool is_kept(const unsigned int face) const
+    {
+      return parts[part_of[face]].distance < infinite;
+    }
+
+    /// Whether the normal of a face counts at one of its vertices: not if its part is farther away than its
+    /// faces are wide, and another part is nearer there.
+    bool counts(const unsigned int face, const unsigned int vertex) const;
+
+  private:
+    struct Part
+    {
+      /// From what it faces (length), and that in widths of the face there, the least of each.
+      double distance = infinite, widths = infinite;
+    };
+
+    static constexpr double infinite = std::numeric_limits<double>::infinity();
+
+    const ContactSurface     &surface;
+    std::vector<unsigned int> part_of;
+    std::vector<Part>         parts;
+    /// By vertex: the least distance of a part there.
+    std::vector<double> nearest;
+  };
+
+  /// The distance along a unit normal from a point of a surface to what it faces there (length, negative if
+  /// that lies behind); false if it faces nothing.
+  using Sight = std::function<bool(double &, const dealii::Point<3> &, const Vector3 &)>;
+
+  /// Collective. Looks from the faces of two surfaces along their normals for the other one, first for what
+  /// is there on either side. Centres and places near the corners of the faces are shared by the ranks.
+  void see_each_other(FacingParts &first_parts, const ContactSurface &first, FacingParts &second_parts,
+                      const ContactSurface &second, const MPI_Comm communicator);
+
+  /// The same for one surface and something that is known by what is seen of it.
+  void see(FacingParts &parts, const ContactSurface &surface, const Sight &sight,
+           const MPI_Comm communicator);
+
+  /// A whole surface without the parts that face nothing, with the normals of what is left.
+  ContactSurface without_blind_parts(ContactSurface surface, const FacingParts &parts,
+                                     const SurfaceShapes &shapes);
+} // namespace Signorini
+
+#endif

@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/mesh/facing_parts.h>
+#include <signorini/mesh/surface_normals.h>
+#include <signorini/mesh/surface_piece.h>
+#include <signorini/mesh/symmetry_planes.h>
+#include <signorini/surface/box_tree.h>
+#include <signorini/surface/normal_projection.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace Signorini
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Pure numbers.
+    struct FacingRule
+    {
+      /// Normals of neighbours: sharp edges are those of more than 60 degrees. Eight facets around a pin are
+      /// none, chamfers neither.
+      double sharp_cosine = .5;
+      /// Normals of what faces each other, as where a mapping ends (incidence.cc).
+      double facing_cosine = -.5;
+      /// What of the way from the centre of a face to its corners is looked from.
+      double toward_corners = .9;
+      /// Distances that differ by less, in widths of the face, are one place: an edge between two triangles.
+      double same_place = 1e-6;
+    };
+
+    Vector3 area_vector(const ContactSurface &surface, const unsigned int face)
+    {
+      const auto &c = surface.faces[face].corners;
+      const auto &x = surface.mesh.vertices;
+      return .5 * cross_product_3d(x[c[2]] - x[c[0]], x[c[3]] - x[c[1]]);
+    }
+
+    std::vector<Vector3> face_normals(const ContactSurface &surface)
+    {
+      std::vector<Vector3> normals;
+      for (unsigned int f = 0; f < surface.faces.size(); ++f)
+        {
+          const Vector3 area = area_vector(surface, f);
+          normals.push_back(area.norm() > 0. ? area / area.norm() : area);
+        }
+      return normals;
+    }
+
+    /// Sets of faces that are put together, each called by one of them.
+    class DisjointSets
+    {
+    public:
+      explicit DisjointSets(const std::size_t n)
+        : parent(n)
+      {
+        std::iota(parent.begin(), parent.end(), 0u);
+      }
+
+      unsigned int root(unsigned int i)
+      {
+        while (parent[i] != i)
+          i = parent[i] = parent[parent[i]];
+        return i;
+      }
+
+      void join(const unsigned int i, const unsigned int j)
+      {
+        const unsigned int a = root(i), b = root(j);
+        parent[std::max(a, b)] = std::min(a, b);
+      }
+
+    private:
+      std::vector<unsigned int> parent;
+    };
+  } // namespace
+
+
+
+  FacingParts::FacingParts(const ContactSurface &surface)
+    : surface(surface)
+    , part_of(surface.faces.size())
+  {
+    const std::vector<Vector3> normals = face_normals(surface);
+    const SurfaceTopology      topology(surface.mesh.triangles, surface.mesh.vertices.size());
+    DisjointSets               sets(surface.faces.size());
+    for (const auto &[one, other] : topology.edge_triangles)
+      if (one != SurfaceTopology::none && other != SurfaceTopology::none)
+        {
+          const unsigned int f = surface.triangle_face[one], g = surface.triangle_face[other];
+          if (normals[f] * normals[g] >= FacingRule().sharp_cosine)
+            sets.join(f, g);
+        }
+    for (unsigned int f = 0; f < part_of.size(); ++f)
+      if (sets.root(f) == f)
+        {
+          part_of[f] = static_cast<unsigned int>(parts.size());
+          parts.emplace_back();
+        }
+      else
+        part_of[f] = part_of[sets.root(f)];
+  }
+
+
+
+  void FacingParts::see(const unsigned int face, const double distance)
+  {
+    Part &part    = parts[part_of[face]];
+    part.distance = std::min(part.distance, distance);
+    part.widths   = std::min(part.widths, distance / std::sqrt(area_vector(surface, face).norm()));
+  }
+
+
+
+  void FacingParts::finish(const MPI_Comm communicator)
+  {
+    for (double Part::*const value : {&Part::distance, &Part::widths})
+      {
+        std::vector<double> values;
+        for (const Part &part : parts)
+          values.push_back(part.*value);
+        Utilities::MPI::min(values, communicator, values);
+        for (std::size_t p = 0; p < parts.size(); ++p)
+          parts[p].*value = values[p];
+      }
+    if (std::none_of(parts.begin(), parts.end(), [](const Part &part) { return part.distance < infinite; }))
+      for (Part &part : parts)
+        part = {0., 0.};
+    nearest.assign(surface.mesh.vertices.size(), infinite);
+    for (unsigned int f = 0; f < part_of.size(); ++f)
+      for (const unsigned int v : surface.faces[f].corners)
+        nearest[v] = std::min(nearest[v], parts[part_of[f]].distance);
+  }
+
+
+
+  bool FacingParts::counts(const unsigned int face, const unsigned int vertex) const
+  {
+    const Part &part = parts[part_of[face]];
+    return part.distance < infinite && (part.widths <= 1. || part.distance <= nearest[vertex]);
+  }
+
+
+
+  bool FacingParts::leaves_out_anything() const
+  {
+    for (unsigned int f = 0; f < part_of.size(); ++f)
+      for (const unsigned int v : surface.faces[f].corners)
+        if (!counts(f, v))
+          return true;
+    return false;
+  }
+
+
+
+  namespace
+  {
+    /// What is seen of a triangulated surface along lines.
+    class SurfaceSight
+    {
+    public:
+      explicit SurfaceSight(const ContactSurface &surface)
+        : surface(surface)
+        , normals(face_normals(surface))
+        , tree(boxes_of(surface.mesh))
+      {
+      }
+
+      /// The nearest triangle before or behind a point, if it faces the line.
+      /// @param same_place lengths that do not differ
+      bool find(double &distance, unsigned int &face, const Point<3> &p, const Vector3 &n,
+                const double same_place) const
+      {
+        found.clear();
+        tree.find_along_line(found, p, n);
+        bool is_seen = false;
+        for (const double side : {1., -1.})
+          {
+            double       nearest = std::numeric_limits<double>::infinity(), facing = nearest;
+            unsigned int faced = 0;
+            for (const unsigned int t : found)
+              {
+                double along;
+                if (!meets(along, t, p, n) || along * side < 0.)
+                  continue;
+                nearest = std::min(nearest, std::abs(along));
+                if (normals[surface.triangle_face[t]] * n < FacingRule().facing_cosine &&
+                    std::abs(along) < facing)
+                  {
+                    facing = std::abs(along);
+                    faced  = surface.triangle_face[t];
+                  }
+              }
+            if (facing <= nearest + same_place && (!is_seen || facing < std::abs(distance)))
+              {
+                is_seen  = facing < std::numeric_limits<double>::infinity();
+                distance = side * facing;
+                face     = faced;
+              }
+          }
+        return is_seen;
+      }
+
+    private:
+      static std::vector<BoxTree::Box> boxes_of(const SurfaceMesh &mesh)
+      {
+        std::vector<BoxTree::Box> boxes;
+        for (const auto &t : mesh.triangles)
+          {
+            BoxTree::Box box{mesh.vertices[t[0]], mesh.vertices[t[0]]};
+            box.include(mesh.vertices[t[1]]);
+            box.include(mesh.vertices[t[2]]);
+            boxes.push_back(box);
+          }
+        return boxes;
+      }
+
+      bool meets(double &along, const unsigned int triangle, const Point<3> &p, const Vector3 &n) const
+      {
+        const auto           &t = surface.mesh.triangles[triangle];
+        std::array<double, 3> weights;
+        constexpr double      rounding = -1e-9;
+        return NormalProjection::intersect_line(weights, along, p, n,
+                                                {{surface.mesh.vertices[t[0]], surface.mesh.vertices[t[1]],
+                                                  surface.mesh.vertices[t[2]]}}) &&
+               std::all_of(weights.begin(), weights.end(), [](const double w) { return w >= rounding; });
+      }
+
+      const ContactSurface             &surface;
+      const std::vector<Vector3>        normals;
+      const BoxTree                     tree;
+      mutable std::vector<unsigned int> found;
+    };
+
+    /// Calls f(face, point, unit normal, width) for the places that one looks from, on this rank.
+    template <typename F>
+    void for_places(const ContactSurface &surface, const MPI_Comm communicator, const F &f)
+    {
+      const unsigned int rank    = Utilities::MPI::this_mpi_process(communicator),
+                         n_ranks = Utilities::MPI::n_mpi_processes(communicator);
+      for (unsigned int face = rank; face < surface.faces.size(); face += n_ranks)
+        {
+          const Vector3 area  = area_vector(surface, face);
+          const double  width = std::sqrt(area.norm());
+          if (!(width > 0.))
+            continue;
+          const auto &one = surface.faces[face];
+          Point<3>    centre;
+          for (unsigned int a = 0; a < one.n_corners; ++a)
+            centre += Vector3(surface.mesh.vertices[one.corners[a]]) / one.n_corners;
+          f(face, centre, area / area.norm(), width);
+          for (unsigned int a = 0; a < one.n_corners; ++a)
+            f(face, centre + FacingRule().toward_corners * (surface.mesh.vertices[one.corners[a]] - centre),
+              area / area.norm(), width);
+        }
+    }
+
+    void look(FacingParts &from_parts, const ContactSurface &from, FacingParts &to_parts,
+              const ContactSurface &to, const MPI_Comm communicator)
+    {
+      const SurfaceSight sight(to);
+      for_places(from, communicator,
+                 [&](const unsigned int face, const Point<3> &p, const Vector3 &n, const double width) {
+                   double       distance = 0.;
+                   unsigned int seen     = 0;
+                   if (!sight.find(distance, seen, p, n, FacingRule().same_place * width))
+                     return;
+                   from_parts.see(face, std::abs(distance));
+                   to_parts.see(seen, std::abs(distance));
+                 });
+    }
+  } // namespace
+
+
+
+  void see_each_other(FacingParts &first_parts, const ContactSurface &first, FacingParts &second_parts,
+                      const ContactSurface &second, const MPI_Comm communicator)
+  {
+    look(first_parts, first, second_parts, second, communicator);
+    look(second_parts, second, first_parts, first, communicator);
+    first_parts.finish(communicator);
+    second_parts.finish(communicator);
+  }
+
+
+
+  void see(FacingParts &parts, const ContactSurface &surface, const Sight &sight, const MPI_Comm communicator)
+  {
+    for_places(surface, communicator,
+               [&](const unsigned int face, const Point<3> &p, const Vector3 &n, const double) {
+                 if (double distance = 0.; sight(distance, p, n))
+                   parts.see(face, std::abs(distance));
+               });
+    parts.finish(communicator);
+  }
+
+
+
+  ContactSurface without_blind_parts(ContactSurface surface, const FacingParts &parts,
+                                     const SurfaceShapes &shapes)
+  {
+    set_normals(surface, shapes, [&](const unsigned int face, const unsigned int vertex) {
+      return parts.counts(face, vertex);
+    });
+    project_onto_symmetry_planes(surface);
+    std::vector<bool> is_kept;
+    for (unsigned int f = 0; f < surface.faces.size(); ++f)
+      is_kept.push_back(parts.is_kept(f));
+    ContactSurface result = cut_out(
+        surface, SurfacePiece(surface, is_kept, std::vector<bool>(surface.mesh.vertices.size(), false)));
+    result.origin.reset();
+    return result;
+  }
+} // namespace Signorini
