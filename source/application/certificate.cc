@@ -87,18 +87,31 @@ namespace Signorini
       c.moment_balance = std::max(c.moment_balance, pair.moment_balance);
     }
 
+    /// Whether a mortar edge without an image is less than two faces away from an active node of this rank.
+    bool has_lost_edges_near(const ContactPair &pair, const PairCoupling &coupling,
+                             const std::vector<unsigned char> &active)
+    {
+      for (std::size_t row = 0; row < active.size(); ++row)
+        if (active[row])
+          for (const ContactPair::LostEdge &edge : pair.lost_edges)
+            if (edge.middle.distance(coupling.positions[row]) <
+                .5 * edge.length + 2. * std::max(edge.length, std::sqrt(coupling.areas[row])))
+              return true;
+      return false;
+    }
+
     /// Errors of the mapping at faces in contact or up to two faces away, in words; elsewhere a note must do.
     std::string errors_in_contact(const Discretization &d, const ContactStress &stress, const unsigned int p)
     {
       const ContactPair &pair = d.pairs[p];
       if (!pair.mapping)
         return "";
-      const MappingReport        report = sum_reports(pair.mapping->report(), d.nodal().communicator());
-      std::vector<unsigned char> is_near =
-          spread_rows(d.couplings[p], *pair.halo, stress_of_pair(d, stress, p).active);
-      const auto touches = [&](const auto &vertices) {
+      const MappingReport        report  = sum_reports(pair.mapping->report(), d.nodal().communicator());
+      const auto                 active  = stress_of_pair(d, stress, p).active;
+      std::vector<unsigned char> is_near = spread_rows(d.couplings[p], *pair.halo, active);
+      const auto                 touches = [&](const auto &vertices) {
         return std::any_of(vertices.begin(), vertices.end(),
-                           [&](const unsigned int v) { return is_near[v] != 0; });
+                                           [&](const unsigned int v) { return is_near[v] != 0; });
       };
       for (unsigned int ring = 0; ring < 2; ++ring)
         {
@@ -110,7 +123,7 @@ namespace Signorini
             is_near[v] = 1;
           pair.halo->update(is_near);
         }
-      const bool here = !report.lost_edges.empty() ||
+      const bool here = has_lost_edges_near(pair, d.couplings[p], active) ||
                         std::any_of(pair.wrong_places.begin(), pair.wrong_places.end(), touches);
       const bool any = Utilities::MPI::max(static_cast<int>(here), d.nodal().communicator()) > 0;
       return any ? describe_errors(report) : "";

@@ -5,6 +5,7 @@
 #include <signorini/algebra/interface_rows.h>
 #include <signorini/application/contact_checks.h>
 #include <signorini/application/discretization.h>
+#include <signorini/application/facing_sides.h>
 #include <signorini/application/journal.h>
 #include <signorini/application/pair_pieces.h>
 #include <signorini/application/ties.h>
@@ -230,7 +231,7 @@ namespace Signorini
           std::vector<ContactSide> sides;
           for (const PairModel::Side &side : definition.sides)
             sides.push_back(extract_side(definition, side, model, constrained));
-          leave_out_blind_parts(sides, definition);
+          leave_out_blind_parts(sides, definition, model.communicator(), journal);
           const unsigned int non = pair.obstacle ? 0
                                                  : choose_nonmortar(definition.definition, sides, is_turned,
                                                                     model.bodies(), journal);
@@ -239,13 +240,20 @@ namespace Signorini
             pair.mortar.name = pair.obstacle->description();
           else
             pair.mortar = std::move(sides[1 - non]);
-          share_faces(pair.nonmortar.surface, pair.mortar.surface,
-                      Utilities::MPI::n_mpi_processes(model.communicator()));
         }
+        share(pair);
         if (pair.obstacle)
-          meet_obstacle(pair, model.communicator(), journal);
-        else
-          map_pair(pair, model.communicator(), journal);
+          {
+            meet_obstacle(pair, model.communicator(), journal);
+            return pair;
+          }
+        map_pair(pair, model.communicator(), journal);
+        if (const auto behind = faces_with_images_behind(pair, model.communicator()); !behind.empty())
+          {
+            leave_out(pair.nonmortar.surface, behind);
+            share(pair);
+            map_pair(pair, model.communicator(), journal);
+          }
         return pair;
       }
 
@@ -256,37 +264,11 @@ namespace Signorini
       }
 
     private:
-      /// What faces nothing of the other side, beyond sharp edges.
-      void leave_out_blind_parts(std::vector<ContactSide> &sides, const PairModel &pair) const
+      void share(ContactPair &pair) const
       {
-        const MPI_Comm           comm = model.communicator();
-        std::vector<FacingParts> parts;
-        for (const ContactSide &side : sides)
-          parts.emplace_back(side.surface);
-        if (std::all_of(parts.begin(), parts.end(), [](const FacingParts &p) { return p.n_parts() == 1; }))
-          return;
-        const double size = sides[0].surface.extent();
-        if (const auto &obstacle = pair.definition.obstacle)
-          see(
-              parts[0], sides[0].surface,
-              [&](double &distance, const Point<3> &p, const Vector3 &n) {
-                return obstacle->gap(distance, p, n, size) && obstacle->is_faced(p + distance * n, n, size);
-              },
-              comm);
-        else
-          see_each_other(parts[0], sides[0].surface, parts[1], sides[1].surface, comm);
-        for (unsigned int s = 0; s < sides.size(); ++s)
-          if (parts[s].leaves_out_anything())
-            {
-              const std::size_t n_faces = sides[s].surface.faces.size();
-              sides[s].surface =
-                  without_blind_parts(std::move(sides[s].surface), parts[s], pair.sides[s].shapes);
-              if (const std::size_t left = n_faces - sides[s].surface.faces.size(); left > 0)
-                journal.note(
-                    "pair " + pair.definition.name + ": " + std::to_string(left) + " of " +
-                    std::to_string(n_faces) + " faces of \"" + sides[s].name +
-                    "\" lie beyond sharp edges and face nothing of the other side: they are left out.");
-            }
+        const auto time = journal.measure(Phase::mesh);
+        share_faces(pair.nonmortar.surface, pair.mortar.surface,
+                    Utilities::MPI::n_mpi_processes(model.communicator()));
       }
 
       const ContactModel     &model;

@@ -22,6 +22,7 @@ signorini_add_layer(application
   deck_series.cc
   discretization.cc
   error_estimate.cc
+  facing_sides.cc
   free_bodies.cc
   interpolated_field.cc
   journal.cc

@@ -27,6 +27,19 @@ namespace Signorini
       return places;
     }
 
+    /// Collective.
+    std::vector<ContactPair::LostEdge> lost_edges(const ContactPair &pair, const MPI_Comm communicator)
+    {
+      const auto                        &x = pair.mortar.surface.mesh.vertices;
+      std::vector<ContactPair::LostEdge> edges;
+      for (const unsigned int e : sum_reports(pair.mapping->report(), communicator).lost_edges)
+        {
+          const auto &[a, b] = pair.mapping->mortar_topology().edges[e];
+          edges.push_back({x[a] + .5 * (x[b] - x[a]), x[a].distance(x[b])});
+        }
+      return edges;
+    }
+
     void keep_places(std::vector<std::vector<unsigned int>> &places, const Renumbering &vertices)
     {
       for (auto &place : places)
@@ -92,7 +105,10 @@ namespace Signorini
   void keep_piece(ContactPair &pair, PairCoupling &coupling, const MPI_Comm communicator)
   {
     if (pair.mapping)
-      pair.wrong_places = wrong_places(*pair.mapping, communicator);
+      {
+        pair.wrong_places = wrong_places(*pair.mapping, communicator);
+        pair.lost_edges   = lost_edges(pair, communicator);
+      }
     if (Utilities::MPI::n_mpi_processes(communicator) == 1)
       return;
     const unsigned int rank      = Utilities::MPI::this_mpi_process(communicator);
@@ -116,7 +132,7 @@ namespace Signorini
     std::size_t bytes = pair.nonmortar.surface.memory_consumption() +
                         pair.mortar.surface.memory_consumption() + pair.halo->memory_consumption() +
                         list_bytes(pair.moments) + list_bytes(pair.wrong_places) +
-                        coupling.memory_consumption();
+                        list_bytes(pair.lost_edges) + coupling.memory_consumption();
     for (const FaceMoments &m : pair.moments)
       bytes += list_bytes(m.coupling);
     return bytes + (pair.mapping ? pair.mapping->memory_consumption() : 0);

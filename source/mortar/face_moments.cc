@@ -159,6 +159,8 @@ namespace Signorini
             x[i] = evaluate(nonmortar.mesh, cell.nonmortar_triangle, cell.nonmortar[i]);
             y[i] = evaluate(mortar.mesh, cell.mortar_triangle, cell.mortar[i]);
           }
+        if (!prescribed_gap && is_out_of_reach(cell, x, y))
+          return;
         // Negative where the mapping is turned, so that the cells of a face add up to what they cover.
         const double area = cell.share() * Signorini::triangle_area(nonmortar.mesh, cell.nonmortar_triangle);
         turned += std::max(0., -area);
@@ -225,6 +227,26 @@ namespace Signorini
       FaceMoments moments;
 
     private:
+      /// Whether the triangles of a cell turn away from each other, so that nothing touches there, and are
+      /// farther apart than the face is wide. Gaps grow like 1/cos there, and the mapping may be turned:
+      /// nodes would have to move by multiples of the bodies. (At the crease of a roof in its groove planes
+      /// that turn away from each other are near.)
+      bool is_out_of_reach(const OverlayTriangle &cell, const Corners &x, const Corners &y) const
+      {
+        const Vector3 apart = ((y[0] - x[0]) + (y[1] - x[1]) + (y[2] - x[2])) / 3.;
+        return apart.norm_square() > moments.area &&
+               !may_touch(unit_normal(nonmortar, cell.nonmortar_triangle),
+                          unit_normal(mortar, cell.mortar_triangle));
+      }
+
+      static Vector3 unit_normal(const ContactSurface &surface, const unsigned int triangle)
+      {
+        const auto   &t = surface.mesh.triangles[triangle];
+        const auto   &x = surface.mesh.vertices;
+        const Vector3 n = cross_product_3d(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]]);
+        return n.norm() > 0. ? n / n.norm() : n;
+      }
+
       void add_functions(const double weight, const Vector3 &gap, const std::array<double, 4> &phi)
       {
         if (!prescribed_gap)

@@ -27,6 +27,7 @@ import tool_cases
 import true_gap_cases
 import verification_cases
 import verify_cases
+import whole_boundary_cases
 from harness import FAILURES, TOP, Program, certificate, check, constant_pressure, iterations, near, read_pressure
 
 
@@ -740,7 +741,7 @@ def surface_map(p):
 
 if __name__ == '__main__':
     modules = (sys.modules[__name__], checkpoint_cases, deck_cases, geometry_cases, hardening_cases, heat_cases, finished_mesh_cases, free_body_cases, load_cases, output_cases, random_pair_cases, rank_cases, report_cases, shape_cases,
-               tool_cases, true_gap_cases, verification_cases, verify_cases)
+               tool_cases, true_gap_cases, verification_cases, verify_cases, whole_boundary_cases)
     case = next(getattr(m, sys.argv[2]) for m in modules if hasattr(m, sys.argv[2]))
     case(Program(sys.argv[1], int(sys.argv[3])))
     for failure in FAILURES:

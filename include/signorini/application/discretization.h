@@ -54,6 +54,13 @@ namespace Signorini
     double mapping_time = 0.;
     /// Where it has errors, on any rank: vertices of the nonmortar surface, as far as they are known here.
     std::vector<std::vector<unsigned int>> wrong_places;
+    /// A mortar edge whose image could not be followed, on any rank (lengths).
+    struct LostEdge
+    {
+      dealii::Point<3> middle;
+      double           length;
+    };
+    std::vector<LostEdge> lost_edges;
     /// How the ranks share the nonmortar side.
     std::shared_ptr<const SurfaceHalo> halo;
     /// Integrals over own and ghost faces of the nonmortar side, sorted by face.

@@ -1,0 +1,25 @@
+SetFactory("OpenCASCADE");
+DefineConstant[ h = 0.8 ];
+// A ball above another one, with all of their surfaces. The lower one is cut at its foot.
+Sphere(1) = {0, 0, 5.02, 5};
+Sphere(2) = {0, 0, -6, 6};
+Box(3) = {-7, -7, -13, 14, 14, 3};
+lower() = BooleanDifference{ Volume{2}; Delete; }{ Volume{3}; Delete; };
+Physical Volume("upper") = {1};
+Physical Volume("lower") = {lower()};
+e = 1e-3;
+foot() = Surface In BoundingBox{-7, -7, -10 - e, 7, 7, -10 + e};
+all() = Boundary{ Volume{lower()}; };
+all() -= foot();
+Physical Surface("upper skin") = {Boundary{ Volume{1}; }};
+Physical Surface("lower skin") = {all()};
+Physical Surface("foot") = {foot()};
+Mesh.CharacteristicLengthMin = h;
+Mesh.CharacteristicLengthMax = h;
+Field[1] = Ball;
+Field[1].Radius = 1.5;
+Field[1].VIn = h / 5;
+Field[1].VOut = h;
+Field[1].Thickness = 4;
+Background Field = 1;
+Mesh.CharacteristicLengthMin = h / 5;

@@ -1,0 +1,74 @@
+"""Contact surfaces as users give them: all of the bodies, with walls, slots and far sides that never touch."""
+import math
+import os
+import tempfile
+
+from free_body_cases import SEAT, make_mesh
+from harness import TOP, check, near
+
+GEOMETRIES = os.path.join(TOP, 'tests', 'application')
+
+BALLS = """set Bodies        = upper, lower
+set Contact pairs = contact
+subsection Body upper
+  set Mesh          = balls.msh
+  set Volumes       = upper
+  set Young modulus = 1e5
+  set Poisson ratio = 0.3
+  set Volume force  = (0, 0, -1)
+end
+subsection Body lower
+  set Mesh          = balls.msh
+  set Volumes       = lower
+  set Young modulus = 1e5
+  set Poisson ratio = 0.3
+  set Dirichlet     = foot: (0, 0, 0)
+end
+subsection Pair contact
+  set First  = upper: upper skin
+  set Second = lower: lower skin
+end
+"""
+
+
+def block_on_slotted_plate(p):
+    """A block on a plate with a slot: with the walls of both it is the same as with the faces that touch alone."""
+    with tempfile.TemporaryDirectory() as folder:
+        results = {}
+        for walls in (0, 1):
+            make_mesh(os.path.join(GEOMETRIES, 'slot.geo'), os.path.join(folder, 'chamfer.msh'), '-setnumber', 'walls', str(walls))
+            path = os.path.join(folder, 'seat.prm')
+            with open(path, 'w') as f:
+                f.write(SEAT)
+            for side in ('auto', 'second') if walls else ('second',):
+                s = p.solve(path, f'Pair seat/Nonmortar={side}')
+                left_out = [note for note in s['notes'] if 'face nothing of the other side' in note]
+                check(s['converged'] and s['certificate']['contact_conditions_hold'], f'walls {walls}, {side}: {s["certificate"]}')
+                check(len(left_out) == 2 * walls, f'walls {walls}, {side}: {s["notes"]}')
+                results[walls, side] = s
+                print(f'walls {walls}, {side}: area {s["pairs"][0]["contact_area"]}, displacement {s["bodies"][0]["largest_displacement"]}')
+        known = results[0, 'second']
+        for s in results.values():
+            near(s['pairs'][0]['contact_area'], 71., 1e-9, 'area')
+            near(s['bodies'][0]['largest_displacement'], known['bodies'][0]['largest_displacement'], 1e-3, 'displacement')
+
+
+def ball_on_ball(p):
+    """Whole balls: normals of the far side of the one meet the far side of the other one, behind both bodies."""
+    with tempfile.TemporaryDirectory() as folder:
+        make_mesh(os.path.join(GEOMETRIES, 'balls.geo'), os.path.join(folder, 'balls.msh'))
+        path = os.path.join(folder, 'balls.prm')
+        with open(path, 'w') as f:
+            f.write(BALLS)
+        # Hertz: a^3 = 3/4 F R / E*, largest pressure 3/2 F / (pi a^2).
+        radius, modulus = 1. / (1. / 5. + 1. / 6.), 1e5 / 2. / (1. - .3 ** 2)
+        for weight in (20., 60.):
+            s = p.solve(path, f'Body upper/Volume force=(0, 0, -{weight})')
+            pair = s['pairs'][0]
+            force = abs(pair['force'][2])
+            a = (.75 * force * radius / modulus) ** (1. / 3.)
+            pressure = 1.5 * force / (math.pi * a ** 2)
+            print(f'force {force}: pressure {pair["max_recovered_pressure"]}, Hertz {pressure}, contact radius {math.sqrt(pair["contact_area"] / math.pi)}, Hertz {a}')
+            near(force, abs(s['bodies'][0]['load'][2]), 1e-8, 'force')
+            near(pair['max_recovered_pressure'], pressure, .15, 'pressure')
+            check(s['converged'] and s['certificate']['contact_conditions_hold'], f'{s["certificate"]}')
