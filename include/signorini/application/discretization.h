@@ -54,12 +54,14 @@ namespace Signorini
     double mapping_time = 0.;
     /// Where it has errors, on any rank: vertices of the nonmortar surface, as far as they are known here.
     std::vector<std::vector<unsigned int>> wrong_places;
-    /// A mortar edge whose image could not be followed, on any rank (lengths).
+    /// A mortar edge whose image could not be followed.
     struct LostEdge
     {
+      /// Where it is, and how long (lengths).
       dealii::Point<3> middle;
       double           length;
     };
+    /// Those of all ranks.
     std::vector<LostEdge> lost_edges;
     /// How the ranks share the nonmortar side.
     std::shared_ptr<const SurfaceHalo> halo;

@@ -10,12 +10,14 @@
 
 namespace Signorini
 {
-  /// What a pair covers of its nonmortar surface: the moments of own and ghost faces (both must outlive it).
+  /// What a pair covers of its nonmortar surface.
   struct ClaimedFaces
   {
+    /// The surface and the moments of own and ghost faces; both must outlive this.
     const ContactSurface     &nonmortar;
     std::vector<FaceMoments> &moments;
-    bool                      is_tied;
+    /// Whether it loses no faces.
+    bool is_tied;
   };
 
   /// Whether the surfaces are farther apart over a face, in the mean, than the face is wide: small
