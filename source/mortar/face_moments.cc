@@ -150,6 +150,21 @@ namespace Signorini
         moments.area += area;
       }
 
+      /// Whether the triangles of a cell turn away from each other, so that nothing touches there, and are
+      /// farther apart than the face is wide. Where most of a face is covered by such cells it counts as
+      /// uncovered: gaps grow like 1/cos there, and the mapping may be turned, so that nodes would have to
+      /// move by multiples of the bodies. (At the crease of a roof in its groove planes that turn away from
+      /// each other are near.)
+      bool is_out_of_reach(const OverlayTriangle &cell) const
+      {
+        constexpr std::array<double, 3> centre = {{1. / 3., 1. / 3., 1. / 3.}};
+        const Point<3> x = evaluate(nonmortar.mesh, cell.nonmortar_triangle, compose(cell.nonmortar, centre)),
+                       y = evaluate(mortar.mesh, cell.mortar_triangle, compose(cell.mortar, centre));
+        return !prescribed_gap && x.distance_square(y) > moments.area &&
+               !may_touch(unit_normal(nonmortar, cell.nonmortar_triangle),
+                          unit_normal(mortar, cell.mortar_triangle));
+      }
+
       void add_overlay_triangle(const OverlayTriangle &cell)
       {
         select_mortar_face(mortar.triangle_face[cell.mortar_triangle]);
@@ -159,8 +174,6 @@ namespace Signorini
             x[i] = evaluate(nonmortar.mesh, cell.nonmortar_triangle, cell.nonmortar[i]);
             y[i] = evaluate(mortar.mesh, cell.mortar_triangle, cell.mortar[i]);
           }
-        if (!prescribed_gap && is_out_of_reach(cell, x, y))
-          return;
         // Negative where the mapping is turned, so that the cells of a face add up to what they cover.
         const double area = cell.share() * Signorini::triangle_area(nonmortar.mesh, cell.nonmortar_triangle);
         turned += std::max(0., -area);
@@ -227,18 +240,6 @@ namespace Signorini
       FaceMoments moments;
 
     private:
-      /// Whether the triangles of a cell turn away from each other, so that nothing touches there, and are
-      /// farther apart than the face is wide. Gaps grow like 1/cos there, and the mapping may be turned:
-      /// nodes would have to move by multiples of the bodies. (At the crease of a roof in its groove planes
-      /// that turn away from each other are near.)
-      bool is_out_of_reach(const OverlayTriangle &cell, const Corners &x, const Corners &y) const
-      {
-        const Vector3 apart = ((y[0] - x[0]) + (y[1] - x[1]) + (y[2] - x[2])) / 3.;
-        return apart.norm_square() > moments.area &&
-               !may_touch(unit_normal(nonmortar, cell.nonmortar_triangle),
-                          unit_normal(mortar, cell.mortar_triangle));
-      }
-
       static Vector3 unit_normal(const ContactSurface &surface, const unsigned int triangle)
       {
         const auto   &t = surface.mesh.triangles[triangle];
@@ -367,8 +368,20 @@ namespace Signorini
     const Groups cells(nonmortar.faces.size(), overlay.size(), [&](const std::size_t c) {
       return nonmortar.triangle_face[overlay[c].nonmortar_triangle];
     });
+    const auto   area_of = [&](const OverlayTriangle &cell) {
+      return std::abs(cell.share()) * triangle_area(nonmortar.mesh, cell.nonmortar_triangle);
+    };
     return integrate_faces(nonmortar, mortar, prescribed_gap, communicator,
                            [&](FaceIntegrator &integrator, const unsigned int f, const Groups &) {
+                             double covered = 0., out_of_reach = 0.;
+                             for (std::size_t i = cells.start[f]; i < cells.start[f + 1]; ++i)
+                               {
+                                 const OverlayTriangle &cell = overlay[cells.list[i]];
+                                 covered += area_of(cell);
+                                 out_of_reach += integrator.is_out_of_reach(cell) ? area_of(cell) : 0.;
+                               }
+                             if (out_of_reach > .5 * covered)
+                               return;
                              for (std::size_t i = cells.start[f]; i < cells.start[f + 1]; ++i)
                                integrator.add_overlay_triangle(overlay[cells.list[i]]);
                            });

