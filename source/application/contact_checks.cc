@@ -40,6 +40,8 @@ namespace Signorini
     struct LostContact
     {
       double covered = 0., by_conditions = 0., by_other_pairs = 0.;
+      /// Of that what is not far from the other side.
+      double near_by_other_pairs = 0.;
     };
 
     bool is_condition(const DroppedNode::Reason reason)
@@ -68,12 +70,16 @@ namespace Signorini
       for_lost_faces(pair, coupling, [&](const FaceMoments &m, const DroppedNode::Reason reason) {
         if (reason != DroppedNode::other_pair)
           result.by_conditions += m.covered;
-        else if (!is_far(m))
-          result.by_other_pairs += m.covered;
+        else
+          {
+            result.by_other_pairs += m.covered;
+            result.near_by_other_pairs += is_far(m) ? 0. : m.covered;
+          }
       });
-      result.covered        = coupling.covered_area;
-      result.by_conditions  = Utilities::MPI::sum(result.by_conditions, comm);
-      result.by_other_pairs = Utilities::MPI::sum(result.by_other_pairs, comm);
+      result.covered             = coupling.covered_area;
+      result.by_conditions       = Utilities::MPI::sum(result.by_conditions, comm);
+      result.by_other_pairs      = Utilities::MPI::sum(result.by_other_pairs, comm);
+      result.near_by_other_pairs = Utilities::MPI::sum(result.near_by_other_pairs, comm);
       return result;
     }
 
@@ -90,7 +96,7 @@ namespace Signorini
   std::string reason_to_turn(const ContactPair &pair, const PairCoupling &coupling, const MPI_Comm comm)
   {
     const LostContact lost = lost_contact(pair, coupling, comm);
-    if (!(lost.by_other_pairs > 1e-12 * lost.covered) &&
+    if (!(lost.near_by_other_pairs > 1e-12 * lost.covered) &&
         !(lost.by_conditions > ContactRule().lost_share * lost.covered))
       return "";
     return percent((lost.by_other_pairs + lost.by_conditions) / lost.covered) + " of \"" +

@@ -223,10 +223,11 @@ namespace Signorini
     result.force_on_mortar = pair.obstacle ? -result.force : sum(forces.mortar.force, comm);
     result.moment          = sum(forces.nonmortar.moment, comm);
     measure_contact(result, pair, is_active, sum(forces.nonmortar.moment + forces.mortar.moment, comm), comm);
-    const auto penetration     = penetration_of(d, p, solution.displacement, stress.pressure);
-    result.min_gap             = penetration.min_gap;
-    result.max_penetration     = std::max(0., penetration.max_penetration());
-    result.loaded_gap          = penetration.loaded_gap;
+    const auto penetration = penetration_of(d, p, solution.displacement, stress.pressure);
+    result.min_gap         = penetration.min_gap;
+    result.max_penetration = std::max(0., penetration.max_penetration());
+    // Prescribed gaps are taken as they are, weighted ones.
+    result.loaded_gap          = pair.prescribed_gap ? 0. : penetration.loaded_gap;
     result.mean_pressure       = result.contact_area > 0. ? result.load / result.contact_area : 0.;
     result.initial_penetration = std::max(0., -penetration.min_initial_gap);
     return result;

@@ -108,10 +108,16 @@ namespace Signorini
     for (const auto &[sender, list] : send_lists(answers, communicator))
       for (const Claim &claim : list)
         lost[claim.pair].insert(claim.face);
-    std::size_t n_lost = 0;
+    std::size_t        n_lost = 0;
+    const unsigned int rank   = Utilities::MPI::this_mpi_process(communicator);
     for (unsigned int p = 0; p < pairs.size(); ++p)
       {
-        const unsigned int rank = Utilities::MPI::this_mpi_process(communicator);
+        const bool keeps_any =
+            std::any_of(pairs[p].moments.begin(), pairs[p].moments.end(), [&](const FaceMoments &m) {
+              return !is_empty(m) && lost[p].count(name_of(pairs[p].nonmortar, m.face)) == 0;
+            });
+        if (Utilities::MPI::max(static_cast<int>(keeps_any), communicator) == 0)
+          continue;
         for (FaceMoments &m : pairs[p].moments)
           if (lost[p].count(name_of(pairs[p].nonmortar, m.face)) > 0)
             {

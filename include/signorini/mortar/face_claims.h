@@ -26,7 +26,8 @@ namespace Signorini
 
   /// Collective. A face that several pairs cover as a nonmortar one (a roller between two races) belongs to
   /// the nearest of them; those from which it is far (is_far()) lose it: it counts as uncovered there. Tied
-  /// pairs keep what they have. Returns how many faces pairs have lost, over all ranks.
+  /// pairs keep what they have, and so does a pair that would be left with nothing. Returns how many faces
+  /// pairs have lost, over all ranks.
   std::size_t leave_faces_to_nearest(const std::vector<ClaimedFaces> &pairs, const MPI_Comm communicator);
 } // namespace Signorini
 

@@ -94,8 +94,16 @@ TEST(FaceClaims, NobodyLosesWhatIsNear)
 
 TEST(FaceClaims, TiedPairsKeepTheirFaces)
 {
-  TwoPairs pairs([](const double) { return .5; }, [](const double) { return .3; });
-  EXPECT_EQ(pairs.settle(true), n * n);
+  TwoPairs pairs([](const double) { return .5; }, [](const double x) { return x > .4 ? .1 : .5; });
+  EXPECT_EQ(pairs.settle(true), n * n / 2);
   EXPECT_NEAR(pairs.covered(0)[0] + pairs.covered(0)[1], 1., 1e-12);
-  EXPECT_NEAR(pairs.covered(1)[0] + pairs.covered(1)[1], 0., 1e-12);
+  EXPECT_NEAR(pairs.covered(1)[0], 0., 1e-12);
+  EXPECT_NEAR(pairs.covered(1)[1], .5, 1e-12);
+}
+
+// Whoever gave two pairs that far apart is told so by what comes next.
+TEST(FaceClaims, NoPairIsLeftWithNothing)
+{
+  TwoPairs pairs([](const double) { return .5; }, [](const double) { return .3; });
+  EXPECT_EQ(pairs.settle(), 0u);
 }
