@@ -56,7 +56,7 @@ namespace Signorini
     public:
       explicit WayOut(const ContactSurface &surface)
         : surface(surface)
-        , tree(boxes_of(surface.mesh))
+        , tree(tree_of_triangles(surface.mesh))
       {
       }
 
@@ -84,19 +84,6 @@ namespace Signorini
       }
 
     private:
-      static std::vector<BoxTree::Box> boxes_of(const SurfaceMesh &mesh)
-      {
-        std::vector<BoxTree::Box> boxes;
-        for (const auto &t : mesh.triangles)
-          {
-            BoxTree::Box box{mesh.vertices[t[0]], mesh.vertices[t[0]]};
-            box.include(mesh.vertices[t[1]]);
-            box.include(mesh.vertices[t[2]]);
-            boxes.push_back(box);
-          }
-        return boxes;
-      }
-
       const ContactSurface     &surface;
       const BoxTree             tree;
       std::vector<unsigned int> found;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/algebra/disjoint_sets.h>
 #include <signorini/discretization/background_levels.h>
 #include <signorini/discretization/background_octree.h>
 
 #include <algorithm>
-#include <numeric>
 
 namespace Signorini
 {
@@ -20,36 +20,6 @@ namespace Signorini
       std::vector<std::size_t>              start = {0};
       std::vector<BackgroundOctree::Vertex> vertices;
       std::vector<double>                   weights;
-    };
-
-
-
-    /// Disjoint sets of numbers.
-    class DisjointSets
-    {
-    public:
-      explicit DisjointSets(const std::size_t size)
-        : parent(size)
-      {
-        std::iota(parent.begin(), parent.end(), std::size_t(0));
-      }
-
-      /// The smallest number of the set of a number.
-      std::size_t find(std::size_t i)
-      {
-        while (parent[i] != i)
-          i = parent[i] = parent[parent[i]];
-        return i;
-      }
-
-      void unite(const std::size_t i, const std::size_t j)
-      {
-        const std::size_t a = find(i), b = find(j);
-        parent[std::max(a, b)] = std::min(a, b);
-      }
-
-    private:
-      std::vector<std::size_t> parent;
     };
 
 

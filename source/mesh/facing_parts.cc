@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/algebra/disjoint_sets.h>
 #include <signorini/mesh/facing_parts.h>
 #include <signorini/mesh/surface_normals.h>
 #include <signorini/mesh/surface_piece.h>
@@ -11,7 +12,6 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <numeric>
 
 namespace Signorini
 {
@@ -50,33 +50,6 @@ namespace Signorini
         }
       return normals;
     }
-
-    /// Sets of faces that are put together, each called by one of them.
-    class DisjointSets
-    {
-    public:
-      explicit DisjointSets(const std::size_t n)
-        : parent(n)
-      {
-        std::iota(parent.begin(), parent.end(), 0u);
-      }
-
-      unsigned int root(unsigned int i)
-      {
-        while (parent[i] != i)
-          i = parent[i] = parent[parent[i]];
-        return i;
-      }
-
-      void join(const unsigned int i, const unsigned int j)
-      {
-        const unsigned int a = root(i), b = root(j);
-        parent[std::max(a, b)] = std::min(a, b);
-      }
-
-    private:
-      std::vector<unsigned int> parent;
-    };
   } // namespace
 
 
@@ -93,16 +66,16 @@ namespace Signorini
         {
           const unsigned int f = surface.triangle_face[one], g = surface.triangle_face[other];
           if (normals[f] * normals[g] >= FacingRule().sharp_cosine)
-            sets.join(f, g);
+            sets.unite(f, g);
         }
     for (unsigned int f = 0; f < part_of.size(); ++f)
-      if (sets.root(f) == f)
+      if (sets.find(f) == f)
         {
           part_of[f] = static_cast<unsigned int>(parts.size());
           parts.emplace_back();
         }
       else
-        part_of[f] = part_of[sets.root(f)];
+        part_of[f] = part_of[sets.find(f)];
   }
 
 
@@ -166,7 +139,7 @@ namespace Signorini
       explicit SurfaceSight(const ContactSurface &surface)
         : surface(surface)
         , normals(face_normals(surface))
-        , tree(boxes_of(surface.mesh))
+        , tree(tree_of_triangles(surface.mesh))
       {
       }
 
@@ -206,19 +179,6 @@ namespace Signorini
       }
 
     private:
-      static std::vector<BoxTree::Box> boxes_of(const SurfaceMesh &mesh)
-      {
-        std::vector<BoxTree::Box> boxes;
-        for (const auto &t : mesh.triangles)
-          {
-            BoxTree::Box box{mesh.vertices[t[0]], mesh.vertices[t[0]]};
-            box.include(mesh.vertices[t[1]]);
-            box.include(mesh.vertices[t[2]]);
-            boxes.push_back(box);
-          }
-        return boxes;
-      }
-
       bool meets(double &along, const unsigned int triangle, const Point<3> &p, const Vector3 &n) const
       {
         const auto           &t = surface.mesh.triangles[triangle];

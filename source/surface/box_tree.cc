@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Signorini authors
 
 #include <signorini/surface/box_tree.h>
+#include <signorini/surface/surface_mesh.h>
 
 #include <boost/geometry.hpp>
 #include <boost/geometry/index/rtree.hpp>
@@ -146,5 +147,21 @@ namespace Signorini
   {
     found.clear();
     tree->values.query(bgi::nearest(tree_point(p), number), Collector{&found});
+  }
+
+
+
+  BoxTree tree_of_triangles(const SurfaceMesh &mesh)
+  {
+    std::vector<BoxTree::Box> boxes;
+    boxes.reserve(mesh.triangles.size());
+    for (const auto &t : mesh.triangles)
+      {
+        BoxTree::Box box{mesh.vertices[t[0]], mesh.vertices[t[0]]};
+        box.include(mesh.vertices[t[1]]);
+        box.include(mesh.vertices[t[2]]);
+        boxes.push_back(box);
+      }
+    return BoxTree(boxes);
   }
 } // namespace Signorini

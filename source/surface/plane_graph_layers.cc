@@ -12,22 +12,6 @@ namespace Signorini
 {
   using namespace dealii;
 
-  BoxTree tree_of_triangles(const SurfaceMesh &mesh)
-  {
-    std::vector<BoxTree::Box> boxes;
-    boxes.reserve(mesh.triangles.size());
-    for (const auto &t : mesh.triangles)
-      {
-        BoxTree::Box box{mesh.vertices[t[0]], mesh.vertices[t[0]]};
-        box.include(mesh.vertices[t[1]]);
-        box.include(mesh.vertices[t[2]]);
-        boxes.push_back(box);
-      }
-    return BoxTree(boxes);
-  }
-
-
-
   const BoxTree &PlaneGraph::tree_of_mortar_triangles()
   {
     if (!mortar_tree)

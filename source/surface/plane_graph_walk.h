@@ -14,7 +14,6 @@ namespace Signorini
     return {{mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]}};
   }
 
-  BoxTree tree_of_triangles(const SurfaceMesh &mesh);
 
   /// The way of the image of a mortar edge over the nonmortar surface.
   struct PlaneGraph::Walk

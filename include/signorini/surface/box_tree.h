@@ -12,6 +12,8 @@
 
 namespace Signorini
 {
+  struct SurfaceMesh;
+
   /// Spatial search among boxes (of triangles, of edges): an r-tree of boost, built in O(n log n).
   class BoxTree
   {
@@ -52,6 +54,9 @@ namespace Signorini
     struct Tree;
     std::unique_ptr<Tree> tree;
   };
+
+  /// Of the triangles of a surface, by their numbers.
+  BoxTree tree_of_triangles(const SurfaceMesh &mesh);
 } // namespace Signorini
 
 #endif
