@@ -24,6 +24,21 @@ namespace Signorini
       return 4;
     }
 
+    /// Of a face of a tetrahedron; the normal has any length.
+    std::pair<Point<3>, Tensor<1, 3>> centre_and_normal(const std::vector<Point<3>> &x,
+                                                        const Tetrahedron &cell, const unsigned int face)
+    {
+      const auto     &corners = CellShape::face(4, face);
+      const Point<3> &a = x[cell.vertices[corners[0]]], &b = x[cell.vertices[corners[1]]],
+                     &c = x[cell.vertices[corners[2]]];
+      Tensor<1, 3> sum;
+      for (const unsigned int v : cell.vertices)
+        sum += x[v];
+      const Point<3>     centre((Tensor<1, 3>(a) + Tensor<1, 3>(b) + Tensor<1, 3>(c)) / 3.);
+      const Tensor<1, 3> normal = cross_product_3d(b - a, c - a);
+      return {centre, (centre - Point<3>(sum / 4.)) * normal < 0. ? -normal : normal};
+    }
+
     /// Which vertices belong to cells of different materials.
     template <typename Cell, typename Material>
     std::vector<bool> between_materials(const std::size_t n_vertices, const std::vector<Cell> &cells,
@@ -46,13 +61,13 @@ namespace Signorini
 
 
   std::vector<unsigned int>
-  Bodies::move_to_shapes(std::vector<Point<3>>                                      &positions,
-                         const std::map<unsigned int, std::set<types::boundary_id>> &ids,
-                         const std::vector<ArrayView<const unsigned int>>           &cells,
+  Bodies::move_to_shapes(std::vector<Point<3>>                                 &positions,
+                         const std::map<unsigned int, std::set<BoundaryPlace>> &places,
+                         const std::vector<ArrayView<const unsigned int>>      &cells,
                          const std::vector<bool> &is_fixed, const SharedVertices &shared)
   {
     std::vector<std::pair<unsigned int, Point<3>>> targets;
-    for (const auto &[v, on] : ids)
+    for (const auto &[v, on] : places)
       if (const auto list = shapes_of(on); !list.empty())
         targets.emplace_back(v, project_onto(list, positions[v]));
     std::vector<unsigned int> late;
@@ -60,9 +75,12 @@ namespace Signorini
     std::map<types::boundary_id, double> distances, numbers;
     for (const unsigned int v : late)
       {
-        const auto target = std::lower_bound(targets.begin(), targets.end(), v,
-                                             [](const auto &t, const unsigned int w) { return t.first < w; });
-        for (const types::boundary_id id : ids.at(v))
+        const auto                   target = std::lower_bound(targets.begin(), targets.end(), v,
+                                                               [](const auto &t, const unsigned int w) { return t.first < w; });
+        std::set<types::boundary_id> ids;
+        for (const BoundaryPlace &place : places.at(v))
+          ids.insert(place.first);
+        for (const types::boundary_id id : ids)
           if (shapes[id])
             {
               ++numbers[id];
@@ -95,20 +113,21 @@ namespace Signorini
 
   void Bodies::snap_vertices(Placed &body)
   {
-    VolumeMesh                                          &mesh = body.mesh;
-    std::map<unsigned int, std::set<types::boundary_id>> ids;
+    VolumeMesh                                     &mesh = body.mesh;
+    std::map<unsigned int, std::set<BoundaryPlace>> places;
+    // Shapes of users and of generated meshes have no pieces.
     for (const auto &face : mesh.faces)
       for (const unsigned int v : face.vertices)
         if (v != VolumeMesh::no_vertex)
-          ids[v].insert(body.first_boundary + face.name);
+          places[v].insert({body.first_boundary + face.name, 0});
     std::vector<ArrayView<const unsigned int>> cells;
     for (const VolumeMesh::Cell &cell : mesh.cells)
       cells.emplace_back(cell.vertices.data(), cell.n_vertices);
     std::vector<bool> is_fixed =
         between_materials(mesh.vertices.size(), mesh.cells, [](const auto &cell) { return cell.volume; });
-    for (const auto &entry : ids)
+    for (const auto &entry : places)
       is_fixed[entry.first] = true;
-    body.late = move_to_shapes(mesh.vertices, ids, cells, is_fixed);
+    body.late = move_to_shapes(mesh.vertices, places, cells, is_fixed);
   }
 
 
@@ -121,26 +140,35 @@ namespace Signorini
     const ForestMesh::Name first_new = forest->history().n_vertices(level - 1);
     std::vector<bool>      is_fixed =
         between_materials(mesh.vertices.size(), mesh.cells, [](const auto &cell) { return cell.material; });
-    std::map<unsigned int, std::set<types::boundary_id>> ids;
-    std::vector<ArrayView<const unsigned int>>           cells;
+    std::map<unsigned int, std::set<BoundaryPlace>> places;
+    std::vector<ArrayView<const unsigned int>>      cells;
+    const std::vector<Point<3>>                    &x = forest->points();
     for (const Tetrahedron &cell : mesh.cells)
       {
         cells.emplace_back(cell.vertices.data(), 4);
         for (unsigned int f = 0; f < 4; ++f)
           if (cell.boundary[f] != Tetrahedron::inner)
-            for (const unsigned int k : CellShape::face(4, f))
-              {
-                const unsigned int v = cell.vertices[k];
-                is_fixed[v]          = true;
-                if (vertices.owns(v) && (mesh.vertices[v] >= first_new || mesh.is_marked[v]))
-                  ids[v].insert(cell.boundary[f]);
-              }
+            {
+              std::vector<unsigned int> followers;
+              for (const unsigned int k : CellShape::face(4, f))
+                {
+                  const unsigned int v = cell.vertices[k];
+                  is_fixed[v]          = true;
+                  if (vertices.owns(v) && (mesh.vertices[v] >= first_new || mesh.is_marked[v]))
+                    followers.push_back(v);
+                }
+              if (followers.empty())
+                continue;
+              const auto [centre, outward] = centre_and_normal(x, cell, f);
+              for (const unsigned int v : followers)
+                places[v].insert(place(cell.boundary[f], centre, outward));
+            }
       }
     // Owners see all cells around their vertices.
     std::vector<double> flags(is_fixed.begin(), is_fixed.end());
     vertices.update(flags);
     is_fixed.assign(flags.begin(), flags.end());
-    const auto late = move_to_shapes(forest->points(), ids, cells, is_fixed, vertices);
+    const auto late = move_to_shapes(forest->points(), places, cells, is_fixed, vertices);
     flags.assign(flags.size(), 0.);
     for (const unsigned int v : late)
       flags[v] = 1.;

@@ -166,33 +166,6 @@ namespace Signorini
 
 
 
-  BoundaryShapePointer Bodies::plane_shape(const unsigned int body, const types::boundary_id id) const
-  {
-    const StartSurface &start = start_surfaces[body];
-    const auto         &x     = start.mesh.vertices;
-    Tensor<1, 3>        normal;
-    for (std::size_t t = 0; t < start.boundary.size(); ++t)
-      if (const auto &[a, b, c] = start.mesh.triangles[t]; start.boundary[t] == id)
-        normal += cross_product_3d(x[b] - x[a], x[c] - x[a]);
-    if (!(normal.norm() > 0.))
-      return nullptr;
-    normal /= normal.norm();
-    const Point<3> *origin = nullptr;
-    double          height = 0., size = 0.;
-    for (std::size_t t = 0; t < start.boundary.size(); ++t)
-      if (start.boundary[t] == id)
-        for (const unsigned int v : start.mesh.triangles[t])
-          {
-            if (origin == nullptr)
-              origin = &x[v];
-            height = std::max(height, std::abs((x[v] - *origin) * normal));
-            size   = std::max(size, x[v].distance(*origin));
-          }
-    return height <= SmoothingRule().flat * size ? make_plane_shape(*origin, normal) : nullptr;
-  }
-
-
-
   void Bodies::follow_start_mesh(const unsigned int body, const std::set<types::boundary_id> &ids,
                                  const bool everywhere)
   {
@@ -209,7 +182,12 @@ namespace Signorini
     for (unsigned int i = 0; i < boundaries[body].size(); ++i)
       if (const types::boundary_id id = first_boundary[body] + i; !shapes[id])
         {
-          shapes[id]        = plane_shape(body, id);
+          const StartSurface       &start = start_surfaces[body];
+          std::vector<unsigned int> triangles;
+          for (unsigned int t = 0; t < start.boundary.size(); ++t)
+            if (start.boundary[t] == id)
+              triangles.push_back(t);
+          shapes[id]        = triangles.empty() ? nullptr : plane_through(start.mesh, triangles);
           is_user_shape[id] = static_cast<bool>(shapes[id]);
         }
     if (tria)
@@ -227,14 +205,30 @@ namespace Signorini
 
 
 
-  std::vector<BoundaryShapePointer> Bodies::shapes_of(const std::set<types::boundary_id> &ids) const
+  Bodies::BoundaryPlace Bodies::place(const types::boundary_id id, const Point<3> &p,
+                                      const Tensor<1, 3> &outward) const
+  {
+    return {id, shapes[id] && !shapes[id]->pieces().empty() ? shapes[id]->piece_at(p, outward) : 0};
+  }
+
+
+
+  std::vector<BoundaryShapePointer> Bodies::shapes_of(const std::set<BoundaryPlace> &places) const
   {
     std::vector<BoundaryShapePointer> result;
+    std::set<types::boundary_id>      ids;
+    for (const BoundaryPlace &place : places)
+      ids.insert(place.first);
     if (is_sharp(ids))
       return result;
-    for (const types::boundary_id id : ids)
-      if (shapes[id] && std::find(result.begin(), result.end(), shapes[id]) == result.end())
-        result.push_back(shapes[id]);
+    for (const auto &[id, piece] : places)
+      if (shapes[id])
+        {
+          const auto                &pieces = shapes[id]->pieces();
+          const BoundaryShapePointer shape  = pieces.empty() ? shapes[id] : pieces[piece];
+          if (std::find(result.begin(), result.end(), shape) == result.end())
+            result.push_back(shape);
+        }
     return result;
   }
 
@@ -332,20 +326,23 @@ namespace Signorini
   {
     if (sharp.empty() && std::find(is_user_shape.begin(), is_user_shape.end(), true) == is_user_shape.end())
       return;
-    using Ids = std::set<types::boundary_id>;
-    std::map<unsigned int, Ids>       ids_of_line;
-    std::map<Ids, types::manifold_id> manifold_of;
-    const auto                        manifold = [&](const Ids &ids) {
-      const auto on = shapes_of(ids);
+    using Places = std::set<BoundaryPlace>;
+    std::map<unsigned int, Places>       places_of_line;
+    std::map<Places, types::manifold_id> manifold_of;
+    const auto                           manifold = [&](const Places &places) {
+      const auto on = shapes_of(places);
       if (on.empty())
         return numbers::flat_manifold_id;
-      const auto [it, is_new] = manifold_of.insert({ids, next_manifold});
+      const auto [it, is_new] = manifold_of.insert({places, next_manifold});
       if (is_new)
         tria->set_manifold(next_manifold++, ShapeManifold(on));
       return it->second;
     };
     // What is neither keeps the manifolds of generated meshes.
-    const auto is_ours = [&](const Ids &ids) {
+    const auto is_ours = [&](const Places &places) {
+      std::set<types::boundary_id> ids;
+      for (const BoundaryPlace &place : places)
+        ids.insert(place.first);
       return is_sharp(ids) ||
              std::any_of(ids.begin(), ids.end(), [&](const auto id) { return is_user_shape[id]; });
     };
@@ -355,19 +352,24 @@ namespace Signorini
     };
     for (const auto &cell : tria->cell_iterators_on_level(0))
       for (const unsigned int f : cell->face_indices())
-        if (cell->face(f)->at_boundary())
+        if (const auto face = cell->face(f); face->at_boundary())
           {
-            const types::boundary_id id = cell->face(f)->boundary_id();
+            const types::boundary_id id     = face->boundary_id();
+            const Point<3>           centre = face->center();
+            const Tensor<1, 3>       normal =
+                cross_product_3d(face->vertex(3) - face->vertex(0), face->vertex(2) - face->vertex(1));
+            const BoundaryPlace at =
+                place(id, centre, normal * (centre - cell->center()) < 0. ? -normal : normal);
             // deal.II's sphere takes the mean radius of the points around: not beside a straight edge.
             if (is_user_shape[id] || (shapes[id] && has_sharp_edge(id)))
-              cell->face(f)->set_manifold_id(manifold({id}));
+              face->set_manifold_id(manifold({at}));
             for (unsigned int l = 0; l < 4; ++l)
-              ids_of_line[cell->face(f)->line_index(l)].insert(id);
+              places_of_line[face->line_index(l)].insert(at);
           }
     for (const auto &cell : tria->cell_iterators_on_level(0))
       for (const unsigned int l : cell->line_indices())
-        if (const auto it = ids_of_line.find(cell->line_index(l));
-            it != ids_of_line.end() && is_ours(it->second))
+        if (const auto it = places_of_line.find(cell->line_index(l));
+            it != places_of_line.end() && is_ours(it->second))
           cell->line(l)->set_manifold_id(manifold(it->second));
   }
 } // namespace Signorini

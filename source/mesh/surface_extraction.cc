@@ -288,10 +288,24 @@ namespace Signorini
       std::vector<unsigned int>        number, polygon;
     };
 
+    /// The normal has any length.
+    std::pair<Point<3>, Tensor<1, 3>> centre_and_normal(const SurfaceMesh          &mesh,
+                                                        const ContactSurface::Face &face)
+    {
+      const auto  &x = mesh.vertices;
+      const auto  &c = face.corners;
+      Tensor<1, 3> sum;
+      for (unsigned int k = 0; k < face.n_corners; ++k)
+        sum += x[c[k]];
+      // The fourth corner of a triangle is its first one.
+      return {Point<3>(sum / face.n_corners), cross_product_3d(x[c[2]] - x[c[0]], x[c[3]] - x[c[1]])};
+    }
+
     TrueShape true_shape_of(const ContactSurface &surface, const SurfaceShapes &shapes)
     {
-      std::vector<BoundaryShapePointer> list;
-      std::vector<unsigned int>         of_face, of_triangle;
+      std::vector<BoundaryShapePointer>            list;
+      std::vector<unsigned int>                    of_face, of_triangle;
+      std::map<BoundaryShapePointer, unsigned int> number;
       for (const ContactSurface::Face &face : surface.faces)
         {
           const auto known = shapes.by_boundary.find(face.boundary);
@@ -300,10 +314,17 @@ namespace Signorini
               of_face.push_back(TrueShape::no_shape);
               continue;
             }
-          const auto it = std::find(list.begin(), list.end(), known->second);
-          of_face.push_back(static_cast<unsigned int>(it - list.begin()));
-          if (it == list.end())
-            list.push_back(known->second);
+          const auto          &pieces = known->second->pieces();
+          BoundaryShapePointer shape  = known->second;
+          if (!pieces.empty())
+            {
+              const auto [centre, outward] = centre_and_normal(surface.mesh, face);
+              shape                        = pieces[shape->piece_at(centre, outward)];
+            }
+          const auto [it, is_new] = number.insert({shape, static_cast<unsigned int>(list.size())});
+          of_face.push_back(it->second);
+          if (is_new)
+            list.push_back(shape);
         }
       for (const unsigned int face : surface.triangle_face)
         of_triangle.push_back(of_face[face]);

@@ -180,11 +180,13 @@ namespace Signorini
       double                                   curvature = 0., last = std::numeric_limits<double>::max();
       for (unsigned int step = 0; step < n_steps; ++step)
         {
+          double highest = 0.;
           for (Eigen::Index i = 0; i < n; ++i)
             {
               const Tensor<1, 3> x = neighbours[i] / size;
               const double       s = x * q.u, t = x * q.v, z = x * q.normal;
-              const double       weight = 1. / x.norm_square();
+              highest             = std::max(highest, std::abs(z));
+              const double weight = 1. / x.norm_square();
               a.row(i) << s, t, .5 * s * s, s * t, .5 * t * t;
               a.row(i) *= weight;
               b[i] = weight * (z - .5 * curvature * z * z);
@@ -202,7 +204,8 @@ namespace Signorini
           q.residual                          = heights > 0. ? (b - a * x).norm() / heights : 0.;
           turn_frame(q, q.normal - x[0] * q.u - x[1] * q.v);
           // Where the surface is wild k may do harm: a hemisphere is as far as it can reach.
-          const double bend   = std::max(-1., std::min(1., q.largest_curvature()));
+          const double limit  = 1. / highest;
+          const double bend   = std::max(-limit, std::min(limit, q.largest_curvature()));
           const double change = std::max(turn, std::abs(bend - curvature));
           curvature           = bend;
           if (change < 1e-13 || (step > 2 && change > .7 * last))

@@ -31,6 +31,32 @@ end
 """
 
 
+LUG = """set Bodies        = lug, pin
+set Contact pairs = bore
+subsection Body lug
+  set Mesh          = lug.msh
+  set Volumes       = lug
+  set Young modulus = 210e3
+  set Poisson ratio = 0.3
+  set Forces        = pull: (2000, 0, 0)
+end
+subsection Body pin
+  set Mesh          = lug.msh
+  set Volumes       = pin
+  set Young modulus = 210e3
+  set Poisson ratio = 0.3
+  set Dirichlet     = ends: (0, 0, 0)
+end
+subsection Pair bore
+  set First  = lug: lug skin
+  set Second = pin: pin skin
+end
+subsection Refinement
+  set Adaptive cycles = 1
+end
+"""
+
+
 def block_on_slotted_plate(p):
     """A block on a plate with a slot: with the walls of both it is the same as with the faces that touch alone."""
     with tempfile.TemporaryDirectory() as folder:
@@ -73,3 +99,24 @@ def ball_on_ball(p):
             near(s['bodies'][0]['contact_force'][2] + s['bodies'][0]['reaction'][2], -s['bodies'][0]['load'][2], 1e-8, 'force')
             near(pair['max_recovered_pressure'], pressure, .15, 'pressure')
             check(s['converged'] and s['certificate']['contact_conditions_hold'], f'{s["certificate"]}')
+
+
+def pin_in_lug(p):
+    """A bore with the flat faces at its rims in one boundary: the true surface at the rim is round, and so it stays in finer meshes."""
+    with tempfile.TemporaryDirectory() as folder:
+        results = []
+        for whole in (0, 1):
+            make_mesh(os.path.join(GEOMETRIES, 'lug.geo'), os.path.join(folder, 'lug.msh'), '-setnumber', 'whole', str(whole))
+            path = os.path.join(folder, 'lug.prm')
+            with open(path, 'w') as f:
+                f.write(LUG)
+            s = p.solve(path)
+            check(s['converged'] and s['certificate']['contact_conditions_hold'], f'{whole}: {s["certificate"]}')
+            results.append((s['pairs'][0]['contact_area'], s['bodies'][0]['largest_displacement'], s['pairs'][0]['max_recovered_pressure']))
+            print(f'whole {whole}: area, displacement, pressure {results[-1]}')
+        # Meshes differ by a few faces far from contact where the boundary is marked.
+        for alone, with_walls in zip(*results):
+            near(with_walls, alone, 1e-3, 'with all of the boundary')
+        # Cylinders of length 5: the strip is 4 sqrt(F R / (pi L E*)) wide, R = 4 * 3.97 / 0.03.
+        width = 4. * math.sqrt(2000. / 5. * (4. * 3.97 / .03) / (math.pi * 210e3 / 2. / (1. - .3 ** 2)))
+        near(results[0][0], 5. * width, .06, 'contact area of Hertz')

@@ -244,12 +244,17 @@ namespace Signorini
     /// Refuses shapes of the parameters that lie elsewhere than their boundaries, notes those that are off.
     void check_shapes(const Placed &placed, const std::string &where, const bool snaps);
     void snap_vertices(Placed &placed);
-    /// Moves vertices on the given boundaries to their shapes; returns those that are not there yet.
-    std::vector<unsigned int>
-    move_to_shapes(std::vector<dealii::Point<3>>                                      &positions,
-                   const std::map<unsigned int, std::set<dealii::types::boundary_id>> &ids,
-                   const std::vector<dealii::ArrayView<const unsigned int>>           &cells,
-                   const std::vector<bool> &is_fixed, const SharedVertices &shared = SharedVertices());
+    /// A boundary and the piece of its shape (BoundaryShape::piece_at()).
+    using BoundaryPlace = std::pair<dealii::types::boundary_id, unsigned int>;
+    /// That of a face with its centre and its outward normal (any length).
+    BoundaryPlace place(const dealii::types::boundary_id id, const dealii::Point<3> &centre,
+                        const dealii::Tensor<1, 3> &outward) const;
+    /// Moves vertices in the given places to their shapes; returns those that are not there yet.
+    std::vector<unsigned int> move_to_shapes(std::vector<dealii::Point<3>>                         &positions,
+                                             const std::map<unsigned int, std::set<BoundaryPlace>> &places,
+                                             const std::vector<dealii::ArrayView<const unsigned int>> &cells,
+                                             const std::vector<bool> &is_fixed,
+                                             const SharedVertices    &shared = SharedVertices());
     /// The distances of late vertices of a movement from their shapes.
     void report_late(MovementReport &report, const std::map<dealii::types::boundary_id, double> &distances,
                      const std::map<dealii::types::boundary_id, double> &numbers,
@@ -258,8 +263,8 @@ namespace Signorini
     void assess_hexahedra();
     void set_manifolds();
     bool is_sharp(const std::set<dealii::types::boundary_id> &ids) const;
-    /// The shapes that a point on the given boundaries has to lie on; none on sharp edges.
-    std::vector<BoundaryShapePointer> shapes_of(const std::set<dealii::types::boundary_id> &ids) const;
+    /// The shapes that a point in the given places has to lie on; none on sharp edges.
+    std::vector<BoundaryShapePointer> shapes_of(const std::set<BoundaryPlace> &places) const;
     void                              create(const std::vector<Placed> &placed);
     void                              create_hexahedra(const std::vector<Placed> &placed);
     void                              create_tetrahedra(const std::vector<Placed> &placed);
@@ -273,8 +278,7 @@ namespace Signorini
       std::vector<dealii::types::boundary_id> boundary;
     };
 
-    static StartSurface  start_surface(const Placed &placed);
-    BoundaryShapePointer plane_shape(const unsigned int body, const dealii::types::boundary_id id) const;
+    static StartSurface start_surface(const Placed &placed);
 
     const MPI_Comm                                                   comm;
     std::unique_ptr<dealii::parallel::distributed::Triangulation<3>> tria;

@@ -29,6 +29,20 @@ namespace Signorini
     virtual dealii::Tensor<1, 3> normal(const dealii::Point<3>     &p,
                                         const dealii::Tensor<1, 3> &facing) const = 0;
 
+    /// The pieces that creases divide the shape into; empty if it is one. What lies at a crease has to be
+    /// projected onto those that it belongs to: the nearest point of the whole may lie in another one.
+    virtual const std::vector<std::shared_ptr<const BoundaryShape>> &pieces() const
+    {
+      static const std::vector<std::shared_ptr<const BoundaryShape>> none;
+      return none;
+    }
+
+    /// The number of the piece near p whose outward side faces `facing` (any length), of a shape with pieces.
+    virtual unsigned int piece_at(const dealii::Point<3> &, const dealii::Tensor<1, 3> &) const
+    {
+      return 0;
+    }
+
     /// By how much the shape itself may be wrong near p (length): nothing where a user gave it.
     virtual double doubt(const dealii::Point<3> &) const
     {

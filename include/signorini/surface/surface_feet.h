@@ -43,6 +43,10 @@ namespace Signorini
     /// near, at creases, that of the one that faces `facing` most.
     dealii::Tensor<1, 3> normal(const dealii::Point<3> &p, const dealii::Tensor<1, 3> &facing) const;
 
+    /// The triangle near p that faces `facing` (any length): of those about as near as the nearest one that
+    /// face there about as well as any of them, the nearest.
+    unsigned int facing(const dealii::Point<3> &p, const dealii::Tensor<1, 3> &facing) const;
+
   private:
     std::array<dealii::Point<3>, 3> corners(const unsigned int i) const;
     Foot nearest(std::vector<unsigned int> &found, const dealii::Point<3> &p) const;

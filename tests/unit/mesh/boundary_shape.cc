@@ -10,6 +10,7 @@
 #include <signorini/mesh/generated_mesh.h>
 #include <signorini/mesh/nodal_space.h>
 #include <signorini/mesh/node_movement.h>
+#include <signorini/mesh/surface_extraction.h>
 
 #include <gtest/gtest.h>
 
@@ -74,6 +75,40 @@ namespace
     p.divisions             = {2, 2, 2};
     p.convert_to_tetrahedra = tetrahedra;
     return p;
+  }
+
+  /// A tube along z from radius 1 to 2, of height 1, as hexahedra: 16 around, one through the wall, two on
+  /// each other. All of its boundary has one name.
+  std::string tube_file()
+  {
+    constexpr unsigned int   n = 16;
+    std::vector<Point<3>>    points;
+    std::vector<std::string> elements;
+    const auto               number = [](const unsigned int i, const unsigned int j, const unsigned int k) {
+      return std::to_string(1 + (k * 2 + j) * n + i % n) + " ";
+    };
+    for (unsigned int k = 0; k < 3; ++k)
+      for (const double r : {1., 2.})
+        for (unsigned int i = 0; i < n; ++i)
+          points.emplace_back(r * std::cos(2. * dealii::numbers::PI * i / n),
+                              r * std::sin(2. * dealii::numbers::PI * i / n), .5 * k);
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        for (unsigned int k = 0; k < 2; ++k)
+          {
+            std::string hexahedron = "5 2 1 1 ";
+            for (const unsigned int l : {k, k + 1})
+              hexahedron += number(i, 0, l) + number(i, 1, l) + number(i + 1, 1, l) + number(i + 1, 0, l);
+            elements.push_back(hexahedron);
+            for (const unsigned int j : {0u, 1u})
+              elements.push_back("3 2 2 2 " + number(i, j, k) + number(i + 1, j, k) +
+                                 number(i + 1, j, k + 1) + number(i, j, k + 1));
+          }
+        for (const unsigned int k : {0u, 2u})
+          elements.push_back("3 2 2 2 " + number(i, 0, k) + number(i, 1, k) + number(i + 1, 1, k) +
+                             number(i + 1, 0, k));
+      }
+    return gmsh_text(points, elements, "2\n3 1 \"tube\"\n2 2 \"skin\"\n");
   }
 
   void refine(Bodies &bodies)
@@ -245,6 +280,64 @@ TEST(BoundaryShape, SharpEdgesOfGeneratedMeshes)
             EXPECT_LT(off_sphere, 1e-12) << tetrahedra;
           }
       }
+}
+
+
+
+// A bore, the outside and the flat ends in one boundary: new points of rims lie on both sides of them, and
+// the true surface over the facets beside them is that of their own side.
+TEST(BoundaryShape, RimsOfOneBoundary)
+{
+  const TemporaryFile file(tube_file());
+  for (const bool tetrahedra : {false, true})
+    {
+      BodyParameters p;
+      p.name                  = "body";
+      p.mesh                  = file.path;
+      p.convert_to_tetrahedra = tetrahedra;
+      Bodies     bodies(MPI_COMM_WORLD, define_bodies(MPI_COMM_WORLD, {p}, "."));
+      const auto ids = bodies.boundary_ids(0, "skin");
+      bodies.follow_start_mesh(0, ids, false);
+      SurfaceShapes shapes;
+      shapes.by_boundary = bodies.true_shapes(0, ids, false);
+      for (unsigned int level = 0; level < 4; ++level)
+        {
+          if (level > 0)
+            refine(bodies);
+          const NodalSpace     space(MPI_COMM_WORLD, bodies.mesh());
+          const ContactSurface surface = extract_contact_surface(
+              space, ids, [](const NodeIndex) { return FixedDirections(); }, {}, shapes);
+          double off_vertices = 0., off_between = 0., off_normals = 0.;
+          for (unsigned int t = 0; t < surface.mesh.triangles.size(); ++t)
+            {
+              std::array<Point<3>, 3> x;
+              for (unsigned int i = 0; i < 3; ++i)
+                x[i] = surface.mesh.vertices[surface.mesh.triangles[t][i]];
+              const Tensor<1, 3> n       = cross_product_3d(x[1] - x[0], x[2] - x[0]);
+              const bool         is_flat = std::abs(n[2]) > .5 * n.norm();
+              const double       radius  = n * Tensor<1, 3>({x[0][0], x[0][1], 0.}) < 0. ? 1. : 2.;
+              const auto         off     = [&](const Point<3> &y) {
+                return is_flat ? std::abs(std::abs(y[2] - .5) - .5)
+                                           : std::abs(std::hypot(y[0], y[1]) - radius);
+              };
+              for (unsigned int i = 0; i < 3; ++i)
+                {
+                  off_vertices            = std::max(off_vertices, off(x[i]));
+                  std::array<double, 3> w = {{.5, .5, .5}};
+                  w[i]                    = 0.;
+                  const Point<3> middle((Tensor<1, 3>(x[(i + 1) % 3]) + x[(i + 2) % 3]) / 2.);
+                  off_between = std::max(off_between, off(middle + surface.offset(t, w)));
+                }
+            }
+          for (unsigned int v = 0; v < surface.mesh.vertices.size(); ++v)
+            if (const Point<3> &x = surface.mesh.vertices[v]; std::abs(std::abs(x[2] - .5) - .5) > 1e-9)
+              off_normals = std::max(off_normals, std::abs(surface.mesh.vertex_normals[v][2]));
+          EXPECT_LT(off_vertices, 1e-13) << tetrahedra << level;
+          // A cubic on each facet; chords of the start mesh are off by 0.04.
+          EXPECT_LT(off_between, 2e-4) << tetrahedra << level;
+          EXPECT_LT(off_normals, 1e-10) << tetrahedra << level;
+        }
+    }
 }
 
 

@@ -77,6 +77,11 @@ TEST(SmoothSurface, IsExactOnSpheresAndCylinders)
     {
       EXPECT_LT(heights(smooth(bent(n, .2, on_sphere)), sphere)[1], 1e-13);
       EXPECT_LT(heights(smooth(bent(n, .2, on_cylinder)), cylinder)[1], 1e-13);
+      // Cells that are long beside the radius.
+      EXPECT_LT(
+          heights(smooth(bent(n, .2, [](const double s, const double t) { return on_cylinder(s, 20. * t); })),
+                  cylinder)[1],
+          1e-13);
     }
 }
 
