@@ -65,6 +65,21 @@ namespace Signorini
 
 
 
+  double ContactState::normal_energy(const NodeBlockMatrix &matrix, const Vector &c) const
+  {
+    double sum = 0.;
+    for (std::size_t p = 0; p < spaces.size(); ++p)
+      if (is_active[p])
+        {
+          const Block    block = read_block(matrix.block(matrix.diagonal(spaces.nodes[p])));
+          const Vector3 &n     = spaces.normals[p];
+          sum += Utilities::fixed_power<2>(spaces.normal_part(p, c)) * (n * (block * n));
+        }
+    return Utilities::MPI::sum(sum, communicator);
+  }
+
+
+
   void ContactState::project_correction(Vector &correction, const Vector &v) const
   {
     restrict_to_tangents(correction);

@@ -8,6 +8,9 @@
 
 #include <Eigen/Dense>
 
+#include <limits>
+#include <numeric>
+
 namespace Signorini
 {
   using namespace dealii;
@@ -103,12 +106,29 @@ namespace Signorini
           inverse_energies += part / energy;
       }
     const Eigen::Map<const Eigen::VectorXd> work(loads.data(), n);
-    const Eigen::VectorXd                   flight = idle * work;
-    driven                                         = flight.norm() > Rule().no_work * work.norm();
+    const Eigen::VectorXd                   way = idle * work;
+    driven                                      = way.norm() > Rule().no_work * work.norm();
     if (driven)
-      idle -= flight * flight.transpose() / flight.squaredNorm();
+      idle -= way * way.transpose() / way.squaredNorm();
+    flight.assign(way.data(), way.data() + n);
     inverse.assign(inverse_energies.data(), inverse_energies.data() + n * n);
     projector.assign(idle.data(), idle.data() + n * n);
+  }
+
+
+
+  double FreeMotionCorrection::drive(Vector &c, const ContactState &contact) const
+  {
+    if (!driven)
+      return 0.;
+    Vector motion = c;
+    motion        = 0.;
+    add(motion, flight);
+    const double length = contact.longest_step(c, motion);
+    if (length == std::numeric_limits<double>::max())
+      return 0.;
+    c.add(length, motion);
+    return length * std::inner_product(flight.begin(), flight.end(), loads.begin(), 0.);
   }
 
 

@@ -79,6 +79,9 @@ namespace Signorini
     /// remove.
     double normal_product(const Vector &a, const Vector &b) const;
 
+    /// Collective. The energy of the normal parts of c at active nodes, each as if it moved alone.
+    double normal_energy(const NodeBlockMatrix &matrix, const Vector &c) const;
+
     /// Makes c tangential at active nodes; elsewhere shortens it, node by node, so that v + c is admissible.
     void project_correction(Vector &c, const Vector &v) const;
 

@@ -52,6 +52,11 @@ namespace Signorini
       return driven;
     }
 
+    /// Collective. Adds to a correction c the motion that is_driven(), up to the next half-space. It has no
+    /// energy, so a V-cycle need not find it. Returns the work of the loads on it; zero, and no motion, where
+    /// nothing is in its way or loads do none.
+    double drive(Vector &c, const ContactState &contact) const;
+
     /// Whether a motion moves a node of this rank.
     bool moves(const unsigned int row) const;
 
@@ -85,6 +90,8 @@ namespace Signorini
     /// Inverse of their energies without idle ones, and the projector onto the coefficients of those; row by
     /// row.
     std::vector<double> inverse, projector;
+    /// Coefficients of what is driven, with a work on it of their norm.
+    std::vector<double> flight;
     bool                driven = false;
   };
 } // namespace Signorini

@@ -49,7 +49,7 @@ namespace Signorini
     /// Whether the correction is a linear function of the residual.
     bool is_linear(const IterationPhase phase) const
     {
-      return keeps_active && phase != IterationPhase::on_the_way && cut_off == 0.;
+      return keeps_active && is_on_planes && phase != IterationPhase::on_the_way && cut_off == 0.;
     }
 
     /// Collective. Shortens the correction, where that is due because it was not searched, so that it lowers
@@ -107,6 +107,8 @@ namespace Signorini
     Vector new_residual, step, tangential;
     /// Whether the coarse correction was searched; whether the active set is that from before the run.
     bool searched = false, keeps_active = false;
+    /// Whether the correction moves along the planes of active nodes, not also onto them.
+    bool is_on_planes = false;
     /// Whether nodes in the way left little of the last coarse correction, or nothing holds the bodies.
     bool is_blocked = false;
     /// Whether that was so after the last minimizer, too, or nothing is known yet: the next iterations begin
