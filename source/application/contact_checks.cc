@@ -93,17 +93,23 @@ namespace Signorini
 
 
 
-  std::string reason_to_turn(const ContactPair &pair, const PairCoupling &coupling, const MPI_Comm comm)
+  LossOfChoice loss_of_choice(const ContactPair &pair, const PairCoupling &coupling, const MPI_Comm comm)
   {
     const LostContact lost = lost_contact(pair, coupling, comm);
+    LossOfChoice      result;
+    if (lost.by_other_pairs > ContactRule().lost_share * lost.covered)
+      result.refused = lost.by_other_pairs / lost.covered;
     if (!(lost.near_by_other_pairs > 1e-12 * lost.covered) &&
         !(lost.by_conditions > ContactRule().lost_share * lost.covered))
-      return "";
-    return percent((lost.by_other_pairs + lost.by_conditions) / lost.covered) + " of \"" +
-           pair.nonmortar.name + "\" could carry no contact stress (" +
-           (lost.by_other_pairs > lost.by_conditions ? "it is the nonmortar side of another pair, too"
-                                                     : "its displacements are prescribed") +
-           ")";
+      return result;
+    result.share = (lost.near_by_other_pairs + lost.by_conditions) / lost.covered;
+    result.reason =
+        percent((lost.by_other_pairs + lost.by_conditions) / lost.covered) + " of \"" + pair.nonmortar.name +
+        "\" could carry no contact stress (" +
+        (lost.by_other_pairs > lost.by_conditions ? "it is the nonmortar side of another pair, too"
+                                                  : "its displacements are prescribed") +
+        ")";
+    return result;
   }
 
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include "side_choice.h"
+
 #include <signorini/algebra/common_error.h>
 #include <signorini/algebra/interface_rows.h>
 #include <signorini/application/contact_checks.h>
@@ -87,263 +89,6 @@ namespace Signorini
 
   namespace
   {
-    double average_face_area(const ContactSurface &surface)
-    {
-      double area = 0.;
-      for (unsigned int t = 0; t < surface.mesh.triangles.size(); ++t)
-        area += triangle_area(surface.mesh, t);
-      return surface.faces.empty() ? 0. : area / static_cast<double>(surface.faces.size());
-    }
-
-    /// Exact where there is only one material.
-    IsotropicMaterial mean_material(const ContactSurface &surface, const Bodies &bodies)
-    {
-      std::map<std::pair<double, double>, double> areas;
-      double                                      total = 0.;
-      for (unsigned int t = 0; t < surface.mesh.triangles.size(); ++t)
-        {
-          const Material &m    = bodies.material(surface.faces[surface.triangle_face[t]].material);
-          const double    area = triangle_area(surface.mesh, t);
-          areas[{m.young, m.poisson}] += area;
-          total += area;
-        }
-      if (areas.size() == 1)
-        return {areas.begin()->first.first, areas.begin()->first.second};
-      IsotropicMaterial mean{0., 0.};
-      for (const auto &[material, area] : areas)
-        {
-          mean.young += area / total * material.first;
-          mean.poisson += area / total * material.second;
-        }
-      return mean;
-    }
-
-    ContactSide extract_side(const PairModel &pair, const PairModel::Side &side, const ContactModel &model,
-                             const ConstrainedSpace &constrained)
-    {
-      const NodalSpace &space = constrained.nodal();
-      ContactSide       result;
-      result.body = side.body;
-      result.name = model.bodies().body_name(side.body) + ": " + side.boundary;
-      result.ids  = side.ids;
-      std::function<bool(const Point<3> &)> region;
-      if (side.region)
-        region = [&side](const Point<3> &p) { return side.region(p) > 0.; };
-      result.surface = extract_contact_surface(
-          space, side.ids,
-          [&](const NodeIndex node) {
-            const DirichletData &data = constrained.dirichlet;
-            return data.rigid != nullptr && data.rigid->find(node) != nullptr
-                       ? FixedDirections(all_fixed)
-                       : data.fixed[space.relevant().index_within_set(node)];
-          },
-          region, side.shapes);
-      if (result.surface.faces.empty())
-        throw InputError("Pair " + pair.definition.name + ": the boundary \"" + side.boundary +
-                         "\" of body \"" + model.bodies().body_name(side.body) +
-                         "\" has no faces in its region.");
-      result.material = mean_material(result.surface, model.bodies());
-      return result;
-    }
-
-    unsigned int choose_nonmortar(const PairDefinition &pair, const std::vector<ContactSide> &sides,
-                                  const bool is_turned, const Bodies &bodies, Journal &journal)
-    {
-      const double young[2] = {sides[0].material.young, sides[1].material.young};
-      unsigned int softer   = 0;
-      if (std::abs(young[0] - young[1]) > 1e-6 * std::max(young[0], young[1]))
-        softer = young[0] < young[1] ? 0 : 1;
-      else
-        softer =
-            average_face_area(sides[0].surface) <= average_face_area(sides[1].surface) * (1. + 1e-9) ? 0 : 1;
-      if (is_turned)
-        return 1 - softer;
-      if (pair.nonmortar == NonmortarChoice::automatic)
-        {
-          journal.note("pair " + pair.name + ": \"" + bodies.body_name(sides[softer].body) +
-                       "\" is the nonmortar side (the softer body, then the finer mesh).");
-          return softer;
-        }
-      const unsigned int chosen = pair.nonmortar == NonmortarChoice::first ? 0 : 1;
-      if (young[chosen] > 10. * young[1 - chosen])
-        journal.note(
-            "warning: pair " + pair.name +
-            ": the nonmortar side is the stiffer body; the contact nodes need a direct solver this way.");
-      return chosen;
-    }
-
-    void map_pair(ContactPair &pair, const MPI_Comm comm, Journal &journal)
-    {
-      const unsigned int    rank      = Utilities::MPI::this_mpi_process(comm);
-      const ContactSurface &nonmortar = pair.nonmortar.surface;
-      {
-        PhaseTimes::Scope time = journal.measure(Phase::mapping);
-        pair.mapping           = std::make_shared<const ContactMapping>(
-            nonmortar.mesh, pair.mortar.surface.mesh,
-            [&](const unsigned int t) { return nonmortar.faces[nonmortar.triangle_face[t]].worker == rank; },
-            comm);
-        if (Utilities::MPI::sum(pair.mapping->report().n_cells, comm) == 0)
-          throw InputError("Pair " + pair.name + ": the surfaces \"" + pair.nonmortar.name + "\" and \"" +
-                           pair.mortar.name +
-                           "\" do not face each other anywhere: there is not a single overlay cell.");
-        pair.mapping_time = time.stop();
-      }
-      const auto time = journal.measure(Phase::mortar);
-      pair.halo       = std::make_shared<const SurfaceHalo>(nonmortar, comm);
-      pair.moments    = pair.halo->add_ghosts(compute_face_moments(
-             nonmortar, pair.mortar.surface, pair.mapping->overlay(), pair.prescribed_gap, comm));
-    }
-
-    void meet_obstacle(ContactPair &pair, const MPI_Comm comm, Journal &journal)
-    {
-      const auto time = journal.measure(Phase::mortar);
-      pair.halo       = std::make_shared<const SurfaceHalo>(pair.nonmortar.surface, comm);
-      pair.moments =
-          pair.halo->add_ghosts(compute_rigid_moments(pair.nonmortar.surface, *pair.obstacle, comm));
-      const bool meets = std::any_of(pair.moments.begin(), pair.moments.end(),
-                                     [](const FaceMoments &m) { return m.covered > 0.; });
-      if (Utilities::MPI::max(static_cast<int>(meets), comm) == 0)
-        throw InputError("Pair " + pair.name + ": the surface \"" + pair.nonmortar.name +
-                         "\" does not face the obstacle \"" + pair.mortar.name +
-                         "\" anywhere: no outward normal meets it from outside.");
-    }
-
-    /// Turns pair models into pairs on a mesh.
-    class PairMaker
-    {
-    public:
-      PairMaker(const ContactModel &model, const ConstrainedSpace &constrained, Journal &journal)
-        : model(model)
-        , constrained(constrained)
-        , journal(journal)
-      {
-      }
-
-      ContactPair make(const PairModel &definition, const bool is_turned) const
-      {
-        ContactPair pair;
-        pair.name           = definition.definition.name;
-        pair.is_tied        = definition.is_tied();
-        pair.prescribed_gap = definition.definition.prescribed_gap;
-        pair.obstacle       = definition.definition.obstacle;
-        {
-          const auto               time = journal.measure(Phase::mesh);
-          std::vector<ContactSide> sides;
-          for (const PairModel::Side &side : definition.sides)
-            sides.push_back(extract_side(definition, side, model, constrained));
-          leave_out_blind_parts(sides, definition, model.communicator(), journal);
-          const unsigned int non = pair.obstacle ? 0
-                                                 : choose_nonmortar(definition.definition, sides, is_turned,
-                                                                    model.bodies(), journal);
-          pair.nonmortar         = std::move(sides[non]);
-          if (pair.obstacle)
-            pair.mortar.name = pair.obstacle->description();
-          else
-            pair.mortar = std::move(sides[1 - non]);
-        }
-        share(pair);
-        if (pair.obstacle)
-          {
-            meet_obstacle(pair, model.communicator(), journal);
-            return pair;
-          }
-        map_pair(pair, model.communicator(), journal);
-        if (const auto behind = faces_with_images_behind(pair, model.communicator()); !behind.empty())
-          {
-            leave_out(pair.nonmortar.surface, behind);
-            share(pair);
-            map_pair(pair, model.communicator(), journal);
-          }
-        return pair;
-      }
-
-      /// Of all ranks, in words.
-      std::string mapping_errors(const ContactPair &pair) const
-      {
-        return describe_errors(sum_reports(pair.mapping->report(), model.communicator()));
-      }
-
-    private:
-      void share(ContactPair &pair) const
-      {
-        const auto time = journal.measure(Phase::mesh);
-        share_faces(pair.nonmortar.surface, pair.mortar.surface,
-                    Utilities::MPI::n_mpi_processes(model.communicator()));
-      }
-
-      const ContactModel     &model;
-      const ConstrainedSpace &constrained;
-      Journal                &journal;
-    };
-
-    /// Couples pairs whose moments are still those of all that they cover.
-    std::vector<PairCoupling> couple_pairs(std::vector<ContactPair> &pairs, const MPI_Comm comm)
-    {
-      std::vector<ClaimedFaces> claims;
-      for (ContactPair &pair : pairs)
-        claims.push_back({pair.nonmortar.surface, pair.moments, pair.is_tied});
-      if (pairs.size() > 1)
-        leave_faces_to_nearest(claims, comm);
-      std::vector<std::set<NodeIndex>> nonmortar_nodes, mortar_nodes;
-      for (const ContactPair &pair : pairs)
-        {
-          nonmortar_nodes.push_back(touched_nonmortar_nodes(pair.nonmortar.surface, pair.moments));
-          mortar_nodes.push_back(touched_mortar_nodes(pair.mortar.surface, pair.moments));
-        }
-      const auto                excluded = excluded_nodes(nonmortar_nodes, mortar_nodes, comm);
-      std::vector<PairCoupling> couplings;
-      for (unsigned int p = 0; p < pairs.size(); ++p)
-        couplings.push_back(couple({pairs[p].nonmortar.surface, pairs[p].mortar.surface, *pairs[p].halo},
-                                   pairs[p].moments, excluded[p],
-                                   static_cast<bool>(pairs[p].prescribed_gap)));
-      return couplings;
-    }
-
-    bool has_sharp_edges(const ContactPair &pair)
-    {
-      return FacingParts(pair.nonmortar.surface).n_parts() > 1 ||
-             FacingParts(pair.mortar.surface).n_parts() > 1;
-    }
-
-    /// Turns the automatic choice of a pair's sides if the mapping has errors one way and none the other way,
-    /// as it may have where a rim of one part lies over that of another one. Elsewhere errors are where
-    /// surfaces turn away from each other, and the choice matters for other pairs.
-    bool turn_for_mapping(ContactPair &pair, const PairMaker &maker, const PairModel &definition,
-                          Journal &journal)
-    {
-      if (!pair.mapping || definition.definition.nonmortar != NonmortarChoice::automatic ||
-          maker.mapping_errors(pair).empty() || !has_sharp_edges(pair))
-        return false;
-      ContactPair other = maker.make(definition, true);
-      if (!maker.mapping_errors(other).empty())
-        return false;
-      pair = std::move(other);
-      journal.note("pair " + pair.name +
-                   ": its sides are swapped, because the mapping has errors the other way round.");
-      return true;
-    }
-
-    /// The pairs whose automatic choice of sides is to be turned round now; none of them was before.
-    std::vector<unsigned int> pairs_to_turn(const ContactModel &model, const std::vector<ContactPair> &pairs,
-                                            const std::vector<PairCoupling> &couplings,
-                                            const std::vector<bool> &turned, Journal &journal)
-    {
-      std::vector<unsigned int> result;
-      for (unsigned int p = 0; p < pairs.size(); ++p)
-        {
-          if (pairs[p].obstacle || turned[p] ||
-              model.pairs()[p].definition.nonmortar != NonmortarChoice::automatic)
-            continue;
-          if (const std::string reason = reason_to_turn(pairs[p], couplings[p], model.communicator());
-              !reason.empty())
-            {
-              result.push_back(p);
-              journal.note("pair " + pairs[p].name + ": its sides are swapped, because " + reason + ".");
-            }
-        }
-      return result;
-    }
-
     void use_nodal_gaps(PairCoupling &coupling, const ContactPair &pair)
     {
       const double size = pair.nonmortar.surface.extent();
@@ -447,39 +192,12 @@ namespace Signorini
                                                    const std::vector<bool>                &turned_before,
                                                    const unsigned int cycle, Journal &journal)
   {
-    std::vector<bool> turned = turned_before;
-    turned.resize(model.pairs().size(), false);
-    const PairMaker          maker(model, *constrained, journal);
-    std::vector<ContactPair> pairs;
-    for (unsigned int p = 0; p < turned.size(); ++p)
-      {
-        pairs.push_back(maker.make(model.pairs()[p], turned[p]));
-        turned[p] = turned[p] || turn_for_mapping(pairs[p], maker, model.pairs()[p], journal);
-      }
-
-    const auto                            time = journal.measure(Phase::mortar);
-    std::vector<std::vector<FaceMoments>> covered;
-    if (pairs.size() > 1)
-      for (const ContactPair &pair : pairs)
-        covered.push_back(pair.moments);
-    std::vector<PairCoupling> couplings = couple_pairs(pairs, model.communicator());
-    while (true)
-      {
-        const auto some = pairs_to_turn(model, pairs, couplings, turned, journal);
-        if (some.empty())
-          break;
-        for (const unsigned int p : some)
-          {
-            turned[p] = true;
-            pairs[p]  = maker.make(model.pairs()[p], true);
-            if (pairs.size() > 1)
-              covered[p] = pairs[p].moments;
-          }
-        for (unsigned int p = 0; p < covered.size(); ++p)
-          pairs[p].moments = covered[p];
-        couplings = couple_pairs(pairs, model.communicator());
-      }
-    const CoupledPairs coupled{model, *constrained, pairs, couplings};
+    SideChoice choice(model, *constrained, turned_before, journal);
+    choice.improve();
+    const auto                 time      = journal.measure(Phase::mortar);
+    std::vector<ContactPair>  &pairs     = choice.pairs;
+    std::vector<PairCoupling> &couplings = choice.couplings;
+    const CoupledPairs         coupled{model, *constrained, pairs, couplings};
     refuse_lost_contact(coupled);
     refuse_dense_coupling(coupled);
     note_mapping_errors(pairs, cycle, model.communicator(), journal);
@@ -494,6 +212,6 @@ namespace Signorini
     for (unsigned int p = 0; p < pairs.size(); ++p)
       keep_piece(pairs[p], couplings[p], model.communicator());
     return std::make_unique<const Discretization>(constrained, std::move(pairs), std::move(couplings),
-                                                  std::move(turned));
+                                                  std::move(choice.turned));
   }
 } // namespace Signorini

@@ -31,6 +31,7 @@ signorini_add_layer(application
   loose_motions.cc
   nested_iteration.cc
   output_parameters.cc
+  pair_maker.cc
   pair_parameters.cc
   pair_pieces.cc
   parameter_names.cc
@@ -43,6 +44,7 @@ signorini_add_layer(application
   problem_identity.cc
   run_problem.cc
   run_state.cc
+  side_choice.cc
   ties.cc
   write_report.cc
   write_results.cc

@@ -19,9 +19,20 @@ namespace Signorini
     const std::vector<PairCoupling> &couplings;
   };
 
-  /// Collective. Why the choice of the nonmortar side of a pair should be turned round, if it may be: the
-  /// part of it that could carry no contact stress, in words. Empty if it should not.
-  std::string reason_to_turn(const ContactPair &pair, const PairCoupling &coupling, const MPI_Comm comm);
+  /// What the choice of its nonmortar side costs a pair.
+  struct LossOfChoice
+  {
+    /// Of what the pair covers, the share that can carry no contact stress for a reason that the other choice
+    /// may not have; zero if there is none.
+    double share = 0.;
+    /// The share that other pairs take away where that is so much that the pair is refused; else zero.
+    double refused = 0.;
+    /// Why something is lost, in words.
+    std::string reason;
+  };
+
+  /// Collective.
+  LossOfChoice loss_of_choice(const ContactPair &pair, const PairCoupling &coupling, const MPI_Comm comm);
 
   /// Collective. Errors: InputError for pairs of which conditions or other pairs take away the multipliers,
   /// and for prescribed displacements that make both sides overlap.

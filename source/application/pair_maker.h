@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_source_application_pair_maker_h
+#define signorini_source_application_pair_maker_h
+
+#include <signorini/application/discretization.h>
+
+namespace Signorini
+{
+  /// Turns pair models into pairs on a mesh: surfaces, what of them is mapped, mapping and moments.
+  class PairMaker
+  {
+  public:
+    /// All must outlive the object.
+    PairMaker(const ContactModel &model, const ConstrainedSpace &constrained, Journal &journal)
+      : model(model)
+      , constrained(constrained)
+      , journal(journal)
+    {
+    }
+
+    /// Collective. Moments are those of all that the pair covers.
+    /// @param is_turned whether the automatic choice of the nonmortar side is turned round
+    ContactPair make(const PairModel &definition, const bool is_turned) const;
+
+    /// Collective. Of all ranks, in words; empty if there are none.
+    std::string mapping_errors(const ContactPair &pair) const;
+
+  private:
+    void share(ContactPair &pair) const;
+
+    const ContactModel     &model;
+    const ConstrainedSpace &constrained;
+    Journal                &journal;
+  };
+} // namespace Signorini
+
+#endif
