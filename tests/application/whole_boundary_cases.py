@@ -164,7 +164,7 @@ def bolted_joint(p):
     """Three bodies of which each may touch both others: whichever sides are the nonmortar ones, two pairs share some nodes. None of the choices
     that lose less is one that is refused."""
     with tempfile.TemporaryDirectory() as folder:
-        make_mesh(os.path.join(GEOMETRIES, 'joint.geo'), os.path.join(folder, 'joint.msh'))
+        make_mesh(os.path.join(GEOMETRIES, 'bolt.geo'), os.path.join(folder, 'joint.msh'))
         path = os.path.join(folder, 'joint.prm')
         with open(path, 'w') as f:
             f.write(JOINT)

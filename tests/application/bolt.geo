@@ -1,0 +1,22 @@
+SetFactory("OpenCASCADE");
+// A bolt with head and nut through two plates with holes that leave it some room. All of each body may touch.
+Box(1) = {-30, -10, 0, 45, 20, 5};
+Cylinder(2) = {0, 0, -1, 0, 0, 7, 5.1};
+p1() = BooleanDifference{ Volume{1};Delete; }{ Volume{2};Delete; };
+Box(11) = {-15, -10, -5, 45, 20, 5};
+Cylinder(12) = {0, 0, -6, 0, 0, 7, 5.1};
+p2() = BooleanDifference{ Volume{11};Delete; }{ Volume{12};Delete; };
+Cylinder(21) = {0, 0, -5, 0, 0, 10, 5};
+Cylinder(22) = {0, 0, 5, 0, 0, 4, 8};
+Cylinder(23) = {0, 0, -9, 0, 0, 4, 8};
+b() = BooleanUnion{ Volume{21};Delete; }{ Volume{22, 23};Delete; };
+e = 1e-3;
+Physical Volume("upper") = {p1()}; Physical Volume("lower") = {p2()}; Physical Volume("bolt") = {b()};
+f() = Surface In BoundingBox{-30-e, -11, -1, -30+e, 11, 6};
+g() = Surface In BoundingBox{30-e, -11, -6, 30+e, 11, 1};
+u() = Boundary{ Volume{p1()}; }; u()-=f();
+l() = Boundary{ Volume{p2()}; }; l()-=g();
+s() = Boundary{ Volume{b()}; };
+Physical Surface("fixed") = {f()}; Physical Surface("pulled") = {g()};
+Physical Surface("upper skin") = {u()}; Physical Surface("lower skin") = {l()}; Physical Surface("bolt skin") = {s()};
+Mesh.CharacteristicLengthMin = 1.6;Mesh.CharacteristicLengthMax = 1.6;
