@@ -7,14 +7,9 @@
 #include <signorini/algebra/interface_rows.h>
 #include <signorini/application/contact_checks.h>
 #include <signorini/application/discretization.h>
-#include <signorini/application/facing_sides.h>
 #include <signorini/application/journal.h>
 #include <signorini/application/pair_pieces.h>
 #include <signorini/application/ties.h>
-#include <signorini/mesh/facing_parts.h>
-#include <signorini/mesh/surface_extraction.h>
-#include <signorini/mortar/face_claims.h>
-#include <signorini/mortar/face_shares.h>
 #include <signorini/surface/mapping_quality.h>
 
 #include <deal.II/base/utilities.h>

@@ -75,12 +75,9 @@ namespace Signorini
     std::map<types::boundary_id, double> distances, numbers;
     for (const unsigned int v : late)
       {
-        const auto                   target = std::lower_bound(targets.begin(), targets.end(), v,
-                                                               [](const auto &t, const unsigned int w) { return t.first < w; });
-        std::set<types::boundary_id> ids;
-        for (const BoundaryPlace &place : places.at(v))
-          ids.insert(place.first);
-        for (const types::boundary_id id : ids)
+        const auto target = std::lower_bound(targets.begin(), targets.end(), v,
+                                             [](const auto &t, const unsigned int w) { return t.first < w; });
+        for (const types::boundary_id id : boundaries_of(places.at(v)))
           if (shapes[id])
             {
               ++numbers[id];

@@ -216,10 +216,7 @@ namespace Signorini
   std::vector<BoundaryShapePointer> Bodies::shapes_of(const std::set<BoundaryPlace> &places) const
   {
     std::vector<BoundaryShapePointer> result;
-    std::set<types::boundary_id>      ids;
-    for (const BoundaryPlace &place : places)
-      ids.insert(place.first);
-    if (is_sharp(ids))
+    if (is_sharp(boundaries_of(places)))
       return result;
     for (const auto &[id, piece] : places)
       if (shapes[id])
@@ -340,9 +337,7 @@ namespace Signorini
     };
     // What is neither keeps the manifolds of generated meshes.
     const auto is_ours = [&](const Places &places) {
-      std::set<types::boundary_id> ids;
-      for (const BoundaryPlace &place : places)
-        ids.insert(place.first);
+      const auto ids = boundaries_of(places);
       return is_sharp(ids) ||
              std::any_of(ids.begin(), ids.end(), [&](const auto id) { return is_user_shape[id]; });
     };

@@ -33,19 +33,12 @@ namespace Signorini
       double same_place = 1e-6;
     };
 
-    Vector3 area_vector(const ContactSurface &surface, const unsigned int face)
-    {
-      const auto &c = surface.faces[face].corners;
-      const auto &x = surface.mesh.vertices;
-      return .5 * cross_product_3d(x[c[2]] - x[c[0]], x[c[3]] - x[c[1]]);
-    }
-
     std::vector<Vector3> face_normals(const ContactSurface &surface)
     {
       std::vector<Vector3> normals;
       for (unsigned int f = 0; f < surface.faces.size(); ++f)
         {
-          const Vector3 area = area_vector(surface, f);
+          const Vector3 area = area_vector(surface, surface.faces[f]);
           normals.push_back(area.norm() > 0. ? area / area.norm() : area);
         }
       return normals;
@@ -84,7 +77,8 @@ namespace Signorini
   {
     Part &part    = parts[part_of[face]];
     part.distance = std::min(part.distance, distance);
-    part.widths   = std::min(part.widths, distance / std::sqrt(area_vector(surface, face).norm()));
+    part.widths =
+        std::min(part.widths, distance / std::sqrt(area_vector(surface, surface.faces[face]).norm()));
   }
 
 
@@ -204,7 +198,7 @@ namespace Signorini
                          n_ranks = Utilities::MPI::n_mpi_processes(communicator);
       for (unsigned int face = rank; face < surface.faces.size(); face += n_ranks)
         {
-          const Vector3 area  = area_vector(surface, face);
+          const Vector3 area  = area_vector(surface, surface.faces[face]);
           const double  width = std::sqrt(area.norm());
           if (!(width > 0.))
             continue;

@@ -20,6 +20,16 @@ namespace Signorini
     std::vector<std::pair<dealii::types::boundary_id, std::shared_ptr<const dealii::Manifold<3>>>> manifolds;
   };
 
+  /// The boundaries of some places.
+  template <typename Places>
+  std::set<dealii::types::boundary_id> boundaries_of(const Places &places)
+  {
+    std::set<dealii::types::boundary_id> ids;
+    for (const auto &place : places)
+      ids.insert(place.first);
+    return ids;
+  }
+
   /// Names for a message.
   inline std::string listed(const std::vector<std::string> &names)
   {

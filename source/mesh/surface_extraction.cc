@@ -288,17 +288,12 @@ namespace Signorini
       std::vector<unsigned int>        number, polygon;
     };
 
-    /// The normal has any length.
-    std::pair<Point<3>, Tensor<1, 3>> centre_and_normal(const SurfaceMesh          &mesh,
-                                                        const ContactSurface::Face &face)
+    Point<3> centre(const ContactSurface &surface, const ContactSurface::Face &face)
     {
-      const auto  &x = mesh.vertices;
-      const auto  &c = face.corners;
       Tensor<1, 3> sum;
       for (unsigned int k = 0; k < face.n_corners; ++k)
-        sum += x[c[k]];
-      // The fourth corner of a triangle is its first one.
-      return {Point<3>(sum / face.n_corners), cross_product_3d(x[c[2]] - x[c[0]], x[c[3]] - x[c[1]])};
+        sum += surface.mesh.vertices[face.corners[k]];
+      return Point<3>(sum / face.n_corners);
     }
 
     TrueShape true_shape_of(const ContactSurface &surface, const SurfaceShapes &shapes)
@@ -317,10 +312,7 @@ namespace Signorini
           const auto          &pieces = known->second->pieces();
           BoundaryShapePointer shape  = known->second;
           if (!pieces.empty())
-            {
-              const auto [centre, outward] = centre_and_normal(surface.mesh, face);
-              shape                        = pieces[shape->piece_at(centre, outward)];
-            }
+            shape = pieces[shape->piece_at(centre(surface, face), area_vector(surface, face))];
           const auto [it, is_new] = number.insert({shape, static_cast<unsigned int>(list.size())});
           of_face.push_back(it->second);
           if (is_new)

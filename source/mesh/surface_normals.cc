@@ -85,6 +85,16 @@ namespace Signorini
 
 
 
+  Vector3 area_vector(const ContactSurface &surface, const ContactSurface::Face &face)
+  {
+    // The fourth corner of a triangle is its first one.
+    const auto &x = surface.mesh.vertices;
+    const auto &c = face.corners;
+    return .5 * cross_product_3d(x[c[2]] - x[c[0]], x[c[3]] - x[c[1]]);
+  }
+
+
+
   void set_normals(ContactSurface &surface, const SurfaceShapes &shapes,
                    const std::function<bool(unsigned int face, unsigned int vertex)> &counts)
   {
@@ -95,12 +105,10 @@ namespace Signorini
     normals.assign(x.size(), Vector3());
     for (unsigned int f = 0; f < surface.faces.size(); ++f)
       {
-        const ContactSurface::Face &face = surface.faces[f];
-        // Half the product of the diagonals, whatever way the face is cut into triangles.
-        const Vector3              area   = .5 * cross_product_3d(x[face.corners[2]] - x[face.corners[0]],
-                                                                  x[face.corners[3]] - x[face.corners[1]]);
-        const double               weight = area.norm();
-        const BoundaryShape *const shape  = shape_normals.shape_of(face);
+        const ContactSurface::Face &face   = surface.faces[f];
+        const Vector3               area   = area_vector(surface, face);
+        const double                weight = area.norm();
+        const BoundaryShape *const  shape  = shape_normals.shape_of(face);
         for (unsigned int i = 0; i < face.n_corners; ++i)
           {
             const unsigned int v = face.corners[i];

@@ -17,7 +17,7 @@ namespace Signorini
       /// Of the energy of a correction, that of bringing active nodes back to their planes. The way there is
       /// as long as it is: times the length of a step of conjugate gradients it ends beyond them, and where
       /// that length is above 2 again and again the distance grows (a light shaft in a V-block: from rounding
-      /// to a hundred times the deformation, 65 iterations instead of 10).
+      /// to a hundred times the deformation, 65 iterations instead of 5).
       double largest_share = 1e-3;
     };
   } // namespace

@@ -10,6 +10,10 @@
 
 namespace Signorini
 {
+  /// Outward normal of a face times its area: half the product of the diagonals, whatever way the face is cut
+  /// into triangles.
+  Vector3 area_vector(const ContactSurface &surface, const ContactSurface::Face &face);
+
   /// Sets the vertex normals of a contact surface. The one rule: every face gives its normal at each of its
   /// corners, that of its shape where there is one (a curved patch of the start mesh is a shape), else its
   /// own; they are added with the areas of the faces. Hanging vertices without a shape have the mean of their

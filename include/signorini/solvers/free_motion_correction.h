@@ -90,7 +90,7 @@ namespace Signorini
     /// Inverse of their energies without idle ones, and the projector onto the coefficients of those; row by
     /// row.
     std::vector<double> inverse, projector;
-    /// Coefficients of what is driven, with a work on it of their norm.
+    /// Coefficients of the driven motion, on which the loads do positive work.
     std::vector<double> flight;
     bool                driven = false;
   };
