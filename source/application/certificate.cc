@@ -3,6 +3,7 @@
 
 #include <signorini/application/certificate.h>
 #include <signorini/discretization/elasticity.h>
+#include <signorini/output/final_words.h>
 #include <signorini/surface/mapping_quality.h>
 
 #include <iomanip>
@@ -164,10 +165,10 @@ namespace Signorini
             "mesh stand for the surface; give Boundary shapes, a finer mesh, or Surface = " +
             (surface == SurfaceKind::automatic ? "smooth" : "automatic"));
       if (pair.max_penetration > rule.geometric_penetration * pair.approach)
-        c.objections.push_back(name + "between the nodes the true surfaces penetrate by " +
-                               text_of(pair.max_penetration) + ", " +
-                               text_of(pair.max_penetration / pair.approach) +
-                               " of what contact does there; refine the contact surfaces");
+        c.objections.push_back(
+            name + "between the nodes the true surfaces penetrate by " + text_of(pair.max_penetration) +
+            ", " + text_of(pair.max_penetration / pair.approach) + " of what contact does there, at " +
+            place_text(pair.min_gap_at) + "; refine the contact surfaces");
       if (pair.loaded_gap > rule.loaded_gap * pair.approach)
         c.objections.push_back(
             name + "contact forces act where the true surfaces are " + text_of(pair.loaded_gap) + " apart, " +

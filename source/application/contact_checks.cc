@@ -7,6 +7,7 @@
 #include <signorini/algebra/input_error.h>
 #include <signorini/application/contact_checks.h>
 #include <signorini/mortar/face_claims.h>
+#include <signorini/mortar/pair_conflicts.h>
 #include <signorini/mortar/surface_values.h>
 
 #include <iomanip>

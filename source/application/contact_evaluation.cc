@@ -74,6 +74,19 @@ namespace Signorini
       double  scale = 0., n_nodes = 0., square = 0.;
     };
 
+    /// The cells of the overlay over faces that the pair covers: others it has left to a nearer pair.
+    std::vector<OverlayTriangle> covered_overlay(const ContactPair &pair)
+    {
+      std::vector<bool> is_covered(pair.nonmortar.surface.faces.size(), false);
+      for (const FaceMoments &m : pair.moments)
+        is_covered[m.face] = m.covered > 0.;
+      std::vector<OverlayTriangle> cells;
+      for (const OverlayTriangle &cell : pair.mapping->overlay())
+        if (is_covered[pair.nonmortar.surface.triangle_face[cell.nonmortar_triangle]])
+          cells.push_back(cell);
+      return cells;
+    }
+
     /// @param pressure by row
     GeometricPenetration penetration_of(const Discretization &d, const unsigned int p,
                                         const Vector &displacement, const std::vector<double> &row_pressure)
@@ -85,7 +98,7 @@ namespace Signorini
       if (pair.obstacle)
         return sample_rigid_penetration(pair.nonmortar.surface, *pair.obstacle, displaced, pressure, comm);
       return sample_geometric_penetration(
-          {pair.nonmortar.surface, pair.mortar.surface, pair.mapping->overlay()}, displaced,
+          {pair.nonmortar.surface, pair.mortar.surface, covered_overlay(pair)}, displaced,
           vertex_values(pair.mortar.surface, d.partition(), displacement), pressure, pair.prescribed_gap,
           comm);
     }
@@ -225,6 +238,7 @@ namespace Signorini
     measure_contact(result, pair, is_active, sum(forces.nonmortar.moment + forces.mortar.moment, comm), comm);
     const auto penetration = penetration_of(d, p, solution.displacement, stress.pressure);
     result.min_gap         = penetration.min_gap;
+    result.min_gap_at      = penetration.min_gap_at;
     result.max_penetration = std::max(0., penetration.max_penetration());
     // Prescribed gaps are taken as they are, weighted ones.
     result.loaded_gap          = pair.prescribed_gap ? 0. : penetration.loaded_gap;

@@ -10,6 +10,7 @@
 #include <signorini/application/journal.h>
 #include <signorini/application/pair_pieces.h>
 #include <signorini/application/ties.h>
+#include <signorini/mortar/pair_conflicts.h>
 #include <signorini/surface/mapping_quality.h>
 
 #include <deal.II/base/utilities.h>

@@ -6,6 +6,7 @@
 #include <signorini/application/journal.h>
 #include <signorini/mesh/facing_parts.h>
 #include <signorini/mortar/face_claims.h>
+#include <signorini/mortar/pair_conflicts.h>
 
 #include <algorithm>
 
@@ -16,26 +17,21 @@ namespace Signorini
   namespace
   {
     /// Couples pairs whose moments are still those of all that they cover.
-    std::vector<PairCoupling> couple_pairs(std::vector<ContactPair> &pairs, const MPI_Comm comm)
+    std::vector<PairCoupling> claim_and_couple(std::vector<ContactPair> &pairs, const MPI_Comm comm)
     {
       std::vector<ClaimedFaces> claims;
       for (ContactPair &pair : pairs)
         claims.push_back({pair.nonmortar.surface, pair.moments, pair.is_tied});
       if (pairs.size() > 1)
         leave_faces_to_nearest(claims, comm);
-      std::vector<std::set<NodeIndex>> nonmortar_nodes, mortar_nodes;
+      std::vector<PairToCouple> several;
       for (const ContactPair &pair : pairs)
-        {
-          nonmortar_nodes.push_back(touched_nonmortar_nodes(pair.nonmortar.surface, pair.moments));
-          mortar_nodes.push_back(touched_mortar_nodes(pair.mortar.surface, pair.moments));
-        }
-      const auto                excluded = excluded_nodes(nonmortar_nodes, mortar_nodes, comm);
-      std::vector<PairCoupling> couplings;
-      for (unsigned int p = 0; p < pairs.size(); ++p)
-        couplings.push_back(couple({pairs[p].nonmortar.surface, pairs[p].mortar.surface, *pairs[p].halo},
-                                   pairs[p].moments, excluded[p],
-                                   static_cast<bool>(pairs[p].prescribed_gap)));
-      return couplings;
+        several.push_back({{pair.nonmortar.surface, pair.mortar.surface, *pair.halo},
+                           pair.moments,
+                           static_cast<bool>(pair.prescribed_gap),
+                           pair.is_tied,
+                           pair.mortar.body});
+      return couple_pairs(several, comm);
     }
 
     bool has_sharp_edges(const ContactPair &pair)
@@ -78,7 +74,7 @@ namespace Signorini
     if (pairs.size() > 1)
       for (const ContactPair &pair : pairs)
         covered.push_back(pair.moments);
-    couplings = couple_pairs(pairs, model.communicator());
+    couplings = claim_and_couple(pairs, model.communicator());
   }
 
 
@@ -119,7 +115,7 @@ namespace Signorini
   {
     for (unsigned int p = 0; p < covered.size(); ++p)
       pairs[p].moments = covered[p];
-    couplings = couple_pairs(pairs, model.communicator());
+    couplings = claim_and_couple(pairs, model.communicator());
   }
 
 

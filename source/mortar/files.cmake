@@ -8,6 +8,7 @@ signorini_add_layer(mortar
   face_shares.cc
   gap_fit.cc
   geometric_penetration.cc
+  joined_couplings.cc
   multiplier_nodes.cc
   pair_conflicts.cc
   pair_coupling.cc

@@ -24,6 +24,25 @@ namespace Signorini
 
 
 
+  void LeastGap::add(const double gap, const Point<3> &place)
+  {
+    if (!(gap < least))
+      return;
+    least = gap;
+    where = place;
+  }
+
+
+
+  void LeastGap::reduce(const MPI_Comm communicator)
+  {
+    const auto best = Utilities::MPI::min_max_avg(least, communicator);
+    where           = Utilities::MPI::broadcast(communicator, where, best.min_index);
+    least           = best.min;
+  }
+
+
+
   GapUnderLoad::GapUnderLoad(const ContactSurface &surface, const std::vector<double> &pressure)
     : surface(surface)
     , pressure(pressure)
@@ -76,7 +95,7 @@ namespace Signorini
     const auto &[nonmortar, mortar, overlay] = pair;
     const SurfaceValues non(nonmortar), mor(mortar);
     GapUnderLoad        under_load(nonmortar, pressure);
-    double              min_initial = std::numeric_limits<double>::infinity(), min_gap = min_initial;
+    LeastGap            initially, deformed;
     for (const OverlayTriangle &cell : overlay)
       {
         double least = std::numeric_limits<double>::infinity();
@@ -94,16 +113,18 @@ namespace Signorini
             const double initial = prescribed_gap
                                        ? prescribed_gap(x)
                                        : initial_gap(nonmortar, mortar, cell, sample, x, image) * n;
-            min_initial          = std::min(min_initial, initial);
-            least                = std::min(least, initial - n * relative);
+            const double gap     = initial - n * relative;
+            initially.add(initial, x);
+            deformed.add(gap, x);
+            least = std::min(least, gap);
           }
-        min_gap = std::min(min_gap, least);
         under_load.add(cell.nonmortar_triangle,
                        std::abs(cell.share()) * triangle_area(nonmortar.mesh, cell.nonmortar_triangle),
                        least);
       }
-    return {Utilities::MPI::min(min_initial, communicator), Utilities::MPI::min(min_gap, communicator),
-            under_load.mean(communicator)};
+    initially.reduce(communicator);
+    deformed.reduce(communicator);
+    return {initially.value(), deformed.value(), deformed.place(), under_load.mean(communicator)};
   }
 
 

@@ -15,8 +15,8 @@ namespace Signorini
   using namespace dealii;
 
   MultiplierNodes::MultiplierNodes(const ContactSurface &surface, const SurfaceHalo &halo,
-                                   const std::vector<FaceMoments> &moments,
-                                   const std::set<NodeIndex> &excluded, const DroppingRule &rule)
+                                   const std::vector<FaceMoments> &moments, const NodesOfOtherPairs &others,
+                                   const DroppingRule &rule)
     : surface(surface)
     , halo(halo)
     , moments(moments)
@@ -44,8 +44,15 @@ namespace Signorini
           drop(v, DroppedNode::fixed);
         else if (free_normal(v) < rule.smallest_free_normal)
           drop(v, DroppedNode::normal_fixed);
-        else if (excluded.count(surface.vertex_node[v]) > 0)
+        else if (others.excluded.count(surface.vertex_node[v]) > 0)
           drop(v, DroppedNode::other_pair);
+        else if (others.ceded.count(surface.vertex_node[v]) > 0)
+          {
+            drop(v, DroppedNode::other_pair);
+            state.is_ceded = true;
+          }
+        else if (state.is_touched && others.kept.count(surface.vertex_node[v]) > 0)
+          state.is_protected = true;
         else if (!(covered[v] > 0.) || covered[v] < rule.smallest_share * full[v])
           drop(v, DroppedNode::thin_cover);
       }

@@ -27,13 +27,19 @@ namespace Signorini
     /// Collective. All arguments must outlive the object.
     /// @param moments of own and ghost faces
     MultiplierNodes(const ContactSurface &surface, const SurfaceHalo &halo,
-                    const std::vector<FaceMoments> &moments, const std::set<NodeIndex> &excluded,
+                    const std::vector<FaceMoments> &moments, const NodesOfOtherPairs &others,
                     const DroppingRule &rule);
 
     /// Whether a vertex is in R. Hanging vertices are if all of their parents are.
     bool is_in_r(const unsigned int v) const
     {
       return states[v].in_r;
+    }
+
+    /// Whether a vertex is another pair's (NodesOfOtherPairs::ceded).
+    bool is_ceded(const unsigned int v) const
+    {
+      return states[v].is_ceded;
     }
 
     /// Whether a vertex hangs.
@@ -58,7 +64,7 @@ namespace Signorini
     /// any on any rank.
     bool drop_rows(const std::vector<unsigned int> &rows);
 
-    /// Whether a vertex came back because a face or a hanging vertex needs it: then it stays.
+    /// Whether a vertex is there because another pair, a face or a hanging vertex needs it: then it stays.
     bool must_stay(const unsigned int v) const
     {
       return states[v].is_protected;
@@ -79,7 +85,7 @@ namespace Signorini
     /// What a rank knows of a vertex, its own or one that its rows or faces need.
     struct State
     {
-      bool in_r = false, is_protected = false;
+      bool in_r = false, is_protected = false, is_ceded = false;
       /// Whether anything is covered around it, and more than a rounding.
       bool                is_covered = false, is_touched = false;
       DroppedNode::Reason reason = DroppedNode::thin_cover;

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
-#include <signorini/algebra/common_error.h>
-#include <signorini/algebra/interface_rows.h>
-#include <signorini/mortar/pair_coupling.h>
+#include <signorini/algebra/sent_lists.h>
+#include <signorini/mesh/surface_normals.h>
+#include <signorini/mortar/pair_conflicts.h>
+
+#include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <map>
 
 namespace Signorini
 {
@@ -20,56 +23,6 @@ namespace Signorini
       else
         for (const auto &parent : surface.hanging[v])
           nodes.insert(surface.vertex_node[parent.first]);
-    }
-
-    std::string pair_name(const std::vector<std::string> &names, const unsigned int pair)
-    {
-      return pair < names.size() ? "\"" + names[pair] + "\"" : "number " + std::to_string(pair + 1);
-    }
-
-    std::string describe(const NodeIndex node, const Point<3> &position)
-    {
-      std::ostringstream text;
-      text << "node " << node << " at (" << position << ")";
-      return text.str();
-    }
-
-    /// Collective. No column may be a row. The message that one is, if this rank knows one.
-    std::string describe_chain(const JoinedCouplings &joined, const std::vector<std::string> &names,
-                               const NodePartition &partition)
-    {
-      const InterfaceCoupling &coupling = joined.coupling;
-      std::vector<NodeIndex>   columns;
-      for (const auto &entry : coupling.entries)
-        columns.push_back(entry.node);
-      const NodeRequest request(partition, sorted_nodes(std::move(columns)));
-      // The pair of the row that a column is, and where that is.
-      struct RowThere
-      {
-        bool         is_row;
-        unsigned int pair;
-        Point<3>     position;
-      };
-      const std::vector<RowThere> rows = request.fetch([&](const unsigned int local) {
-        const std::ptrdiff_t row = coupling.find(partition.to_global(local));
-        return row < 0 ? RowThere{false, 0, Point<3>()}
-                       : RowThere{true, joined.pairs[row], joined.positions[row]};
-      });
-      for (std::size_t row = 0; row < coupling.n_rows(); ++row)
-        for (const auto *entry = coupling.begin(row); entry != coupling.end(row); ++entry)
-          if (const RowThere &other =
-                  rows[std::lower_bound(request.nodes().begin(), request.nodes().end(), entry->node) -
-                       request.nodes().begin()];
-              other.is_row)
-            {
-              const std::string here  = pair_name(names, joined.pairs[row]),
-                                there = pair_name(names, other.pair);
-              return "Contact pairs " + here + " and " + there +
-                     " form a chain or a cycle: " + describe(entry->node, other.position) +
-                     " carries a contact stress in " + there + " and moves others in " + here +
-                     ". Swap the sides of one of the pairs, or take the common part out of one.";
-            }
-      return "";
     }
   } // namespace
 
@@ -107,152 +60,259 @@ namespace Signorini
     {
       NodeIndex    node;
       unsigned int pair;
-      bool         is_mortar;
-
-      bool operator<(const Touch &other) const
-      {
-        return std::tie(node, pair, is_mortar) < std::tie(other.node, other.pair, other.is_mortar);
-      }
+      bool         is_mortar, is_tied;
+      unsigned int mortar_body;
+      /// Of the nonmortar side: sum of the normals of this rank's faces around the node with their covered
+      /// areas.
+      Vector3 normal;
+      /// The rank that says so; set on arrival.
+      unsigned int sender;
     };
 
-    /// Whether one of the touches takes the multiplier from a node of a pair's nonmortar side.
-    bool is_excluded(const std::vector<Touch> &touches, const NodeIndex node, const unsigned int pair)
+    /// The nonmortar nodes that a pair touches on this rank.
+    std::map<NodeIndex, Vector3> touched_normals(const PairToCouple &pair)
     {
-      for (auto t = std::lower_bound(touches.begin(), touches.end(), Touch{node, 0, false});
-           t != touches.end() && t->node == node; ++t)
-        if (t->is_mortar || t->pair != pair)
-          return true;
-      return false;
-    }
-  } // namespace
-
-
-
-  // Nodes meet on some rank, whichever it is.
-  std::vector<std::set<NodeIndex>> excluded_nodes(const std::vector<std::set<NodeIndex>> &touched_nonmortar,
-                                                  const std::vector<std::set<NodeIndex>> &touched_mortar,
-                                                  const MPI_Comm                          communicator)
-  {
-    AssertDimension(touched_nonmortar.size(), touched_mortar.size());
-    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
-    const auto meeting_at = [&](const NodeIndex node) { return static_cast<unsigned int>(node % n_ranks); };
-    ListsByRank<Touch> parcels;
-    for (unsigned int p = 0; p < touched_nonmortar.size(); ++p)
-      {
-        for (const NodeIndex node : touched_nonmortar[p])
-          parcels[meeting_at(node)].push_back({node, p, false});
-        for (const NodeIndex node : touched_mortar[p])
-          parcels[meeting_at(node)].push_back({node, p, true});
-      }
-    const auto         arrived = send_lists(parcels, communicator);
-    std::vector<Touch> touches;
-    for (const auto &[sender, list] : arrived)
-      touches.insert(touches.end(), list.begin(), list.end());
-    std::sort(touches.begin(), touches.end());
-    ListsByRank<Touch> answers;
-    for (const auto &[sender, list] : arrived)
-      for (const Touch &touch : list)
-        if (!touch.is_mortar && is_excluded(touches, touch.node, touch.pair))
-          answers[sender].push_back(touch);
-    std::vector<std::set<NodeIndex>> excluded(touched_nonmortar.size());
-    for (const auto &[sender, list] : send_lists(answers, communicator))
-      for (const Touch &touch : list)
-        excluded[touch.pair].insert(touch.node);
-    return excluded;
-  }
-
-
-
-  namespace
-  {
-    /// A row as it travels; its entries follow those of the row before.
-    struct PackedRow
-    {
-      NodeIndex       node;
-      unsigned int    pair, n_entries;
-      double          weight, gap;
-      Vector3         normal;
-      Point<3>        position;
-      FixedDirections fixed;
-      /// First entry, set on arrival.
-      std::size_t begin;
-
-      bool operator<(const PackedRow &other) const
-      {
-        return std::tie(node, pair) < std::tie(other.node, other.pair);
-      }
-    };
-  } // namespace
-
-
-
-  JoinedCouplings join_couplings(const std::vector<PairCoupling> &pairs,
-                                 const std::vector<std::string> &names, const NodePartition &partition)
-  {
-    const MPI_Comm                        communicator = partition.communicator();
-    ListsByRank<PackedRow>                sent_rows;
-    ListsByRank<InterfaceCoupling::Entry> sent_entries;
-    for (unsigned int p = 0; p < pairs.size(); ++p)
-      {
-        const PairCoupling      &pair = pairs[p];
-        const InterfaceCoupling &c    = pair.coupling;
-        for (std::size_t i = 0; i < c.n_rows(); ++i)
+      const ContactSurface        &surface = pair.surfaces.nonmortar;
+      std::map<NodeIndex, Vector3> normals;
+      for (const NodeIndex node : touched_nonmortar_nodes(surface, pair.moments))
+        normals[node] = Vector3();
+      for (const FaceMoments &m : pair.moments)
+        if (const ContactSurface::Face &face = surface.faces[m.face];
+            m.covered > 1e-13 * m.area && pair.surfaces.halo.owns_face(m.face))
           {
-            const unsigned int owner = partition.owner(c.rows[i]);
-            sent_rows[owner].push_back({c.rows[i], p, static_cast<unsigned int>(c.end(i) - c.begin(i)),
-                                        c.weight[i], pair.gaps[i], pair.normals[i], pair.positions[i],
-                                        pair.fixed[i], 0});
-            std::vector<InterfaceCoupling::Entry> &list = sent_entries[owner];
-            list.insert(list.end(), c.begin(i), c.end(i));
+            const Vector3       normal = m.covered / m.area * area_vector(surface, face);
+            std::set<NodeIndex> nodes;
+            for (const unsigned int v : face.corners)
+              insert_conforming(nodes, surface, v);
+            for (const NodeIndex node : nodes)
+              normals[node] += normal;
+          }
+      return normals;
+    }
+
+    /// What the pairs make of one node that they touch: which of them have it as a row, if any.
+    class NodeOfSeveralPairs
+    {
+    public:
+      explicit NodeOfSeveralPairs(const std::vector<Touch> &touches, const SharedRowRule &rule)
+      {
+        std::map<unsigned int, Touch> sums;
+        for (const Touch &touch : touches)
+          {
+            if (touch.is_mortar)
+              return;
+            const auto [sum, is_new] = sums.insert({touch.pair, touch});
+            if (!is_new)
+              sum->second.normal += touch.normal;
+          }
+        const auto looks_like = [&](const Touch &a, const Touch &b) {
+          return a.is_tied == b.is_tied &&
+                 a.normal * b.normal >= rule.least_cosine * a.normal.norm() * b.normal.norm();
+        };
+        for (const auto &one : sums)
+          for (const auto &other : sums)
+            if (!looks_like(one.second, other.second))
+              return;
+        const Touch *first = nullptr;
+        // Equal areas are so up to rounding.
+        for (const auto &[pair, touch] : sums)
+          if (first == nullptr || touch.normal.norm() > 1.000001 * first->normal.norm())
+            first = &touch;
+        for (const auto &[pair, touch] : sums)
+          if (touch.mortar_body == first->mortar_body)
+            owners.insert(pair);
+      }
+
+      bool is_excluded() const
+      {
+        return owners.empty();
+      }
+
+      bool is_ceded_by(const unsigned int pair) const
+      {
+        return !owners.empty() && owners.count(pair) == 0;
+      }
+
+      /// What has become of it does not work: something else. Pairs that share it keep it, then it is
+      /// excluded.
+      void change()
+      {
+        if (is_kept || owners.size() == 1)
+          owners.clear();
+        else
+          is_kept = true;
+      }
+
+      std::set<unsigned int> owners;
+      bool                   is_kept = false;
+    };
+
+    /// The nodes that several pairs touch. They meet on some rank, whichever it is; that rank decides, the
+    /// others get to know what it has decided of the nodes that they touch.
+    class NodesOfSeveralPairs
+    {
+    public:
+      /// Collective.
+      NodesOfSeveralPairs(const std::vector<PairToCouple> &pairs, const MPI_Comm communicator,
+                          const SharedRowRule &rule)
+        : comm(communicator)
+        , n_ranks(Utilities::MPI::n_mpi_processes(communicator))
+        , known(pairs.size())
+      {
+        meet(pairs);
+        std::vector<NodeIndex> decided;
+        for (const auto &[node, some] : touches)
+          {
+            nodes.emplace(node, NodeOfSeveralPairs(some, rule));
+            decided.push_back(node);
+          }
+        tell(decided);
+      }
+
+      /// What a pair has to know.
+      const NodesOfOtherPairs &of_pair(const unsigned int pair) const
+      {
+        return known[pair];
+      }
+
+      /// Collective. Decides again on nodes that are a row in one pair and a column in another. Returns
+      /// whether there are any.
+      bool settle(const std::vector<PairCoupling> &couplings)
+      {
+        struct Use
+        {
+          NodeIndex node;
+          bool      is_row;
+        };
+        ListsByRank<Use> sent;
+        for (const PairCoupling &pair : couplings)
+          {
+            const auto send = [&](const NodeIndex node, const bool is_row) {
+              if (undecided.count(node) > 0)
+                sent[meeting_at(node)].push_back({node, is_row});
+            };
+            for (const NodeIndex node : pair.coupling.rows)
+              send(node, true);
+            for (const NodeIndex node : pair.r_nodes)
+              send(node, false);
+          }
+        std::set<NodeIndex> rows, columns;
+        for (const auto &[sender, list] : send_lists(sent, comm))
+          for (const Use &use : list)
+            (use.is_row ? rows : columns).insert(use.node);
+        std::vector<NodeIndex> changed;
+        std::set_intersection(rows.begin(), rows.end(), columns.begin(), columns.end(),
+                              std::back_inserter(changed));
+        for (const NodeIndex node : changed)
+          nodes.at(node).change();
+        tell(changed);
+        return Utilities::MPI::sum(changed.size(), comm) > 0;
+      }
+
+    private:
+      unsigned int meeting_at(const NodeIndex node) const
+      {
+        return static_cast<unsigned int>(node % n_ranks);
+      }
+
+      void meet(const std::vector<PairToCouple> &pairs)
+      {
+        ListsByRank<Touch> sent;
+        for (unsigned int p = 0; p < pairs.size(); ++p)
+          {
+            Touch touch{0, p, false, pairs[p].is_tied, pairs[p].mortar_body, Vector3(), 0};
+            for (const auto &[node, normal] : touched_normals(pairs[p]))
+              {
+                touch.node   = node;
+                touch.normal = normal;
+                sent[meeting_at(node)].push_back(touch);
+              }
+            touch.is_mortar = true;
+            for (const NodeIndex node : touched_mortar_nodes(pairs[p].surfaces.mortar, pairs[p].moments))
+              {
+                touch.node = node;
+                sent[meeting_at(node)].push_back(touch);
+              }
+          }
+        for (const auto &[sender, list] : send_lists(sent, comm))
+          for (Touch touch : list)
+            {
+              touch.sender = sender;
+              touches[touch.node].push_back(touch);
+            }
+        for (auto entry = touches.begin(); entry != touches.end();)
+          {
+            const std::vector<Touch> &some = entry->second;
+            const bool                has_conflict =
+                std::any_of(some.begin(), some.end(), [](const Touch &touch) { return !touch.is_mortar; }) &&
+                std::any_of(some.begin(), some.end(), [&](const Touch &touch) {
+                  return touch.pair != some[0].pair || touch.is_mortar != some[0].is_mortar;
+                });
+            entry = has_conflict ? std::next(entry) : touches.erase(entry);
           }
       }
-    std::vector<PackedRow>                rows;
-    std::vector<InterfaceCoupling::Entry> entries;
-    ListsByRank<char>                     parcels;
-    for (const auto &[rank, list] : sent_rows)
+
+      /// Collective. Tells those that touch some nodes what has become of them.
+      void tell(const std::vector<NodeIndex> &decided)
       {
-        Parcel parcel;
-        parcel.write(list);
-        parcel.write(sent_entries.at(rank));
-        parcels[rank] = parcel.bytes();
+        struct Decision
+        {
+          NodeIndex    node;
+          unsigned int pair;
+          bool         is_excluded, is_ceded, is_kept;
+        };
+        ListsByRank<Decision> sent;
+        for (const NodeIndex node : decided)
+          for (const Touch &touch : touches.at(node))
+            {
+              const NodeOfSeveralPairs &some = nodes.at(node);
+              sent[touch.sender].push_back(
+                  {node, touch.pair, some.is_excluded(), some.is_ceded_by(touch.pair), some.is_kept});
+            }
+        for (const auto &[sender, list] : send_lists(sent, comm))
+          for (const Decision &decision : list)
+            {
+              NodesOfOtherPairs &pair = known[decision.pair];
+              if (decision.is_excluded)
+                pair.excluded.insert(decision.node);
+              else if (decision.is_ceded)
+                pair.ceded.insert(decision.node);
+              else if (decision.is_kept)
+                pair.kept.insert(decision.node);
+              if (decision.is_excluded)
+                undecided.erase(decision.node);
+              else
+                undecided.insert(decision.node);
+            }
       }
-    for (const auto &[rank, bytes] : send_lists(parcels, communicator))
+
+      const MPI_Comm     comm;
+      const unsigned int n_ranks;
+      /// The nodes that meet here, and what the pairs make of them.
+      std::map<NodeIndex, std::vector<Touch>> touches;
+      std::map<NodeIndex, NodeOfSeveralPairs> nodes;
+      /// What this rank got to know, by pair; nodes that are rows of some pair.
+      std::vector<NodesOfOtherPairs> known;
+      std::set<NodeIndex>            undecided;
+    };
+  } // namespace
+
+
+
+  std::vector<PairCoupling> couple_pairs(const std::vector<PairToCouple> &pairs, const MPI_Comm communicator,
+                                         const DroppingRule &rule, const SharedRowRule &shared_rule)
+  {
+    NodesOfSeveralPairs several(pairs, communicator, shared_rule);
+    // Each round changes what becomes of at least one node, and none is changed more than twice; one or two
+    // rounds are the rule.
+    while (true)
       {
-        Parcel     parcel(bytes);
-        const auto some_rows    = parcel.read<PackedRow>();
-        const auto some_entries = parcel.read<InterfaceCoupling::Entry>();
-        rows.insert(rows.end(), some_rows.begin(), some_rows.end());
-        entries.insert(entries.end(), some_entries.begin(), some_entries.end());
+        std::vector<PairCoupling> couplings;
+        for (unsigned int p = 0; p < pairs.size(); ++p)
+          couplings.push_back(
+              couple(pairs[p].surfaces, pairs[p].moments, several.of_pair(p), pairs[p].prescribed_gap, rule));
+        if (!several.settle(couplings))
+          return couplings;
       }
-    std::size_t begin = 0;
-    for (PackedRow &row : rows)
-      {
-        row.begin = begin;
-        begin += row.n_entries;
-      }
-    std::sort(rows.begin(), rows.end());
-    JoinedCouplings    joined;
-    InterfaceCoupling &coupling = joined.coupling;
-    std::string        error;
-    for (const PackedRow &row : rows)
-      {
-        if (error.empty() && !coupling.rows.empty() && coupling.rows.back() == row.node)
-          error = "Contact pairs " + pair_name(names, joined.pairs.back()) + " and " +
-                  pair_name(names, row.pair) + " share " + describe(row.node, row.position) +
-                  ", which carries a contact stress in both. Take it out of one of the pairs.";
-        coupling.rows.push_back(row.node);
-        coupling.weight.push_back(row.weight);
-        coupling.entries.insert(coupling.entries.end(), entries.begin() + row.begin,
-                                entries.begin() + row.begin + row.n_entries);
-        coupling.row_start.push_back(coupling.entries.size());
-        joined.pairs.push_back(row.pair);
-        joined.normals.push_back(row.normal);
-        joined.gaps.push_back(row.gap);
-        joined.fixed.push_back(row.fixed);
-        joined.positions.push_back(row.position);
-      }
-    throw_everywhere(error, communicator);
-    throw_everywhere(describe_chain(joined, names, partition), communicator);
-    return joined;
   }
 } // namespace Signorini

@@ -145,12 +145,18 @@ namespace Signorini
             const auto         &corners = non.faces[m.face].corners;
             std::array<bool, 4> in_v;
             for (unsigned int a = 0; a < 4; ++a)
-              in_v[a] = a < non.faces[m.face].n_corners && !nodes.is_in_r(corners[a]);
-            const DualBasis psi = compute_dual_basis(m.mass, in_v);
-            if (psi.n_functions == 0 && is_own)
-              result.lost_area += m.covered;
+              in_v[a] = a < non.faces[m.face].n_corners &&
+                        (!nodes.is_in_r(corners[a]) || nodes.is_ceded(corners[a]));
+            const DualBasis psi     = compute_dual_basis(m.mass, in_v);
+            bool            is_lost = true;
             for (unsigned int i = 0; i < psi.n_functions; ++i)
-              add_function(m, corners, psi.corner[i], psi.coefficients[i]);
+              if (!nodes.is_ceded(corners[psi.corner[i]]))
+                {
+                  add_function(m, corners, psi.corner[i], psi.coefficients[i]);
+                  is_lost = false;
+                }
+            if (is_lost && is_own)
+              result.lost_area += m.covered;
           }
       }
 
@@ -210,11 +216,11 @@ namespace Signorini
             m_sum.add(factor, m_rows[v]);
             gap += factor * gaps[v];
           }
-        // D is diagonal on K up to rounding (more on slivers): the rest goes to the diagonal, so that the row
-        // sums of D and M stay equal.
-        const double negligible = 1e-14 * d_sum.values[k];
-        const auto   is_column  = [&](const unsigned int j) {
-          return !nodes.is_row(j) && std::abs(d_sum.values[j]) > negligible;
+        // D is diagonal on K up to rounding (more on slivers), and zero at ceded nodes without hanging
+        // neighbours: the rest goes to the diagonal, so that the row sums of D and M stay equal.
+        const auto is_column = [&](const unsigned int j) {
+          return !nodes.is_row(j) &&
+                 std::abs(d_sum.values[j]) > (nodes.is_ceded(j) ? 1e-10 : 1e-14) * d_sum.values[k];
         };
         double weight = 0., area = 0.;
         for (const unsigned int j : d_sum.touched)
@@ -293,10 +299,9 @@ namespace Signorini
 
 
   PairCoupling couple(const SharedPair &pair, const std::vector<FaceMoments> &moments,
-                      const std::set<NodeIndex> &excluded, const bool prescribed_gap,
-                      const DroppingRule &rule)
+                      const NodesOfOtherPairs &others, const bool prescribed_gap, const DroppingRule &rule)
   {
-    MultiplierNodes   nodes(pair.nonmortar, pair.halo, moments, excluded, rule);
+    MultiplierNodes   nodes(pair.nonmortar, pair.halo, moments, others, rule);
     CouplingAssembler assembler(pair.nonmortar, pair.mortar, pair.halo, moments, prescribed_gap);
     nodes.complete();
     PairCoupling result = assembler.assemble(nodes);
@@ -351,10 +356,10 @@ namespace Signorini
 
 
   PairCoupling couple(const ContactSurface &nonmortar, const ContactSurface &mortar,
-                      const std::vector<FaceMoments> &moments, const std::set<NodeIndex> &excluded,
+                      const std::vector<FaceMoments> &moments, const NodesOfOtherPairs &others,
                       const bool prescribed_gap, const DroppingRule &rule)
   {
-    return couple(SharedPair{nonmortar, mortar, SurfaceHalo(nonmortar, MPI_COMM_SELF)}, moments, excluded,
+    return couple(SharedPair{nonmortar, mortar, SurfaceHalo(nonmortar, MPI_COMM_SELF)}, moments, others,
                   prescribed_gap, rule);
   }
 } // namespace Signorini

@@ -288,7 +288,7 @@ namespace Signorini
     const double                               size    = surface.extent();
     const unsigned int                         rank    = Utilities::MPI::this_mpi_process(communicator);
     GapUnderLoad                               under_load(surface, pressure);
-    double min_initial = std::numeric_limits<double>::infinity(), min_gap = min_initial;
+    LeastGap                                   initially, deformed;
     for (unsigned int t = 0; t < surface.mesh.triangles.size(); ++t)
       if (surface.faces[surface.triangle_face[t]].worker == rank)
         {
@@ -310,15 +310,18 @@ namespace Signorini
               double gap;
               if (obstacle.gap(gap, Point<3>(x), n, size))
                 {
-                  min_initial = std::min(min_initial, gap);
+                  initially.add(gap, Point<3>(x));
                   if (obstacle.gap(gap, Point<3>(x + u), n, size))
-                    least = std::min(least, gap);
+                    {
+                      deformed.add(gap, Point<3>(x));
+                      least = std::min(least, gap);
+                    }
                 }
             }
-          min_gap = std::min(min_gap, least);
           under_load.add(t, triangle_area(surface.mesh, t), least);
         }
-    return {Utilities::MPI::min(min_initial, communicator), Utilities::MPI::min(min_gap, communicator),
-            under_load.mean(communicator)};
+    initially.reduce(communicator);
+    deformed.reduce(communicator);
+    return {initially.value(), deformed.value(), deformed.place(), under_load.mean(communicator)};
   }
 } // namespace Signorini

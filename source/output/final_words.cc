@@ -25,11 +25,6 @@ namespace Signorini
       return out.str();
     }
 
-    std::string text(const Point<3> &x)
-    {
-      return text(Vector3(x), Vector3(x).norm());
-    }
-
     std::string degrees(const double angle)
     {
       std::ostringstream out;
@@ -41,9 +36,10 @@ namespace Signorini
     {
       const double scale = std::max({body.load.norm(), body.reaction.norm(), body.contact.norm()});
       out << "body " << body.name << ": largest displacement " << body.largest_displacement << " at "
-          << text(body.displacement_at) << ", largest von Mises stress " << body.largest_von_mises << " at "
-          << text(body.von_mises_at) << "\n  forces: loads " << text(body.load, scale) << ", reactions "
-          << text(body.reaction, scale) << ", contact " << text(body.contact, scale) << '\n';
+          << place_text(body.displacement_at) << ", largest von Mises stress " << body.largest_von_mises
+          << " at " << place_text(body.von_mises_at) << "\n  forces: loads " << text(body.load, scale)
+          << ", reactions " << text(body.reaction, scale) << ", contact " << text(body.contact, scale)
+          << '\n';
     }
 
     /// The largest pressure without the scatter of multipliers on unstructured meshes, where that is another
@@ -70,7 +66,7 @@ namespace Signorini
           << text(pair.force, pair.force.norm());
       if (pair.contact_area > 0.)
         out << "\n  contact area " << pair.contact_area << ", largest pressure " << pair.max_pressure
-            << " at " << text(pair.max_pressure_at) << smoothed_text(pair);
+            << " at " << place_text(pair.max_pressure_at) << smoothed_text(pair);
       out << '\n';
     }
 
@@ -122,6 +118,13 @@ namespace Signorini
         out << "  " << line << '\n';
     }
   } // namespace
+
+
+
+  std::string place_text(const Point<3> &place)
+  {
+    return text(Vector3(place), Vector3(place).norm());
+  }
 
 
 

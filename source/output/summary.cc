@@ -158,6 +158,7 @@ namespace Signorini
       json.number("contact_area", pair.contact_area);
       json.number("coverage", pair.coverage);
       json.number("min_gap", pair.min_gap);
+      json.vector("min_gap_at", Vector3(pair.min_gap_at));
       json.number("max_penetration", pair.max_penetration);
       json.number("loaded_gap", pair.loaded_gap);
       json.number("initial_penetration", pair.initial_penetration);

@@ -7,6 +7,7 @@
 #include <signorini/mortar/face_moments.h>
 #include <signorini/mortar/surface_values.h>
 
+#include <limits>
 #include <vector>
 
 namespace Signorini
@@ -18,6 +19,8 @@ namespace Signorini
     /// Least initial_gap()·n(x), and least of that after deformation; infinite where nothing is covered by
     /// what it may touch.
     double min_initial_gap, min_gap;
+    /// Where the latter is: a point of the nonmortar surface before it is deformed.
+    dealii::Point<3> min_gap_at;
     /// Over what gap the contact forces act: mean over them of the least gap after deformation of the face
     /// that they act on, none counted below zero; zero without forces.
     double loaded_gap;
@@ -27,6 +30,33 @@ namespace Signorini
     {
       return -min_gap;
     }
+  };
+
+  /// The least gap of a surface and where it is; infinite without any.
+  class LeastGap
+  {
+  public:
+    /// A gap somewhere.
+    void add(const double gap, const dealii::Point<3> &place);
+
+    /// Collective. Those of all ranks.
+    void reduce(const MPI_Comm communicator);
+
+    /// The gap.
+    double value() const
+    {
+      return least;
+    }
+
+    /// Where it is.
+    const dealii::Point<3> &place() const
+    {
+      return where;
+    }
+
+  private:
+    double           least = std::numeric_limits<double>::infinity();
+    dealii::Point<3> where;
   };
 
   /// The least gap of every face, and its mean over the contact forces.

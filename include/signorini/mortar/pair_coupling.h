@@ -116,12 +116,23 @@ namespace Signorini
     const SurfaceHalo    &halo;
   };
 
+  /// What other pairs make of nodes of a nonmortar surface (couple_pairs()).
+  struct NodesOfOtherPairs
+  {
+    /// Nodes that must not carry a multiplier: columns where rows need them.
+    std::set<NodeIndex> excluded;
+    /// Nodes that another pair has as rows: neither rows nor columns here. The dual functions of their
+    /// neighbours are those that there would be with them; theirs are left out.
+    std::set<NodeIndex> ceded;
+    /// Nodes that carry one, however thinly covered, because they do in another pair.
+    std::set<NodeIndex> kept;
+  };
+
   /// Collective. The coupling of one pair from the moments of own and ghost faces
   /// (SurfaceHalo::add_ghosts()). A row is the same, bit by bit, on any number of ranks.
-  /// @param excluded nodes that must not carry a multiplier because of another pair (excluded_nodes())
   /// @param prescribed_gap whether the moments hold gap values instead of vectors
   PairCoupling couple(const SharedPair &pair, const std::vector<FaceMoments> &moments,
-                      const std::set<NodeIndex> &excluded, const bool prescribed_gap,
+                      const NodesOfOtherPairs &others, const bool prescribed_gap,
                       const DroppingRule &rule = {});
 
   /// Collective. Largest distance of a row's node from that of the first row of all ranks (length).
@@ -129,7 +140,7 @@ namespace Signorini
 
   /// couple() of a surface that belongs to this rank alone.
   PairCoupling couple(const ContactSurface &nonmortar, const ContactSurface &mortar,
-                      const std::vector<FaceMoments> &moments, const std::set<NodeIndex> &excluded,
+                      const std::vector<FaceMoments> &moments, const NodesOfOtherPairs &others,
                       const bool prescribed_gap, const DroppingRule &rule = {});
 
   /// Collective. Values of the rows of all ranks by vertex of the nonmortar surface: at the vertices of this
@@ -143,42 +154,6 @@ namespace Signorini
     halo.update(result);
     return result;
   }
-
-  /// Nodes (conforming) of either side that the covered part of this rank's faces touches.
-  std::set<NodeIndex> touched_nonmortar_nodes(const ContactSurface           &nonmortar,
-                                              const std::vector<FaceMoments> &moments);
-  std::set<NodeIndex> touched_mortar_nodes(const ContactSurface           &mortar,
-                                           const std::vector<FaceMoments> &moments);
-
-  /// Collective. For each pair those of its touched nonmortar nodes that must not carry a multiplier there,
-  /// given the nodes that all pairs touch on this rank: what is mortar in any pair, or nonmortar in another
-  /// one, on any rank. With these, join_couplings() cannot fail.
-  ///
-  /// A node that is nonmortar in two pairs carries a multiplier in none of them: the second pair needs it as
-  /// a column (set R), and no column may be a row (S² = 0, doc/algorithm.md, (16)).
-  std::vector<std::set<NodeIndex>> excluded_nodes(const std::vector<std::set<NodeIndex>> &touched_nonmortar,
-                                                  const std::vector<std::set<NodeIndex>> &touched_mortar,
-                                                  const MPI_Comm                          communicator);
-
-  /// The rows of all pairs at the nodes that a rank owns, sorted by node.
-  struct JoinedCouplings
-  {
-    /// S and D of all pairs.
-    InterfaceCoupling coupling;
-    /// By row: the pair it comes from, and as in PairCoupling.
-    std::vector<unsigned int>     pairs;
-    std::vector<Vector3>          normals;
-    std::vector<double>           gaps;
-    std::vector<FixedDirections>  fixed;
-    std::vector<dealii::Point<3>> positions;
-  };
-
-  /// Collective. Joins the couplings of all pairs: rows go to the ranks that own their nodes.
-  /// @param names of the pairs, for messages; numbers if left out
-  /// Errors: InputError naming the pairs if a node is a row twice, or a row of one pair and a column of
-  /// another (S² is not 0, the pairs form a chain or a cycle).
-  JoinedCouplings join_couplings(const std::vector<PairCoupling> &pairs,
-                                 const std::vector<std::string> &names, const NodePartition &partition);
 } // namespace Signorini
 
 #endif

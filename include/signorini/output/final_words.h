@@ -12,6 +12,9 @@
 
 namespace Signorini
 {
+  /// "(x, y, z)"; what is rounding against the rest is 0.
+  std::string place_text(const dealii::Point<3> &place);
+
   /// Where displacements are too large for a theory of small ones, in words; empty if they are small.
   std::vector<std::string> large_displacements(const Results &results);
 

@@ -75,8 +75,8 @@ namespace Signorini
     double moment_balance = 0.;
     /// Nodes without a multiplier although covered.
     std::size_t dropped_nodes = 0;
-    /// Where the pressure is largest.
-    dealii::Point<3> max_pressure_at;
+    /// Where the pressure is largest, and the gap after the deformation least.
+    dealii::Point<3> max_pressure_at, min_gap_at;
     /// load / contact_area; the largest recovered pressure, which does not scatter from node to node
     /// (recover_pressure()), and where it is.
     double           mean_pressure = 0., max_recovered_pressure = 0.;

@@ -11,6 +11,7 @@
 #include <signorini/mesh/surface_piece.h>
 #include <signorini/mortar/contact_forces.h>
 #include <signorini/mortar/face_shares.h>
+#include <signorini/mortar/pair_conflicts.h>
 
 #include <gtest/gtest.h>
 
@@ -177,8 +178,8 @@ TEST(InterfaceParts, RowsAreThoseOfTheWhole)
       const auto        own =
           compute_face_moments(interface.non, interface.mor, own_part(interface, rank), {}, comm);
       const auto ghosted = halo.add_ghosts(own);
-      const auto part =
-          couple(SharedPair{interface.non, interface.mor, halo}, ghosted, interface.excluded, false, rule);
+      const auto part    = couple(SharedPair{interface.non, interface.mor, halo}, ghosted,
+                                  {interface.excluded, {}, {}}, false, rule);
 
       EXPECT_EQ(part.n_rows_of_all, whole.coupling.n_rows());
       EXPECT_EQ(dealii::Utilities::MPI::sum(part.coupling.n_rows(), comm), whole.coupling.n_rows());
@@ -235,6 +236,95 @@ TEST(InterfaceParts, RowsAreThoseOfTheWhole)
     }
   EXPECT_GT(n_dropped, 200u);
   EXPECT_GT(n_lost, 10u);
+}
+
+
+
+namespace
+{
+  /// One random surface under two others, each pair with its own overlay.
+  struct RandomPairs
+  {
+    explicit RandomPairs(const unsigned int seed)
+      : interface(seed)
+    {
+      Grid g{interface.number(2, 9), interface.number(2, 9), interface.uniform(.2, .9), 1.3, 0., 1., {}, .2};
+      g.refined    = {{0, 0}, {interface.number(0, g.nx - 1), interface.number(0, g.ny - 1)}};
+      g.first_node = 3000;
+      g.faces_up   = false;
+      other        = make_surface(g);
+      overlays     = {interface.overlay, make_overlay(interface.non, other)};
+      body         = interface.number(0, 1);
+      is_tied      = interface.number(0, 5) == 0;
+    }
+
+    /// The joined rows of the nodes of this rank.
+    JoinedCouplings join(const MPI_Comm comm) const
+    {
+      const unsigned int          rank = this_mpi_process(comm), n_ranks = n_mpi_processes(comm);
+      const SurfaceHalo           halo(interface.non, comm);
+      const ContactSurface *const mortars[2] = {&interface.mor, &other};
+      std::vector<FaceMoments>    moments[2];
+      std::vector<PairToCouple>   pairs;
+      for (unsigned int p = 0; p < 2; ++p)
+        {
+          std::vector<OverlayTriangle> own;
+          for (const OverlayTriangle &cell : overlays[p])
+            if (interface.non.faces[interface.non.triangle_face[cell.nonmortar_triangle]].worker == rank)
+              own.push_back(cell);
+          moments[p] = halo.add_ghosts(compute_face_moments(interface.non, *mortars[p], own, {}, comm));
+        }
+      for (unsigned int p = 0; p < 2; ++p)
+        pairs.push_back({{interface.non, *mortars[p], halo}, moments[p], false, p == 1 && is_tied, p * body});
+      dealii::IndexSet owned(5000);
+      owned.add_range(rank * 5000 / n_ranks, (rank + 1) * 5000 / n_ranks);
+      return join_couplings(couple_pairs(pairs, comm), {}, NodePartition(owned, owned, comm));
+    }
+
+    RandomInterface                           interface;
+    ContactSurface                            other;
+    std::vector<std::vector<OverlayTriangle>> overlays;
+    unsigned int                              body;
+    bool                                      is_tied;
+  };
+} // namespace
+
+// Nodes of two pairs: decided on some rank, the same on any number of them. No row is a column.
+TEST(InterfaceParts, SharedRowsAreThoseOfTheWhole)
+{
+  const MPI_Comm comm   = MPI_COMM_WORLD;
+  std::size_t    n_rows = 0;
+  for (unsigned int seed = 0; seed < 100; ++seed)
+    {
+      SCOPED_TRACE("interface " + std::to_string(seed));
+      RandomPairs           pairs(seed);
+      const JoinedCouplings whole = pairs.join(MPI_COMM_SELF);
+      share(pairs.interface, n_mpi_processes(comm));
+      const JoinedCouplings part = pairs.join(comm);
+      EXPECT_EQ(dealii::Utilities::MPI::sum(part.coupling.n_rows(), comm), whole.coupling.n_rows());
+      for (std::size_t i = 0; i < part.coupling.n_rows(); ++i)
+        {
+          const std::ptrdiff_t j = whole.coupling.find(part.coupling.rows[i]);
+          ASSERT_GE(j, 0);
+          EXPECT_EQ(part.pairs[i], whole.pairs[j]);
+          EXPECT_EQ(part.gaps[i], whole.gaps[j]);
+          EXPECT_EQ(part.coupling.weight[i], whole.coupling.weight[j]);
+          EXPECT_EQ((part.normals[i] - whole.normals[j]).norm(), 0.);
+          ASSERT_EQ(part.coupling.end(i) - part.coupling.begin(i),
+                    whole.coupling.end(j) - whole.coupling.begin(j));
+          double sum = 0.;
+          for (auto *x = part.coupling.begin(i), *y = whole.coupling.begin(j); x != part.coupling.end(i);
+               ++x, ++y)
+            {
+              EXPECT_EQ(x->node, y->node);
+              EXPECT_EQ(x->weight, y->weight);
+              sum += x->weight;
+            }
+          EXPECT_NEAR(sum, 1., 1e-11);
+        }
+      n_rows += whole.coupling.n_rows();
+    }
+  EXPECT_GT(n_rows, 2000u);
 }
 
 

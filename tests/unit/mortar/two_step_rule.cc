@@ -33,7 +33,7 @@ namespace
       incline(non, scale);
       incline(mor, scale);
       const auto moments = compute_face_moments(non, mor, overlay, {}, MPI_COMM_SELF);
-      coupling           = couple(non, mor, moments, excluded, false, rule);
+      coupling           = couple(non, mor, moments, {excluded, {}, {}}, false, rule);
     }
 
     /// Error of the nodal forces of a unit pressure relative to the largest force.

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_mortar_pair_conflicts_h
+#define signorini_mortar_pair_conflicts_h
+
+#include <signorini/mortar/pair_coupling.h>
+
+#include <string>
+#include <vector>
+
+namespace Signorini
+{
+  /// When a node that is nonmortar in several pairs is a row of some of them (doc/algorithm.md, chapter 3,
+  /// several pairs). A pure number.
+  struct SharedRowRule
+  {
+    /// Least cosine between what two pairs cover around the node: 60 degrees apart the surfaces are two, as
+    /// those of a sharp edge (FacingParts), and no normal stands for both.
+    double least_cosine = .5;
+  };
+
+  /// One pair among several.
+  struct PairToCouple
+  {
+    /// Its surfaces, and the moments of own and ghost faces, which must outlive this.
+    SharedPair                      surfaces;
+    const std::vector<FaceMoments> &moments;
+    /// As in couple(); whether the surfaces are glued together.
+    bool prescribed_gap, is_tied;
+    /// Number of the body on the mortar side, one that no body has for an obstacle.
+    unsigned int mortar_body;
+  };
+
+  /// Collective. couple() of several pairs, so that join_couplings() cannot fail. A node that is mortar in
+  /// any pair is a row in none. So is one that is nonmortar in several if they do not look the same way there
+  /// (SharedRowRule) or are not all tied or all in contact. Else it belongs to the one that covers most
+  /// around it. Those with the same mortar body share the row, however thinly they cover it, the others cede
+  /// the node. It is a row in none if that does not work out (hanging vertices beside ceded nodes).
+  std::vector<PairCoupling> couple_pairs(const std::vector<PairToCouple> &pairs, const MPI_Comm communicator,
+                                         const DroppingRule  &rule        = {},
+                                         const SharedRowRule &shared_rule = {});
+
+  /// Nodes (conforming) of either side that the covered part of this rank's faces touches.
+  std::set<NodeIndex> touched_nonmortar_nodes(const ContactSurface           &nonmortar,
+                                              const std::vector<FaceMoments> &moments);
+  std::set<NodeIndex> touched_mortar_nodes(const ContactSurface           &mortar,
+                                           const std::vector<FaceMoments> &moments);
+
+  /// The rows of all pairs at the nodes that a rank owns, sorted by node.
+  struct JoinedCouplings
+  {
+    /// S and D of all pairs. A row that pairs a, b, ... share (doc/algorithm.md, (16a)):
+    /// D = D_a + D_b + ..., S = (D_a S_a + D_b S_b + ...) / D.
+    InterfaceCoupling coupling;
+    /// By row: the (first) pair it comes from, and as in PairCoupling; means with the weights D if shared.
+    std::vector<unsigned int>     pairs;
+    std::vector<Vector3>          normals;
+    std::vector<double>           gaps;
+    std::vector<FixedDirections>  fixed;
+    std::vector<dealii::Point<3>> positions;
+  };
+
+  /// Collective. Joins the couplings of all pairs: rows go to the ranks that own their nodes.
+  /// @param names of the pairs, for messages; numbers if left out
+  /// Errors: InputError naming the pairs if a row of one pair is a column of another (S² is not 0, the pairs
+  /// form a chain or a cycle), or if the normals of a shared row are opposite.
+  JoinedCouplings join_couplings(const std::vector<PairCoupling> &pairs,
+                                 const std::vector<std::string> &names, const NodePartition &partition);
+} // namespace Signorini
+
+#endif
