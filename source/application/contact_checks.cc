@@ -6,6 +6,7 @@
 #include <signorini/algebra/gathered_lists.h>
 #include <signorini/algebra/input_error.h>
 #include <signorini/application/contact_checks.h>
+#include <signorini/application/contact_evaluation.h>
 #include <signorini/mortar/face_claims.h>
 #include <signorini/mortar/pair_conflicts.h>
 #include <signorini/mortar/surface_values.h>
@@ -352,8 +353,8 @@ namespace Signorini
 
   namespace
   {
-    /// Calls f(vertex or point of the nonmortar surface, its normal, gap) where surfaces face each other: at
-    /// the corners of the overlay cells of this rank.
+    /// Collective. Calls f(vertex or point of the nonmortar surface, its normal, gap) where surfaces face
+    /// each other: at the corners of the overlay cells of this rank.
     template <typename F>
     void for_each_gap(const ContactPair &pair, const F &f)
     {
@@ -369,7 +370,7 @@ namespace Signorini
           }
       if (!pair.mapping)
         return;
-      const SurfaceValues on_nonmortar(non), on_mortar(mor);
+      const SurfaceValues on_nonmortar(non, sharp_vertices(pair)), on_mortar(mor);
       for (const OverlayTriangle &cell : pair.mapping->overlay())
         for (unsigned int c = 0; c < 3; ++c)
           {
@@ -378,7 +379,7 @@ namespace Signorini
             const Point<3> x             = on_nonmortar.point(cell.nonmortar_triangle, cell.nonmortar[c]);
             const Point<3> image         = on_mortar.point(cell.mortar_triangle, cell.mortar[c]);
             const Vector3  n             = on_nonmortar.normal(cell.nonmortar_triangle, cell.nonmortar[c]);
-            const Vector3  other         = on_mortar.normal(cell.mortar_triangle, cell.mortar[c]);
+            const Vector3  other         = on_mortar.facet_normal(cell.mortar_triangle);
             if (pair.prescribed_gap)
               f(x, n, pair.prescribed_gap(x));
             else if (may_touch(n, other))

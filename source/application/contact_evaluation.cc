@@ -10,6 +10,7 @@
 #include <signorini/application/nodal_sums.h>
 #include <signorini/discretization/elasticity.h>
 #include <signorini/discretization/element.h>
+#include <signorini/mesh/facing_parts.h>
 #include <signorini/mesh/surface_extraction.h>
 #include <signorini/mortar/contact_forces.h>
 #include <signorini/mortar/geometric_penetration.h>
@@ -74,12 +75,18 @@ namespace Signorini
       double  scale = 0., n_nodes = 0., square = 0.;
     };
 
-    /// The cells of the overlay over faces that the pair covers: others it has left to a nearer pair.
-    std::vector<OverlayTriangle> covered_overlay(const ContactPair &pair)
+    /// Which faces a pair covers: others it has left to a nearer pair.
+    std::vector<bool> covered_faces(const ContactPair &pair)
     {
-      std::vector<bool> is_covered(pair.nonmortar.surface.faces.size(), false);
+      std::vector<bool> result(pair.nonmortar.surface.faces.size(), false);
       for (const FaceMoments &m : pair.moments)
-        is_covered[m.face] = m.covered > 0.;
+        result[m.face] = m.covered > 0.;
+      return result;
+    }
+
+    /// The cells of the overlay over some faces.
+    std::vector<OverlayTriangle> overlay_of(const ContactPair &pair, const std::vector<bool> &is_covered)
+    {
       std::vector<OverlayTriangle> cells;
       for (const OverlayTriangle &cell : pair.mapping->overlay())
         if (is_covered[pair.nonmortar.surface.triangle_face[cell.nonmortar_triangle]])
@@ -97,8 +104,9 @@ namespace Signorini
       const auto         displaced = vertex_values(pair.nonmortar.surface, d.partition(), displacement);
       if (pair.obstacle)
         return sample_rigid_penetration(pair.nonmortar.surface, *pair.obstacle, displaced, pressure, comm);
+      const std::vector<OverlayTriangle> overlay = overlay_of(pair, covered_faces(pair));
       return sample_geometric_penetration(
-          {pair.nonmortar.surface, pair.mortar.surface, covered_overlay(pair)}, displaced,
+          {pair.nonmortar.surface, pair.mortar.surface, overlay, sharp_vertices(pair)}, displaced,
           vertex_values(pair.mortar.surface, d.partition(), displacement), pressure, pair.prescribed_gap,
           comm);
     }
@@ -125,6 +133,16 @@ namespace Signorini
         result.moment_balance = moments.norm() / (result.load * width);
     }
   } // namespace
+
+
+
+  std::vector<bool> sharp_vertices(const ContactPair &pair)
+  {
+    const std::vector<bool>    here = vertices_on_sharp_edges(pair.nonmortar.surface, covered_faces(pair));
+    std::vector<unsigned char> flags(here.begin(), here.end());
+    pair.halo->update(flags);
+    return std::vector<bool>(flags.begin(), flags.end());
+  }
 
 
 

@@ -82,7 +82,7 @@ namespace Signorini
                                  Utilities::MPI::this_mpi_process(d.nodal().communicator()));
       const auto           other   = vertex_values(mor, d.partition(), displacement);
       const auto           overlay = pair.mapping->overlay();
-      const FacingSurfaces facing{non, mor, overlay};
+      const FacingSurfaces facing{non, mor, overlay, sharp_vertices(pair)};
       return pair.is_tied ? tie_violation(facing, own, other, mu)
                           : contact_violation(facing, stress, own, other, pair.prescribed_gap, mu);
     }

@@ -12,6 +12,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <map>
 
 namespace Signorini
 {
@@ -69,6 +70,55 @@ namespace Signorini
         }
       else
         part_of[f] = part_of[sets.find(f)];
+  }
+
+
+
+  namespace
+  {
+    /// Whether some of unit normals are not linked with the others by steps that are no sharp edges.
+    bool fall_apart(const std::vector<Vector3> &normals)
+    {
+      DisjointSets sets(normals.size());
+      for (unsigned int i = 0; i < normals.size(); ++i)
+        for (unsigned int j = 0; j < i; ++j)
+          if (normals[i] * normals[j] >= FacingRule().sharp_cosine)
+            sets.unite(i, j);
+      for (unsigned int i = 1; i < normals.size(); ++i)
+        if (sets.find(i) != sets.find(0))
+          return true;
+      return false;
+    }
+  } // namespace
+
+
+
+  std::vector<bool> vertices_on_sharp_edges(const ContactSurface &surface, const std::vector<bool> &counts)
+  {
+    const std::vector<Vector3> normals = face_normals(surface);
+    // Few vertices have faces that differ as much from the first one.
+    std::vector<Vector3>                         first(surface.mesh.vertices.size());
+    std::map<unsigned int, std::vector<Vector3>> suspects;
+    const auto                                   for_corners = [&](const auto &f) {
+      for (unsigned int face = 0; face < surface.faces.size(); ++face)
+        if (counts[face] && normals[face].norm() > 0.)
+          for (unsigned int a = 0; a < surface.faces[face].n_corners; ++a)
+            f(surface.faces[face].corners[a], normals[face]);
+    };
+    for_corners([&](const unsigned int v, const Vector3 &n) {
+      if (first[v].norm() == 0.)
+        first[v] = n;
+      else if (n * first[v] < FacingRule().sharp_cosine)
+        suspects[v];
+    });
+    for_corners([&](const unsigned int v, const Vector3 &n) {
+      if (const auto it = suspects.find(v); it != suspects.end())
+        it->second.push_back(n);
+    });
+    std::vector<bool> result(first.size(), false);
+    for (const auto &[v, around] : suspects)
+      result[v] = fall_apart(around);
+    return result;
   }
 
 

@@ -219,8 +219,8 @@ namespace Signorini
                                         const std::vector<Vector3> &displacement_mortar,
                                         const GapFunction &prescribed_gap, const double shear_modulus)
   {
-    const auto &[nonmortar, mortar, overlay] = pair;
-    const SurfaceValues non(nonmortar), mor(mortar);
+    const auto &[nonmortar, mortar, overlay, sharp_vertices] = pair;
+    const SurfaceValues non(nonmortar, sharp_vertices), mor(mortar);
     Violation           violation(nonmortar);
     for (const OverlayTriangle &cell : overlay)
       {
@@ -252,8 +252,8 @@ namespace Signorini
                                     const std::vector<Vector3> &displacement_mortar,
                                     const double                shear_modulus)
   {
-    const auto &[nonmortar, mortar, overlay] = pair;
-    const SurfaceValues non(nonmortar), mor(mortar);
+    const auto &[nonmortar, mortar, overlay, sharp_vertices] = pair;
+    const SurfaceValues non(nonmortar, sharp_vertices), mor(mortar);
     Violation           violation(nonmortar);
     for (const OverlayTriangle &cell : overlay)
       for (const auto &point : points)

@@ -92,8 +92,8 @@ namespace Signorini
                                                     const GapFunction          &prescribed_gap,
                                                     const MPI_Comm              communicator)
   {
-    const auto &[nonmortar, mortar, overlay] = pair;
-    const SurfaceValues non(nonmortar), mor(mortar);
+    const auto &[nonmortar, mortar, overlay, sharp_vertices] = pair;
+    const SurfaceValues non(nonmortar, sharp_vertices), mor(mortar);
     GapUnderLoad        under_load(nonmortar, pressure);
     LeastGap            initially, deformed;
     for (const OverlayTriangle &cell : overlay)
@@ -106,7 +106,7 @@ namespace Signorini
             const Point<3> x         = non.point(cell.nonmortar_triangle, weights);
             const Point<3> image     = mor.point(cell.mortar_triangle, image_weights);
             const Vector3  n         = non.normal(cell.nonmortar_triangle, weights);
-            if (!prescribed_gap && !may_touch(n, mor.normal(cell.mortar_triangle, image_weights)))
+            if (!prescribed_gap && !may_touch(n, mor.facet_normal(cell.mortar_triangle)))
               continue;
             const Vector3 relative = non.value(displacement_nonmortar, cell.nonmortar_triangle, x) -
                                      mor.value(displacement_mortar, cell.mortar_triangle, image);

@@ -5,6 +5,7 @@
 
 #include <signorini/algebra/gathered_lists.h>
 #include <signorini/algebra/row_projection.h>
+#include <signorini/mesh/facing_parts.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -32,6 +33,9 @@ namespace Signorini
             for (unsigned int b = 0; b < 4; ++b)
               covered[v] += m.mass[4 * a + b];
         }
+    const std::vector<bool> on_sharp_edge = rule.drops_sharp_edges
+                                                ? vertices_on_sharp_edges(surface, well_covered(rule))
+                                                : std::vector<bool>(states.size(), false);
     for (unsigned int v = 0; v < states.size(); ++v)
       {
         State &state     = states[v];
@@ -51,12 +55,24 @@ namespace Signorini
             drop(v, DroppedNode::other_pair);
             state.is_ceded = true;
           }
+        else if (on_sharp_edge[v])
+          drop(v, DroppedNode::sharp_edge);
         else if (state.is_touched && others.kept.count(surface.vertex_node[v]) > 0)
           state.is_protected = true;
         else if (!(covered[v] > 0.) || covered[v] < rule.smallest_share * full[v])
           drop(v, DroppedNode::thin_cover);
       }
     halo.update(states);
+  }
+
+
+
+  std::vector<bool> MultiplierNodes::well_covered(const DroppingRule &rule) const
+  {
+    std::vector<bool> result(surface.faces.size(), false);
+    for (const FaceMoments &m : moments)
+      result[m.face] = m.covered > rule.smallest_share * m.area;
+    return result;
   }
 
 
@@ -135,6 +151,7 @@ namespace Signorini
     const State &state = states[v];
     return state.in_r && !is_hanging(v) && state.is_covered &&
            (state.reason == DroppedNode::thin_cover || state.reason == DroppedNode::large_row ||
+            state.reason == DroppedNode::sharp_edge ||
             (state.reason == DroppedNode::normal_fixed && free_normal(v) >= RowProjection::smallest_share));
   }
 

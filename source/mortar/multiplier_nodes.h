@@ -95,6 +95,9 @@ namespace Signorini
     /// Where vertices without a multiplier leave nothing to carry a contact stress.
     struct NeedyPlace;
 
+    /// Own and ghost faces of which at least the share is covered that nodes need.
+    std::vector<bool> well_covered(const DroppingRule &rule) const;
+
     void drop(const unsigned int v, const DroppedNode::Reason why);
     bool is_reported(const unsigned int v) const;
     bool all_in_r(const std::vector<unsigned int> &vertices) const;

@@ -101,9 +101,9 @@ namespace Signorini
           {
             if (touch.is_mortar)
               return;
-            const auto [sum, is_new] = sums.insert({touch.pair, touch});
+            const auto [entry, is_new] = sums.insert({touch.pair, touch});
             if (!is_new)
-              sum->second.normal += touch.normal;
+              entry->second.normal += touch.normal;
           }
         const auto looks_like = [&](const Touch &a, const Touch &b) {
           return a.is_tied == b.is_tied &&
@@ -309,8 +309,12 @@ namespace Signorini
       {
         std::vector<PairCoupling> couplings;
         for (unsigned int p = 0; p < pairs.size(); ++p)
-          couplings.push_back(
-              couple(pairs[p].surfaces, pairs[p].moments, several.of_pair(p), pairs[p].prescribed_gap, rule));
+          {
+            DroppingRule rule_of_pair      = rule;
+            rule_of_pair.drops_sharp_edges = rule.drops_sharp_edges && !pairs[p].is_tied;
+            couplings.push_back(couple(pairs[p].surfaces, pairs[p].moments, several.of_pair(p),
+                                       pairs[p].prescribed_gap, rule_of_pair));
+          }
         if (!several.settle(couplings))
           return couplings;
       }

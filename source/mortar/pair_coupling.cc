@@ -17,8 +17,12 @@ namespace Signorini
 
   const char *to_string(const DroppedNode::Reason reason)
   {
-    static const char *const texts[] = {"all components prescribed", "normal direction prescribed",
-                                        "node of another contact pair", "thinly covered", "extrapolating"};
+    static const char *const texts[] = {"all components prescribed",
+                                        "normal direction prescribed",
+                                        "node of another contact pair",
+                                        "on a sharp edge",
+                                        "thinly covered",
+                                        "extrapolating"};
     return texts[reason];
   }
 

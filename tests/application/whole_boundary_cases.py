@@ -4,7 +4,7 @@ import os
 import tempfile
 
 from free_body_cases import SEAT, make_mesh
-from harness import TOP, check, near
+from harness import TOP, check, constant_pressure, near
 
 GEOMETRIES = os.path.join(TOP, 'tests', 'application')
 
@@ -178,3 +178,71 @@ def bolted_joint(p):
         for name, sign in (('head', -1.), ('nut', 1.)):
             near(forces[name][0], sign * 1000., 1e-3, f'force on the bolt, {name}')
         near(forces['head'][2], -forces['nut'][2], 1e-6, 'axial force')
+        # Next to the plane between the plates, where the lower one ends: nodes of the bolt there belong to one of the two.
+        place = next(pair for pair in s['pairs'] if pair['name'] == 'nut')['max_pressure_at']
+        check(-1. < place[2] < 0., f'largest pressure of the nut at {place}')
+
+
+WALLS = """set Bodies        = block, holder
+set Contact pairs = walls
+subsection Body block
+  set Mesh          = walls.msh
+  set Volumes       = block
+  set Young modulus = 1000
+  set Poisson ratio = 0.3
+  set Dirichlet     = block outside: (-1e-3*x, -1e-3*y, -1e-3*z)
+end
+subsection Body holder
+  set Mesh          = walls.msh
+  set Volumes       = holder
+  set Young modulus = 1000
+  set Poisson ratio = 0.3
+  set Dirichlet     = holder outside: (-1e-3*x, -1e-3*y, -1e-3*z)
+end
+subsection Pair walls
+  set First  = block: block inside
+  set Second = holder: holder inside
+end
+"""
+
+
+STEP = """set Bodies        = shaft, hub
+set Contact pairs = fit
+subsection Body shaft
+  set Mesh          = step.msh
+  set Volumes       = shaft
+  set Young modulus = 210e3
+  set Poisson ratio = 0.3
+  set Forces        = shaft end: (-10000, 0, 0)
+end
+subsection Body hub
+  set Mesh          = step.msh
+  set Volumes       = hub
+  set Young modulus = 210e3
+  set Poisson ratio = 0.3
+  set Dirichlet     = left: (0, *, *)
+end
+subsection Pair fit
+  set First  = shaft: shaft skin
+  set Second = hub: hub skin
+end
+"""
+
+
+def sharp_edges(p):
+    """Surfaces that fit into each other around an edge. Nodes on it have the normal of neither face."""
+    with tempfile.TemporaryDirectory() as folder:
+        for name, text in (('walls', WALLS), ('step', STEP)):
+            make_mesh(os.path.join(GEOMETRIES, f'{name}.geo'), os.path.join(folder, f'{name}.msh'))
+            with open(os.path.join(folder, f'{name}.prm'), 'w') as f:
+                f.write(text)
+        for side in ('first', 'second'):
+            # u = -1e-3 x is the solution, the pressure 2.5 on both walls.
+            constant_pressure(p.solve(os.path.join(folder, 'walls.prm'), f'Pair walls/Nonmortar={side}'), 2.5)
+            # Contact all over the bore (2 pi 10 20) and the shoulder (pi (15^2 - 10^2)).
+            s = p.solve(os.path.join(folder, 'step.prm'), f'Pair fit/Nonmortar={side}')
+            pair = s['pairs'][0]
+            print(f'{s["cycles"][-1]["nonlinear"]["iterations"]} iterations, contact area {pair["contact_area"]:.1f}')
+            near(abs(pair['force'][0]), 1e4, 1e-8, 'axial force')
+            near(pair['contact_area'], math.pi * 525., .02, 'contact area')
+            near(pair['initial_penetration'], .01, .1, 'interference')

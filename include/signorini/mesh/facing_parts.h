@@ -62,6 +62,11 @@ namespace Signorini
     std::vector<double> nearest;
   };
 
+  /// Per vertex, whether not all faces around it hang together without a sharp edge (of more than 60
+  /// degrees): the vertex normal is that of none of them then. Faces of a piece count if they are there.
+  /// @param counts which faces are looked at
+  std::vector<bool> vertices_on_sharp_edges(const ContactSurface &surface, const std::vector<bool> &counts);
+
   /// The distance along a unit normal from a point of a surface to what it faces there (length, negative if
   /// that lies behind); false if it faces nothing.
   using Sight = std::function<bool(double &, const dealii::Point<3> &, const Vector3 &)>;

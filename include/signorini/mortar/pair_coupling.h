@@ -19,17 +19,19 @@ namespace Signorini
   /// A node of the nonmortar surface that touches the covered part but carries no multiplier.
   struct DroppedNode
   {
-    /// Why: displacements or the normal are prescribed, another pair needs the node, or the rule drops it.
+    /// Why: displacements or the normal are prescribed, another pair needs the node, it lies on a sharp edge
+    /// between faces that are covered, or the rule drops it.
     enum Reason
     {
       fixed,
       normal_fixed,
       other_pair,
+      sharp_edge,
       thin_cover,
       large_row
     };
     /// Number of reasons.
-    static constexpr unsigned int n_reasons = 5;
+    static constexpr unsigned int n_reasons = 6;
 
     /// Which node, where (length), and why.
     NodeIndex        node;
@@ -56,6 +58,10 @@ namespace Signorini
     /// the forces differ by about a tenth of their errors, 16 % at most). Where a covered face would have no
     /// multiplier left its best node keeps it down to RowProjection::smallest_share.
     double smallest_free_normal = .25;
+    /// Whether nodes on sharp edges are dropped (vertices_on_sharp_edges(), of faces covered by
+    /// smallest_share of their area): their normal is none of the surface, and what slides along one of the
+    /// faces presses on the other. Not of tied surfaces, where normals mean nothing.
+    bool drops_sharp_edges = true;
   };
 
   /// D, M, S = D^-1 M and the weighted gap of one contact pair (doc/algorithm.md, (12) to (17)): the rows of

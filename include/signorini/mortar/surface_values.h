@@ -35,6 +35,8 @@ namespace Signorini
     /// The surfaces, and the overlay ordered by nonmortar triangle.
     const ContactSurface               &nonmortar, &mortar;
     const std::vector<OverlayTriangle> &overlay;
+    /// By vertex of the nonmortar surface, vertices_on_sharp_edges(); none if empty.
+    std::vector<bool> sharp_vertices = {};
   };
 
   /// Fields on a contact surface at points of its triangles. Nodal fields are evaluated at the true reference
@@ -43,12 +45,17 @@ namespace Signorini
   {
   public:
     /// The surface must outlive the object.
-    explicit SurfaceValues(const ContactSurface &surface);
+    /// @param sharp_vertices those whose normal is that of none of the faces around them; none if empty
+    explicit SurfaceValues(const ContactSurface &surface, std::vector<bool> sharp_vertices = {});
 
     /// The point with given barycentric coordinates, on the facet.
     dealii::Point<3> point(const unsigned int triangle, const std::array<double, 3> &weights) const;
 
-    /// The unit normal there, linear on triangles; zero where there is none.
+    /// The unit normal of a triangle; zero if it has no area.
+    Vector3 facet_normal(const unsigned int triangle) const;
+
+    /// The unit normal at a point, linear on triangles; zero where there is none. Sharp vertices have that of
+    /// the true surface over the triangle.
     Vector3 normal(const unsigned int triangle, const std::array<double, 3> &weights) const;
 
     /// The corner functions of the face of a triangle at a point of it.
@@ -66,7 +73,11 @@ namespace Signorini
     }
 
   private:
+    /// That of the true surface over the triangle.
+    Vector3 normal_at_corner(const unsigned int triangle, const unsigned int corner) const;
+
     const ContactSurface &surface;
+    std::vector<bool>     sharp_vertices;
     std::vector<FaceMap>  maps;
   };
 } // namespace Signorini

@@ -181,3 +181,36 @@ TEST(FacingParts, ObstaclesAreSeen)
       MPI_COMM_WORLD);
   EXPECT_EQ(without_blind_parts(block, parts, {}).faces.size(), 16u);
 }
+
+// Walls that meet, and a prism of as many sides as are still round.
+TEST(FacingParts, VerticesOnSharpEdges)
+{
+  const ContactSurface    corner = foot_and_wall(0.);
+  const std::vector<bool> all(corner.faces.size(), true);
+  const auto              sharp = vertices_on_sharp_edges(corner, all);
+  for (unsigned int v = 0; v < sharp.size(); ++v)
+    EXPECT_EQ(sharp[v], corner.mesh.vertices[v][0] == 1. && corner.mesh.vertices[v][2] == 0.) << v;
+  std::vector<bool> foot = all;
+  for (unsigned int f = 0; f < foot.size(); ++f)
+    foot[f] = std::abs(area_vector(corner, corner.faces[f])[2]) > 0.;
+  for (const bool is_sharp : vertices_on_sharp_edges(corner, foot))
+    EXPECT_FALSE(is_sharp);
+  for (const unsigned int n_sides : {5, 8})
+    {
+      Quads prism;
+      for (unsigned int i = 0; i < n_sides; ++i)
+        {
+          const auto place = [&](const unsigned int k) {
+            const double angle = 2. * dealii::numbers::PI * k / n_sides;
+            return Point<3>(std::cos(angle), std::sin(angle), 0.);
+          };
+          prism.add(place(i), place((i + 1) % n_sides) - place(i), vector(0., 0., 1.), 2);
+        }
+      const ContactSurface surface = prism.finish();
+      std::size_t          n       = 0;
+      for (const bool is_sharp :
+           vertices_on_sharp_edges(surface, std::vector<bool>(surface.faces.size(), true)))
+        n += is_sharp;
+      EXPECT_EQ(n, n_sides == 5 ? 15u : 0u);
+    }
+}

@@ -147,6 +147,41 @@ TEST(GeometricPenetration, ConstantAndBilinearDisplacements)
   EXPECT_NEAR(result.max_penetration(), 1., 1e-14);
 }
 
+// A corner that the surfaces fit into, flush on the floor, .3 from the wall: what slides by .1 toward the
+// wall penetrates nothing, although the normals at the edge say so.
+TEST(GeometricPenetration, SharpEdges)
+{
+  const auto bend = [](ContactSurface surface) {
+    for (Point<3> &x : surface.mesh.vertices)
+      x[2] += 3. * std::max(x[0] - 1., 0.);
+    return surface;
+  };
+  auto              non     = bend(make_surface({4, 2, 0., 2.}));
+  const auto        mor     = bend(make_surface({2, 3, 0., 2., 0., 1., {}, 0., 0., 1000, false}));
+  const auto        overlay = make_overlay(non, mor);
+  const Vector3     wall    = Vector3({-3., 0., 1.}) / std::sqrt(10.), floor({0., 0., 1.});
+  std::vector<bool> on_edge;
+  for (unsigned int v = 0; v < non.vertex_node.size(); ++v)
+    {
+      const double x = non.mesh.vertices[v][0];
+      on_edge.push_back(x == 1.);
+      const Vector3 sum          = (x <= 1. ? floor : Vector3()) + (x >= 1. ? wall : Vector3());
+      non.mesh.vertex_normals[v] = sum / sum.norm();
+    }
+  const std::vector<Vector3> u(non.vertex_node.size(), Vector3({-.1, 0., 0.})),
+      nothing(mor.vertex_node.size(), Vector3());
+  const std::vector<double> pressure(u.size(), 1.);
+  const auto                gap = [](const Point<3> &x) { return x[0] > 1. - 1e-9 ? .3 : 0.; };
+  EXPECT_NEAR(
+      sample_geometric_penetration({non, mor, overlay, on_edge}, u, nothing, pressure, gap, MPI_COMM_SELF)
+          .max_penetration(),
+      0., 1e-14);
+  const auto wrong =
+      sample_geometric_penetration({non, mor, overlay}, u, nothing, pressure, gap, MPI_COMM_SELF);
+  EXPECT_GT(wrong.max_penetration(), .03);
+  EXPECT_LT(wrong.min_gap_at[0], 1.);
+}
+
 TEST(GeometricPenetration, NothingCovered)
 {
   Surfaces                   s;

@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <map>
 
 namespace
 {
@@ -285,4 +286,64 @@ TEST(TwoStepRule, LargeRowsAreDropped)
   c.check(1e-12, 5);
   for (const auto &node : c.coupling.dropped)
     EXPECT_EQ(node.reason, DroppedNode::large_row);
+}
+
+namespace
+{
+  /// Makes the right of a surface go up from x = 1, on x = 2 it is level again.
+  ContactSurface bent(Grid grid, const bool is_nonmortar)
+  {
+    grid.faces_up          = is_nonmortar;
+    grid.first_node        = is_nonmortar ? 0 : 1000;
+    ContactSurface surface = make_surface(grid);
+    for (Point<3> &x : surface.mesh.vertices)
+      x[2] += 3. * std::max(x[0] - 1., 0.) - 3. * std::max(x[0] - 2., 0.);
+    return surface;
+  }
+
+  PairCoupling couple_bent(const Grid &nonmortar, const bool drops_sharp_edges)
+  {
+    const auto   non = bent(nonmortar, true), mor = bent({2 * nonmortar.nx, 4, 0., nonmortar.x1}, false);
+    DroppingRule rule;
+    rule.drops_sharp_edges = drops_sharp_edges;
+    const auto moments     = compute_face_moments(non, mor, make_overlay(non, mor), {}, MPI_COMM_SELF);
+    const auto pair        = couple(non, mor, moments, {}, false, rule);
+    // With and without, constant pressures give the exact forces at all nodes.
+    const std::vector<Vector3>  traction(pair.gaps.size(), Point<3>(.5, 0., 2.));
+    const auto                  forces = compute_contact_forces(non, mor, pair, traction);
+    std::map<NodeIndex, double> loads;
+    for (const FaceMoments &m : moments)
+      {
+        for (unsigned int a = 0; a < 4; ++a)
+          for (unsigned int b = 0; b < 4; ++b)
+            loads[non.vertex_node[non.faces[m.face].corners[a]]] += m.mass[4 * a + b];
+        for (const auto &[q, values] : m.coupling)
+          for (const double value : values)
+            loads[mor.vertex_node[q]] += value;
+      }
+    for (const auto *const side : {&forces.nonmortar, &forces.mortar})
+      for (const auto &node : side->nodes)
+        EXPECT_NEAR(std::abs(node.force[2]), 2. * loads[node.node], 1e-13);
+    return pair;
+  }
+} // namespace
+
+// The normal of a node on an edge is that of neither face: it is dropped, unless a face needs it.
+TEST(TwoStepRule, SharpEdges)
+{
+  const Grid one_edge{6, 3, 0., 2.};
+  const auto pair = couple_bent(one_edge, true);
+  EXPECT_EQ(pair.coupling.n_rows(), 24u);
+  ASSERT_EQ(pair.dropped.size(), 4u);
+  for (const DroppedNode &node : pair.dropped)
+    {
+      EXPECT_EQ(node.reason, DroppedNode::sharp_edge);
+      EXPECT_EQ(node.position[0], 1.);
+    }
+  EXPECT_EQ(couple_bent(one_edge, false).coupling.n_rows(), 28u);
+  // One face wide between the edges: some of their nodes come back.
+  const auto narrow = couple_bent({3, 3, 0., 3.}, true);
+  EXPECT_EQ(narrow.lost_area, 0.);
+  EXPECT_GT(narrow.coupling.n_rows(), 8u);
+  EXPECT_LT(narrow.coupling.n_rows(), 16u);
 }

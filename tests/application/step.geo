@@ -1,0 +1,24 @@
+// A shaft with a shoulder in a hub; it is 0.01 too thick for the bore (radius 10).
+SetFactory("OpenCASCADE");
+Cylinder(1) = {0, 0, 0, 20, 0, 0, 10.01};
+Cylinder(2) = {20, 0, 0, 10, 0, 0, 15};
+shaft() = BooleanUnion{ Volume{1}; Delete; }{ Volume{2}; Delete; };
+Cylinder(11) = {0, 0, 0, 20, 0, 0, 25};
+Cylinder(12) = {-1, 0, 0, 22, 0, 0, 10};
+hub() = BooleanDifference{ Volume{11}; Delete; }{ Volume{12}; Delete; };
+Physical Volume("shaft") = {shaft()};
+Physical Volume("hub") = {hub()};
+e = 1e-3;
+left() = Surface In BoundingBox{-e, -25 - e, -25 - e, e, 25 + e, 25 + e};
+end() = Surface In BoundingBox{30 - e, -16, -16, 30 + e, 16, 16};
+of_shaft() = Boundary{ Volume{shaft()}; };
+of_hub() = Boundary{ Volume{hub()}; };
+of_shaft() -= left();
+of_shaft() -= end();
+of_hub() -= left();
+Physical Surface("shaft end") = {end()};
+Physical Surface("left") = {left()};
+Physical Surface("shaft skin") = {of_shaft()};
+Physical Surface("hub skin") = {of_hub()};
+Mesh.CharacteristicLengthMin = 2.5;
+Mesh.CharacteristicLengthMax = 2.5;

@@ -1,0 +1,25 @@
+// A block in the inner corner of a holder: two walls that meet in an edge.
+SetFactory("OpenCASCADE");
+Box(1) = {-1, 0, -1, 2, 1, 2};
+Box(2) = {0, 0, 0, 1, 1, 1};
+holder() = BooleanDifference{ Volume{1}; Delete; }{ Volume{2}; Delete; };
+Box(3) = {0, 0, 0, 1, 1, 1};
+Physical Volume("holder") = {holder()};
+Physical Volume("block") = {3};
+e = 1e-3;
+inside() = Surface In BoundingBox{-e, -e, -e, e, 1 + e, 1 + e};
+inside() += Surface In BoundingBox{-e, -e, -e, 1 + e, 1 + e, e};
+of_holder() = Boundary{ Volume{holder()}; };
+of_block() = Boundary{ Volume{3}; };
+holder_outside() = of_holder();
+holder_outside() -= inside();
+block_outside() = of_block();
+block_outside() -= inside();
+of_holder() -= holder_outside();
+of_block() -= block_outside();
+Physical Surface("holder outside") = {holder_outside()};
+Physical Surface("holder inside") = {of_holder()};
+Physical Surface("block outside") = {block_outside()};
+Physical Surface("block inside") = {of_block()};
+Mesh.CharacteristicLengthMin = 0.3;
+Mesh.CharacteristicLengthMax = 0.3;
