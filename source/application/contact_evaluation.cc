@@ -4,12 +4,10 @@
 #include "nodal_contact_forces.h"
 
 #include <signorini/algebra/gathered_lists.h>
-#include <signorini/algebra/input_error.h>
 #include <signorini/algebra/node_request.h>
 #include <signorini/application/contact_evaluation.h>
 #include <signorini/application/nodal_sums.h>
 #include <signorini/discretization/elasticity.h>
-#include <signorini/discretization/element.h>
 #include <signorini/mesh/facing_parts.h>
 #include <signorini/mesh/surface_extraction.h>
 #include <signorini/mortar/contact_forces.h>
@@ -456,62 +454,5 @@ namespace Signorini
       }
     result.equilibrium = evaluate_equilibrium(model, d, solution);
     return result;
-  }
-
-
-
-  namespace
-  {
-    /// The cell of this rank whose reference coordinates of a point stick out least, by how much, and the
-    /// displacement there.
-    struct ProbedCell
-    {
-      double  outside = std::numeric_limits<double>::max();
-      Vector3 displacement;
-    };
-
-    ProbedCell probe_cells(const Bodies &bodies, const Discretization &d, const Vector &displacement,
-                           const Probe &probe)
-    {
-      ProbedCell best;
-      for (const NodalSpace::Cell &cell : d.nodal().cells())
-        if (cell.is_owned && bodies.body_of_material(cell.material) == probe.body)
-          {
-            const Element element(d.nodal(), cell);
-            Point<3>      reference;
-            if (probe.point.distance(element.corner(0)) > 2. * element.diameter() ||
-                !element.invert_map(reference, probe.point) || element.outside(reference) >= best.outside)
-              continue;
-            best.outside      = element.outside(reference);
-            best.displacement = Vector3();
-            const auto values = element.shape_values(reference);
-            for (unsigned int v = 0; v < cell.n_vertices; ++v)
-              best.displacement +=
-                  values[v] * nodal_value(displacement, d.partition().to_local(d.nodal().nodes(cell)[v]));
-          }
-      return best;
-    }
-  } // namespace
-
-
-
-  std::vector<ProbeResult> evaluate_probes(const ContactModel &model, const Discretization &d,
-                                           const ContactSolution &solution, const std::vector<Probe> &probes)
-  {
-    const MPI_Comm           comm = model.communicator();
-    std::vector<ProbeResult> results;
-    for (const Probe &probe : probes)
-      {
-        const std::string body    = model.bodies().body_name(probe.body);
-        const ProbedCell  best    = probe_cells(model.bodies(), d, solution.displacement, probe);
-        const auto        nearest = Utilities::MPI::min_max_avg(best.outside, comm);
-        if (!(nearest.min < .05))
-          throw InputError("Body " + body + "/Probes, \"" + probe.name +
-                           "\": the point lies outside of the body.");
-        const bool mine = Utilities::MPI::this_mpi_process(comm) == nearest.min_index;
-        results.push_back(
-            {body + ": " + probe.name, probe.point, sum(mine ? best.displacement : Vector3(), comm)});
-      }
-    return results;
   }
 } // namespace Signorini

@@ -39,6 +39,7 @@ signorini_add_layer(application
   paraview_files.cc
   point_holds.cc
   pressure_rows.cc
+  probes.cc
   pretension.cc
   problem_description.cc
   problem_identity.cc

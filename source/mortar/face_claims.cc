@@ -25,18 +25,6 @@ namespace Signorini
       return gap.norm() / m.covered;
     }
 
-    /// The same for a face in all pairs and on all ranks.
-    using FaceName = std::array<NodeIndex, 4>;
-
-    FaceName name_of(const ContactSurface &surface, const unsigned int face)
-    {
-      FaceName name;
-      for (unsigned int a = 0; a < 4; ++a)
-        name[a] = surface.vertex_node[surface.faces[face].corners[a]];
-      std::sort(name.begin(), name.end());
-      return name;
-    }
-
     /// That a pair covers a face.
     struct Claim
     {
@@ -70,6 +58,17 @@ namespace Signorini
       m         = std::move(left);
     }
   } // namespace
+
+
+
+  FaceName name_of(const ContactSurface &surface, const unsigned int face)
+  {
+    FaceName name;
+    for (unsigned int a = 0; a < 4; ++a)
+      name[a] = surface.vertex_node[surface.faces[face].corners[a]];
+    std::sort(name.begin(), name.end());
+    return name;
+  }
 
 
 

@@ -3,6 +3,7 @@
 
 #include <signorini/algebra/sent_lists.h>
 #include <signorini/mesh/surface_normals.h>
+#include <signorini/mortar/face_claims.h>
 #include <signorini/mortar/pair_conflicts.h>
 
 #include <deal.II/base/mpi.h>
@@ -94,7 +95,10 @@ namespace Signorini
     class NodeOfSeveralPairs
     {
     public:
-      explicit NodeOfSeveralPairs(const std::vector<Touch> &touches, const SharedRowRule &rule)
+      /// None of them has it.
+      NodeOfSeveralPairs() = default;
+
+      NodeOfSeveralPairs(const std::vector<Touch> &touches, const SharedRowRule &rule)
       {
         std::map<unsigned int, Touch> sums;
         for (const Touch &touch : touches)
@@ -160,10 +164,12 @@ namespace Signorini
         , known(pairs.size())
       {
         meet(pairs);
-        std::vector<NodeIndex> decided;
+        const std::set<NodeIndex> doubly_covered = meet_faces(pairs);
+        std::vector<NodeIndex>    decided;
         for (const auto &[node, some] : touches)
           {
-            nodes.emplace(node, NodeOfSeveralPairs(some, rule));
+            nodes.emplace(node, doubly_covered.count(node) > 0 ? NodeOfSeveralPairs()
+                                                               : NodeOfSeveralPairs(some, rule));
             decided.push_back(node);
           }
         tell(decided);
@@ -250,6 +256,38 @@ namespace Signorini
                 });
             entry = has_conflict ? std::next(entry) : touches.erase(entry);
           }
+      }
+
+      /// Collective. Of the nodes that meet here those of faces that pairs cover one over the other.
+      std::set<NodeIndex> meet_faces(const std::vector<PairToCouple> &pairs) const
+      {
+        struct Cover
+        {
+          FaceName face;
+          double   share;
+        };
+        ListsByRank<Cover>     covers;
+        ListsByRank<NodeIndex> parcels;
+        for (const PairToCouple &pair : pairs)
+          for (const FaceMoments &m : pair.moments)
+            if (m.covered > 1e-13 * m.area && pair.surfaces.halo.owns_face(m.face))
+              {
+                const FaceName name = name_of(pair.surfaces.nonmortar, m.face);
+                covers[meeting_at(name[0])].push_back({name, m.covered / m.area});
+              }
+        std::map<FaceName, double> shares;
+        for (const auto &[sender, list] : send_lists(covers, comm))
+          for (const Cover &cover : list)
+            shares[cover.face] += cover.share;
+        constexpr double whole = 1. + 1e-6;
+        for (const auto &[face, share] : shares)
+          if (share > whole)
+            for (const NodeIndex node : face)
+              parcels[meeting_at(node)].push_back(node);
+        std::set<NodeIndex> result;
+        for (const auto &[sender, list] : send_lists(parcels, comm))
+          result.insert(list.begin(), list.end());
+        return result;
       }
 
       /// Collective. Tells those that touch some nodes what has become of them.

@@ -6,10 +6,15 @@
 
 #include <signorini/mortar/face_moments.h>
 
+#include <array>
 #include <vector>
 
 namespace Signorini
 {
+  /// The nodes of a face, sorted: the same in all pairs and on all ranks.
+  using FaceName = std::array<NodeIndex, 4>;
+  FaceName name_of(const ContactSurface &surface, const unsigned int face);
+
   /// What a pair covers of its nonmortar surface.
   struct ClaimedFaces
   {

@@ -34,9 +34,10 @@ namespace Signorini
 
   /// Collective. couple() of several pairs, so that join_couplings() cannot fail. A node that is mortar in
   /// any pair is a row in none. So is one that is nonmortar in several if they do not look the same way there
-  /// (SharedRowRule) or are not all tied or all in contact. Else it belongs to the one that covers most
-  /// around it. Those with the same mortar body share the row, however thinly they cover it, the others cede
-  /// the node. It is a row in none if that does not work out (hanging vertices beside ceded nodes).
+  /// (SharedRowRule), are not all tied or all in contact, or cover one face one over the other. Else it
+  /// belongs to the one that covers most around it. Those with the same mortar body share the row, however
+  /// thinly they cover it, the others cede the node. It is a row in none if that does not work out (hanging
+  /// vertices beside ceded nodes).
   std::vector<PairCoupling> couple_pairs(const std::vector<PairToCouple> &pairs, const MPI_Comm communicator,
                                          const DroppingRule  &rule        = {},
                                          const SharedRowRule &shared_rule = {});

@@ -289,6 +289,24 @@ TEST(PairConflicts, NodesBelongToOneOfTwoBodies)
     }
 }
 
+// The same pair twice, or overlapping ones: nodes of what is covered twice are rows in none.
+TEST(PairConflicts, FacesCoveredTwice)
+{
+  const auto lower = surface({6, 3, 0., 2.}, 0, true);
+  const Pair left(lower, surface({2, 4, 0., 1.}, 1000, false)),
+      wide(lower, surface({4, 4, 0., 1.5}, 2000, false));
+  for (const bool has_one_body : {true, false})
+    {
+      EXPECT_EQ(join_couplings(couple_together({left, left}, {}, {}, {}, has_one_body), {}, all_nodes())
+                    .coupling.n_rows(),
+                0u);
+      // Of seven columns four are lost; the next one is the wide pair's, the one after it thinly covered.
+      EXPECT_EQ(join_couplings(couple_together({left, wide}, {}, {}, {}, has_one_body), {}, all_nodes())
+                    .coupling.n_rows(),
+                4u);
+    }
+}
+
 // Beside a hanging vertex the pair that cedes a node needs it as a column: then none has it.
 TEST(PairConflicts, CededNodesBesideHangingOnes)
 {
