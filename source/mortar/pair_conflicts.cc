@@ -258,13 +258,15 @@ namespace Signorini
           }
       }
 
-      /// Collective. Of the nodes that meet here those of faces that pairs cover one over the other.
+      /// Collective. Of the nodes that meet here those of faces that pairs with the same mortar body cover
+      /// one over the other.
       std::set<NodeIndex> meet_faces(const std::vector<PairToCouple> &pairs) const
       {
         struct Cover
         {
-          FaceName face;
-          double   share;
+          FaceName     face;
+          unsigned int mortar_body;
+          double       share;
         };
         ListsByRank<Cover>     covers;
         ListsByRank<NodeIndex> parcels;
@@ -273,16 +275,16 @@ namespace Signorini
             if (m.covered > 1e-13 * m.area && pair.surfaces.halo.owns_face(m.face))
               {
                 const FaceName name = name_of(pair.surfaces.nonmortar, m.face);
-                covers[meeting_at(name[0])].push_back({name, m.covered / m.area});
+                covers[meeting_at(name[0])].push_back({name, pair.mortar_body, m.covered / m.area});
               }
-        std::map<FaceName, double> shares;
+        std::map<std::pair<FaceName, unsigned int>, double> shares;
         for (const auto &[sender, list] : send_lists(covers, comm))
           for (const Cover &cover : list)
-            shares[cover.face] += cover.share;
+            shares[{cover.face, cover.mortar_body}] += cover.share;
         constexpr double whole = 1. + 1e-6;
         for (const auto &[face, share] : shares)
           if (share > whole)
-            for (const NodeIndex node : face)
+            for (const NodeIndex node : face.first)
               parcels[meeting_at(node)].push_back(node);
         std::set<NodeIndex> result;
         for (const auto &[sender, list] : send_lists(parcels, comm))

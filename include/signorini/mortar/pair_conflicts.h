@@ -34,7 +34,7 @@ namespace Signorini
 
   /// Collective. couple() of several pairs, so that join_couplings() cannot fail. A node that is mortar in
   /// any pair is a row in none. So is one that is nonmortar in several if they do not look the same way there
-  /// (SharedRowRule), are not all tied or all in contact, or cover one face one over the other. Else it
+  /// (SharedRowRule), are not all tied or all in contact, or cover a face twice with one mortar body. Else it
   /// belongs to the one that covers most around it. Those with the same mortar body share the row, however
   /// thinly they cover it, the others cede the node. It is a row in none if that does not work out (hanging
   /// vertices beside ceded nodes).
