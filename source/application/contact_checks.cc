@@ -7,6 +7,7 @@
 #include <signorini/algebra/input_error.h>
 #include <signorini/application/contact_checks.h>
 #include <signorini/application/contact_evaluation.h>
+#include <signorini/mesh/surface_normals.h>
 #include <signorini/mortar/face_claims.h>
 #include <signorini/mortar/pair_conflicts.h>
 #include <signorini/mortar/surface_values.h>
@@ -379,7 +380,7 @@ namespace Signorini
             const Point<3> x             = on_nonmortar.point(cell.nonmortar_triangle, cell.nonmortar[c]);
             const Point<3> image         = on_mortar.point(cell.mortar_triangle, cell.mortar[c]);
             const Vector3  n             = on_nonmortar.normal(cell.nonmortar_triangle, cell.nonmortar[c]);
-            const Vector3  other         = on_mortar.facet_normal(cell.mortar_triangle);
+            const Vector3  other         = facet_normal(mor, cell.mortar_triangle);
             if (pair.prescribed_gap)
               f(x, n, pair.prescribed_gap(x));
             else if (may_touch(n, other))

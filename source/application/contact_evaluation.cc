@@ -103,10 +103,9 @@ namespace Signorini
       if (pair.obstacle)
         return sample_rigid_penetration(pair.nonmortar.surface, *pair.obstacle, displaced, pressure, comm);
       const std::vector<OverlayTriangle> overlay = overlay_of(pair, covered_faces(pair));
-      return sample_geometric_penetration(
-          {pair.nonmortar.surface, pair.mortar.surface, overlay, sharp_vertices(pair)}, displaced,
-          vertex_values(pair.mortar.surface, d.partition(), displacement), pressure, pair.prescribed_gap,
-          comm);
+      const FacingSurfaces facing{pair.nonmortar.surface, pair.mortar.surface, overlay, sharp_vertices(pair)};
+      const auto           mortar = vertex_values(pair.mortar.surface, d.partition(), displacement);
+      return sample_geometric_penetration(facing, displaced, mortar, pressure, pair.prescribed_gap, comm);
     }
 
     /// What contact does where bodies touch, and how well the gap is known there.
@@ -139,6 +138,12 @@ namespace Signorini
     const std::vector<bool>    here = vertices_on_sharp_edges(pair.nonmortar.surface, covered_faces(pair));
     std::vector<unsigned char> flags(here.begin(), here.end());
     pair.halo->update(flags);
+    // Coarse faces beside fine ones have hanging vertices on their edges, which are no corners of theirs.
+    const auto &hanging = pair.nonmortar.surface.hanging;
+    for (std::size_t v = 0; v < flags.size(); ++v)
+      if (!hanging[v].empty())
+        flags[v] = std::all_of(hanging[v].begin(), hanging[v].end(),
+                               [&](const auto &parent) { return flags[parent.first] != 0; });
     return std::vector<bool>(flags.begin(), flags.end());
   }
 

@@ -80,11 +80,12 @@ namespace Signorini
       if (pair.obstacle)
         return contact_violation(non, rigid_images(non, *pair.obstacle), stress, own, mu,
                                  Utilities::MPI::this_mpi_process(d.nodal().communicator()));
-      const auto           other   = vertex_values(mor, d.partition(), displacement);
-      const auto           overlay = pair.mapping->overlay();
+      const auto other   = vertex_values(mor, d.partition(), displacement);
+      const auto overlay = pair.mapping->overlay();
+      if (pair.is_tied)
+        return tie_violation({non, mor, overlay}, own, other, mu);
       const FacingSurfaces facing{non, mor, overlay, sharp_vertices(pair)};
-      return pair.is_tied ? tie_violation(facing, own, other, mu)
-                          : contact_violation(facing, stress, own, other, pair.prescribed_gap, mu);
+      return contact_violation(facing, stress, own, other, pair.prescribed_gap, mu);
     }
   } // namespace
 

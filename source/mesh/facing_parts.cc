@@ -23,9 +23,9 @@ namespace Signorini
     /// Pure numbers.
     struct FacingRule
     {
-      /// Normals of neighbours: sharp edges are those of more than 60 degrees. Eight facets around a pin are
-      /// none, chamfers neither.
-      double sharp_cosine = .5;
+      /// Normals of neighbours: sharp edges are those of more than 60 degrees. Six facets around a pin are
+      /// none, up to rounding, chamfers neither.
+      double sharp_cosine = .5 - 1e-6;
       /// Normals of what faces each other, as where a mapping ends (incidence.cc).
       double facing_cosine = -.5;
       /// What of the way from the centre of a face to its corners is looked from.
@@ -95,25 +95,26 @@ namespace Signorini
 
   std::vector<bool> vertices_on_sharp_edges(const ContactSurface &surface, const std::vector<bool> &counts)
   {
-    const std::vector<Vector3> normals = face_normals(surface);
-    // Few vertices have faces that differ as much from the first one.
+    // Few vertices have facets that differ as much from the first one.
     std::vector<Vector3>                         first(surface.mesh.vertices.size());
     std::map<unsigned int, std::vector<Vector3>> suspects;
     const auto                                   for_corners = [&](const auto &f) {
-      for (unsigned int face = 0; face < surface.faces.size(); ++face)
-        if (counts[face] && normals[face].norm() > 0.)
-          for (unsigned int a = 0; a < surface.faces[face].n_corners; ++a)
-            f(surface.faces[face].corners[a], normals[face]);
+      for (unsigned int t = 0; t < surface.mesh.triangles.size(); ++t)
+        if (counts[surface.triangle_face[t]])
+          for (unsigned int i = 0; i < 3; ++i)
+            f(surface.mesh.triangles[t][i], t, i);
     };
-    for_corners([&](const unsigned int v, const Vector3 &n) {
+    for_corners([&](const unsigned int v, const unsigned int t, const unsigned int) {
+      const Vector3 n = facet_normal(surface, t);
       if (first[v].norm() == 0.)
         first[v] = n;
-      else if (n * first[v] < FacingRule().sharp_cosine)
+      else if (n.norm() > 0. && n * first[v] < FacingRule().sharp_cosine)
         suspects[v];
     });
-    for_corners([&](const unsigned int v, const Vector3 &n) {
+    for_corners([&](const unsigned int v, const unsigned int t, const unsigned int i) {
       if (const auto it = suspects.find(v); it != suspects.end())
-        it->second.push_back(n);
+        if (const Vector3 n = true_normal(surface, t, i); n.norm() > 0.)
+          it->second.push_back(n);
     });
     std::vector<bool> result(first.size(), false);
     for (const auto &[v, around] : suspects)

@@ -95,6 +95,38 @@ namespace Signorini
 
 
 
+  Vector3 facet_normal(const ContactSurface &surface, const unsigned int triangle)
+  {
+    const auto   &t    = surface.mesh.triangles[triangle];
+    const auto   &x    = surface.mesh.vertices;
+    const Vector3 area = cross_product_3d(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]]);
+    return area.norm() > 0. ? area / area.norm() : area;
+  }
+
+
+
+  Vector3 true_normal(const ContactSurface &surface, const unsigned int triangle, const unsigned int corner)
+  {
+    if (!surface.true_shape.has_offsets())
+      return facet_normal(surface, triangle);
+    const auto true_point = [&](const unsigned int toward) {
+      // Part of the way to another corner: the offset is a cubic, the error of the direction that part of it.
+      constexpr double      step    = 1e-3;
+      std::array<double, 3> weights = {{0., 0., 0.}};
+      weights[corner] += 1. - step;
+      weights[toward] += step;
+      Point<3> p;
+      for (unsigned int i = 0; i < 3; ++i)
+        p += Vector3(weights[i] * surface.mesh.vertices[surface.mesh.triangles[triangle][i]]);
+      return p + surface.offset(triangle, weights);
+    };
+    const Point<3> x   = true_point(corner);
+    const Vector3 area = cross_product_3d(true_point((corner + 1) % 3) - x, true_point((corner + 2) % 3) - x);
+    return area.norm() > 0. ? area / area.norm() : area;
+  }
+
+
+
   void set_normals(ContactSurface &surface, const SurfaceShapes &shapes,
                    const std::function<bool(unsigned int face, unsigned int vertex)> &counts)
   {

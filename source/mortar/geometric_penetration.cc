@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/mesh/surface_normals.h>
 #include <signorini/mortar/geometric_penetration.h>
 #include <signorini/mortar/surface_values.h>
 #include <signorini/surface/contact_mapping.h>
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <tuple>
 
 namespace Signorini
 {
@@ -26,19 +28,28 @@ namespace Signorini
 
   void LeastGap::add(const double gap, const Point<3> &place)
   {
-    if (!(gap < least))
-      return;
-    least = gap;
-    where = place;
+    if (is_before(gap, place))
+      {
+        least = gap;
+        where = place;
+      }
+  }
+
+
+
+  // Of equal ones the first by its coordinates, so that it does not depend on the order.
+  bool LeastGap::is_before(const double gap, const Point<3> &place) const
+  {
+    return gap < std::numeric_limits<double>::infinity() &&
+           std::tie(gap, place[0], place[1], place[2]) < std::tie(least, where[0], where[1], where[2]);
   }
 
 
 
   void LeastGap::reduce(const MPI_Comm communicator)
   {
-    const auto best = Utilities::MPI::min_max_avg(least, communicator);
-    where           = Utilities::MPI::broadcast(communicator, where, best.min_index);
-    least           = best.min;
+    for (const auto &[gap, place] : Utilities::MPI::all_gather(communicator, std::make_pair(least, where)))
+      add(gap, place);
   }
 
 
@@ -106,7 +117,7 @@ namespace Signorini
             const Point<3> x         = non.point(cell.nonmortar_triangle, weights);
             const Point<3> image     = mor.point(cell.mortar_triangle, image_weights);
             const Vector3  n         = non.normal(cell.nonmortar_triangle, weights);
-            if (!prescribed_gap && !may_touch(n, mor.facet_normal(cell.mortar_triangle)))
+            if (!prescribed_gap && !may_touch(n, facet_normal(mortar, cell.mortar_triangle)))
               continue;
             const Vector3 relative = non.value(displacement_nonmortar, cell.nonmortar_triangle, x) -
                                      mor.value(displacement_mortar, cell.mortar_triangle, image);

@@ -41,13 +41,12 @@ namespace Signorini
         State &state     = states[v];
         state.is_covered = covered[v] > 0.;
         state.is_touched = covered[v] > empty_share * full[v];
+        state.covered    = covered[v];
         state.share      = full[v] > 0. ? covered[v] / full[v] : 0.;
         if (is_hanging(v))
           continue;
         if (surface.vertex_fixed[v].all())
           drop(v, DroppedNode::fixed);
-        else if (free_normal(v) < rule.smallest_free_normal)
-          drop(v, DroppedNode::normal_fixed);
         else if (others.excluded.count(surface.vertex_node[v]) > 0)
           drop(v, DroppedNode::other_pair);
         else if (others.ceded.count(surface.vertex_node[v]) > 0)
@@ -55,6 +54,8 @@ namespace Signorini
             drop(v, DroppedNode::other_pair);
             state.is_ceded = true;
           }
+        else if (free_normal(v) < rule.smallest_free_normal)
+          drop(v, DroppedNode::normal_fixed);
         else if (on_sharp_edge[v])
           drop(v, DroppedNode::sharp_edge);
         else if (state.is_touched && others.kept.count(surface.vertex_node[v]) > 0)
@@ -276,6 +277,17 @@ namespace Signorini
     for (unsigned int v = 0; v < states.size(); ++v)
       if (halo.owns(v) && is_reported(v))
         list.push_back({surface.vertex_node[v], surface.mesh.vertices[v], states[v].reason, share(v)});
+    return list;
+  }
+
+
+
+  std::vector<PairCoupling::CededNode> MultiplierNodes::ceded_nodes() const
+  {
+    std::vector<PairCoupling::CededNode> list;
+    for (unsigned int v = 0; v < states.size(); ++v)
+      if (halo.owns(v) && states[v].is_ceded)
+        list.push_back({surface.vertex_node[v], states[v].covered});
     return list;
   }
 

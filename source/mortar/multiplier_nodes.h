@@ -78,6 +78,9 @@ namespace Signorini
     /// Those of this rank without a multiplier.
     std::vector<DroppedNode> report() const;
 
+    /// Those of this rank that are another pair's.
+    std::vector<PairCoupling::CededNode> ceded_nodes() const;
+
     /// Covered faces of this rank without any.
     std::vector<PairCoupling::LostFace> lost_faces() const;
 
@@ -90,6 +93,8 @@ namespace Signorini
       bool                is_covered = false, is_touched = false;
       DroppedNode::Reason reason = DroppedNode::thin_cover;
       double              share  = 0.;
+      /// Integral of its function over what is covered (area).
+      double covered = 0.;
     };
 
     /// Where vertices without a multiplier leave nothing to carry a contact stress.

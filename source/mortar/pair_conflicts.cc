@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include "multiplier_nodes.h"
+
 #include <signorini/algebra/sent_lists.h>
 #include <signorini/mesh/surface_normals.h>
 #include <signorini/mortar/face_claims.h>
@@ -10,6 +12,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 
 namespace Signorini
 {
@@ -34,7 +37,7 @@ namespace Signorini
   {
     std::set<NodeIndex> nodes;
     for (const FaceMoments &m : moments)
-      if (m.covered > 1e-13 * m.area)
+      if (!is_empty(m))
         for (const unsigned int v : nonmortar.faces[m.face].corners)
           insert_conforming(nodes, nonmortar, v);
     return nodes;
@@ -79,7 +82,7 @@ namespace Signorini
         normals[node] = Vector3();
       for (const FaceMoments &m : pair.moments)
         if (const ContactSurface::Face &face = surface.faces[m.face];
-            m.covered > 1e-13 * m.area && pair.surfaces.halo.owns_face(m.face))
+            !is_empty(m) && pair.surfaces.halo.owns_face(m.face))
           {
             const Vector3       normal = m.covered / m.area * area_vector(surface, face);
             std::set<NodeIndex> nodes;
@@ -109,22 +112,27 @@ namespace Signorini
             if (!is_new)
               entry->second.normal += touch.normal;
           }
-        const auto looks_like = [&](const Touch &a, const Touch &b) {
-          return a.is_tied == b.is_tied &&
+        // What bodies cover, and the pairs that they are mortar in.
+        std::map<unsigned int, double>                 areas;
+        std::map<unsigned int, std::set<unsigned int>> pairs;
+        for (const auto &[pair, touch] : sums)
+          {
+            areas[touch.mortar_body] += touch.normal.norm();
+            pairs[touch.mortar_body].insert(pair);
+          }
+        const auto fit = [&](const Touch &a, const Touch &b) {
+          return a.is_tied == b.is_tied && (!a.is_tied || areas.size() == 1) &&
                  a.normal * b.normal >= rule.least_cosine * a.normal.norm() * b.normal.norm();
         };
         for (const auto &one : sums)
           for (const auto &other : sums)
-            if (!looks_like(one.second, other.second))
+            if (!fit(one.second, other.second))
               return;
-        const Touch *first = nullptr;
-        // Equal areas are so up to rounding.
-        for (const auto &[pair, touch] : sums)
-          if (first == nullptr || touch.normal.norm() > 1.000001 * first->normal.norm())
-            first = &touch;
-        for (const auto &[pair, touch] : sums)
-          if (touch.mortar_body == first->mortar_body)
-            owners.insert(pair);
+        auto first = areas.begin();
+        for (auto body = areas.begin(); body != areas.end(); ++body)
+          if (body->second > rule.greater * first->second)
+            first = body;
+        owners = pairs[first->first];
       }
 
       bool is_excluded() const
@@ -137,11 +145,17 @@ namespace Signorini
         return !owners.empty() && owners.count(pair) == 0;
       }
 
-      /// What has become of it does not work: something else. Pairs that share it keep it, then it is
-      /// excluded.
-      void change()
+      bool is_ceded_by_any(const std::vector<Touch> &touches) const
       {
-        if (is_kept || owners.size() == 1)
+        return std::any_of(touches.begin(), touches.end(),
+                           [&](const Touch &touch) { return is_ceded_by(touch.pair); });
+      }
+
+      /// What has become of it does not work: something else. Pairs that share the row keep it, then it is
+      /// excluded.
+      void change(const bool is_row)
+      {
+        if (!is_row || is_kept || owners.size() == 1)
           owners.clear();
         else
           is_kept = true;
@@ -161,6 +175,7 @@ namespace Signorini
                           const SharedRowRule &rule)
         : comm(communicator)
         , n_ranks(Utilities::MPI::n_mpi_processes(communicator))
+        , rule(rule)
         , known(pairs.size())
       {
         meet(pairs);
@@ -181,38 +196,84 @@ namespace Signorini
         return known[pair];
       }
 
-      /// Collective. Decides again on nodes that are a row in one pair and a column in another. Returns
-      /// whether there are any.
+      /// Collective. Decides again on nodes that are a row in one pair and a column in another, or that some
+      /// pairs cede and none has as a row. Returns whether there are any.
       bool settle(const std::vector<PairCoupling> &couplings)
       {
         struct Use
         {
-          NodeIndex node;
-          bool      is_row;
+          NodeIndex    node;
+          unsigned int pair;
+          bool         is_row;
         };
         ListsByRank<Use> sent;
-        for (const PairCoupling &pair : couplings)
+        for (unsigned int p = 0; p < couplings.size(); ++p)
           {
             const auto send = [&](const NodeIndex node, const bool is_row) {
-              if (undecided.count(node) > 0)
-                sent[meeting_at(node)].push_back({node, is_row});
+              if (owned.count(node) > 0)
+                sent[meeting_at(node)].push_back({node, p, is_row});
             };
-            for (const NodeIndex node : pair.coupling.rows)
+            for (const NodeIndex node : couplings[p].coupling.rows)
               send(node, true);
-            for (const NodeIndex node : pair.r_nodes)
+            for (const NodeIndex node : couplings[p].r_nodes)
               send(node, false);
           }
-        std::set<NodeIndex> rows, columns;
+        std::set<NodeIndex> columns;
+        row_pairs.clear();
         for (const auto &[sender, list] : send_lists(sent, comm))
           for (const Use &use : list)
-            (use.is_row ? rows : columns).insert(use.node);
+            if (!use.is_row)
+              columns.insert(use.node);
+            else if (const auto [entry, is_new] = row_pairs.insert({use.node, use.pair}); !is_new)
+              entry->second = std::min(entry->second, use.pair);
         std::vector<NodeIndex> changed;
-        std::set_intersection(rows.begin(), rows.end(), columns.begin(), columns.end(),
-                              std::back_inserter(changed));
-        for (const NodeIndex node : changed)
-          nodes.at(node).change();
+        for (auto &[node, some] : nodes)
+          if (const bool is_row = row_pairs.count(node) > 0;
+              is_row ? columns.count(node) > 0 : some.is_ceded_by_any(touches.at(node)))
+            {
+              some.change(is_row);
+              changed.push_back(node);
+            }
         tell(changed);
         return Utilities::MPI::sum(changed.size(), comm) > 0;
+      }
+
+      /// Collective. What pairs cover around nodes that they cede counts for the pair that has the row: the
+      /// force at the node is one pressure times all of it.
+      void give_areas(std::vector<PairCoupling> &couplings) const
+      {
+        ListsByRank<PairCoupling::CededNode> sent;
+        for (const PairCoupling &pair : couplings)
+          for (const PairCoupling::CededNode &node : pair.ceded)
+            sent[meeting_at(node.node)].push_back(node);
+        // In an order that does not depend on the ranks.
+        std::map<NodeIndex, std::multiset<double>> parts;
+        for (const auto &[sender, list] : send_lists(sent, comm))
+          for (const PairCoupling::CededNode &node : list)
+            parts[node.node].insert(node.area);
+        struct Gain
+        {
+          NodeIndex    node;
+          unsigned int pair;
+          double       area;
+        };
+        ListsByRank<Gain> gains;
+        for (const auto &[node, areas] : parts)
+          if (const auto row = row_pairs.find(node); row != row_pairs.end())
+            for (const Touch &touch : touches.at(node))
+              if (touch.pair == row->second)
+                gains[touch.sender].push_back(
+                    {node, touch.pair, std::accumulate(areas.begin(), areas.end(), 0.)});
+        for (const auto &[sender, list] : send_lists(gains, comm))
+          for (const Gain &gain : list)
+            {
+              PairCoupling &pair = couplings[gain.pair];
+              if (const std::ptrdiff_t row = pair.coupling.find(gain.node); row >= 0)
+                {
+                  pair.coupling.weight[row] += gain.area;
+                  pair.areas[row] += gain.area;
+                }
+            }
       }
 
     private:
@@ -265,26 +326,32 @@ namespace Signorini
         struct Cover
         {
           FaceName     face;
-          unsigned int mortar_body;
+          unsigned int mortar_body, pair;
           double       share;
         };
         ListsByRank<Cover>     covers;
         ListsByRank<NodeIndex> parcels;
-        for (const PairToCouple &pair : pairs)
-          for (const FaceMoments &m : pair.moments)
-            if (m.covered > 1e-13 * m.area && pair.surfaces.halo.owns_face(m.face))
+        for (unsigned int p = 0; p < pairs.size(); ++p)
+          for (const FaceMoments &m : pairs[p].moments)
+            if (!is_empty(m) && pairs[p].surfaces.halo.owns_face(m.face))
               {
-                const FaceName name = name_of(pair.surfaces.nonmortar, m.face);
-                covers[meeting_at(name[0])].push_back({name, pair.mortar_body, m.covered / m.area});
+                const FaceName name = name_of(pairs[p].surfaces.nonmortar, m.face);
+                covers[meeting_at(name[0])].push_back({name, pairs[p].mortar_body, p, m.covered / m.area});
               }
-        std::map<std::pair<FaceName, unsigned int>, double> shares;
+        std::map<std::pair<FaceName, unsigned int>, double>       shares;
+        std::map<std::pair<FaceName, unsigned int>, unsigned int> first_pairs;
+        std::set<std::pair<FaceName, unsigned int>>               of_several;
         for (const auto &[sender, list] : send_lists(covers, comm))
           for (const Cover &cover : list)
-            shares[{cover.face, cover.mortar_body}] += cover.share;
-        constexpr double whole = 1. + 1e-6;
-        for (const auto &[face, share] : shares)
-          if (share > whole)
-            for (const NodeIndex node : face.first)
+            {
+              const std::pair<FaceName, unsigned int> place(cover.face, cover.mortar_body);
+              shares[place] += cover.share;
+              if (first_pairs.insert({place, cover.pair}).first->second != cover.pair)
+                of_several.insert(place);
+            }
+        for (const auto &place : of_several)
+          if (shares.at(place) > rule.greater)
+            for (const NodeIndex node : place.first)
               parcels[meeting_at(node)].push_back(node);
         std::set<NodeIndex> result;
         for (const auto &[sender, list] : send_lists(parcels, comm))
@@ -320,20 +387,22 @@ namespace Signorini
               else if (decision.is_kept)
                 pair.kept.insert(decision.node);
               if (decision.is_excluded)
-                undecided.erase(decision.node);
+                owned.erase(decision.node);
               else
-                undecided.insert(decision.node);
+                owned.insert(decision.node);
             }
       }
 
-      const MPI_Comm     comm;
-      const unsigned int n_ranks;
-      /// The nodes that meet here, and what the pairs make of them.
+      const MPI_Comm      comm;
+      const unsigned int  n_ranks;
+      const SharedRowRule rule;
+      /// The nodes that meet here, what the pairs make of them, and the first pair that has them as rows.
       std::map<NodeIndex, std::vector<Touch>> touches;
       std::map<NodeIndex, NodeOfSeveralPairs> nodes;
+      std::map<NodeIndex, unsigned int>       row_pairs;
       /// What this rank got to know, by pair; nodes that are rows of some pair.
       std::vector<NodesOfOtherPairs> known;
-      std::set<NodeIndex>            undecided;
+      std::set<NodeIndex>            owned;
     };
   } // namespace
 
@@ -355,8 +424,10 @@ namespace Signorini
             couplings.push_back(couple(pairs[p].surfaces, pairs[p].moments, several.of_pair(p),
                                        pairs[p].prescribed_gap, rule_of_pair));
           }
-        if (!several.settle(couplings))
-          return couplings;
+        if (several.settle(couplings))
+          continue;
+        several.give_areas(couplings);
+        return couplings;
       }
   }
 } // namespace Signorini

@@ -316,6 +316,7 @@ namespace Signorini
         result = assembler.assemble(nodes);
       }
     result.dropped    = nodes.report();
+    result.ceded      = nodes.ceded_nodes();
     result.lost_faces = nodes.lost_faces();
     for (double *const area : {&result.area, &result.covered_area, &result.lost_area})
       *area = Utilities::MPI::sum(*area, pair.halo.communicator());
@@ -330,7 +331,7 @@ namespace Signorini
     return list_bytes(coupling.rows) + list_bytes(coupling.row_start) + list_bytes(coupling.entries) +
            list_bytes(coupling.weight) + list_bytes(normals) + list_bytes(gaps) + list_bytes(positions) +
            list_bytes(areas) + list_bytes(shares) + list_bytes(fixed) + list_bytes(vertices) +
-           list_bytes(r_nodes) + list_bytes(dropped) + list_bytes(lost_faces);
+           list_bytes(r_nodes) + list_bytes(ceded) + list_bytes(dropped) + list_bytes(lost_faces);
   }
 
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/mesh/surface_normals.h>
 #include <signorini/mortar/surface_values.h>
 
 namespace Signorini
@@ -61,36 +62,6 @@ namespace Signorini
 
 
 
-  Vector3 SurfaceValues::facet_normal(const unsigned int triangle) const
-  {
-    const auto   &t    = surface.mesh.triangles[triangle];
-    const auto   &x    = surface.mesh.vertices;
-    const Vector3 area = cross_product_3d(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]]);
-    return area.norm() > 0. ? area / area.norm() : area;
-  }
-
-
-
-  Vector3 SurfaceValues::normal_at_corner(const unsigned int triangle, const unsigned int corner) const
-  {
-    const auto true_point = [&](const unsigned int toward) {
-      // Part of the way to another corner: the offset is a cubic, the error of the direction that part of it.
-      constexpr double      step    = 1e-3;
-      std::array<double, 3> weights = {{0., 0., 0.}};
-      weights[corner] += 1. - step;
-      weights[toward] += step;
-      Point<3> p = point(triangle, weights);
-      if (surface.true_shape.has_offsets())
-        p += surface.offset(triangle, weights);
-      return p;
-    };
-    const Point<3> x   = true_point(corner);
-    const Vector3 area = cross_product_3d(true_point((corner + 1) % 3) - x, true_point((corner + 2) % 3) - x);
-    return area.norm() > 0. ? area / area.norm() : area;
-  }
-
-
-
   Vector3 SurfaceValues::normal(const unsigned int triangle, const std::array<double, 3> &weights) const
   {
     const auto &t = surface.mesh.triangles[triangle];
@@ -100,7 +71,7 @@ namespace Signorini
       if (sharp_vertices.empty() || !sharp_vertices[t[i]])
         sum += weights[i] * n[t[i]];
       else
-        sum += weights[i] * normal_at_corner(triangle, i);
+        sum += weights[i] * true_normal(surface, triangle, i);
     const double norm = sum.norm();
     return norm > 0. ? sum / norm : sum;
   }

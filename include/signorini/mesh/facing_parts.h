@@ -62,8 +62,9 @@ namespace Signorini
     std::vector<double> nearest;
   };
 
-  /// Per vertex, whether not all faces around it hang together without a sharp edge (of more than 60
-  /// degrees): the vertex normal is that of none of them then. Faces of a piece count if they are there.
+  /// Per vertex, whether not all triangles around it hang together without a sharp edge of the true surface
+  /// (of more than 60 degrees): the vertex normal is that of none of them then. Those of a piece count if
+  /// they are there.
   /// @param counts which faces are looked at
   std::vector<bool> vertices_on_sharp_edges(const ContactSurface &surface, const std::vector<bool> &counts);
 

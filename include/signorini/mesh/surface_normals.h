@@ -14,6 +14,12 @@ namespace Signorini
   /// into triangles.
   Vector3 area_vector(const ContactSurface &surface, const ContactSurface::Face &face);
 
+  /// Unit normal of a triangle; zero if it has no area.
+  Vector3 facet_normal(const ContactSurface &surface, const unsigned int triangle);
+
+  /// Unit normal of the true surface over a triangle at a corner of it (0, 1 or 2); zero if it has none.
+  Vector3 true_normal(const ContactSurface &surface, const unsigned int triangle, const unsigned int corner);
+
   /// Sets the vertex normals of a contact surface. The one rule: every face gives its normal at each of its
   /// corners, that of its shape where there is one (a curved patch of the start mesh is a shape), else its
   /// own; they are added with the areas of the faces. Hanging vertices without a shape have the mean of their

@@ -55,6 +55,8 @@ namespace Signorini
     }
 
   private:
+    bool is_before(const double gap, const dealii::Point<3> &place) const;
+
     double           least = std::numeric_limits<double>::infinity();
     dealii::Point<3> where;
   };

@@ -12,12 +12,15 @@
 namespace Signorini
 {
   /// When a node that is nonmortar in several pairs is a row of some of them (doc/algorithm.md, chapter 3,
-  /// several pairs). A pure number.
+  /// several pairs). Pure numbers.
   struct SharedRowRule
   {
     /// Least cosine between what two pairs cover around the node: 60 degrees apart the surfaces are two, as
-    /// those of a sharp edge (FacingParts), and no normal stands for both.
-    double least_cosine = .5;
+    /// those of a sharp edge (FacingParts), and no normal stands for both. A hexagon is round, up to
+    /// rounding.
+    double least_cosine = .5 - 1e-6;
+    /// From this ratio on areas differ by more than rounding.
+    double greater = 1. + 1e-6;
   };
 
   /// One pair among several.
@@ -34,10 +37,11 @@ namespace Signorini
 
   /// Collective. couple() of several pairs, so that join_couplings() cannot fail. A node that is mortar in
   /// any pair is a row in none. So is one that is nonmortar in several if they do not look the same way there
-  /// (SharedRowRule), are not all tied or all in contact, or cover a face twice with one mortar body. Else it
-  /// belongs to the one that covers most around it. Those with the same mortar body share the row, however
-  /// thinly they cover it, the others cede the node. It is a row in none if that does not work out (hanging
-  /// vertices beside ceded nodes).
+  /// (SharedRowRule), are not all tied or all in contact, are tied to different bodies, or cover a face twice
+  /// with one body. Else it belongs to the pairs with the mortar body that covers most around it: they share
+  /// the row. If one of them has it, all do, however thinly they cover it. The others cede the node; the
+  /// weight of the row has what they cover. It is a row in none if that does not work out (hanging vertices
+  /// beside ceded nodes).
   std::vector<PairCoupling> couple_pairs(const std::vector<PairToCouple> &pairs, const MPI_Comm communicator,
                                          const DroppingRule  &rule        = {},
                                          const SharedRowRule &shared_rule = {});

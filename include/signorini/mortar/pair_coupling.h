@@ -104,6 +104,15 @@ namespace Signorini
       DroppedNode::Reason reason;
     };
 
+    /// A node of this rank that is another pair's (NodesOfOtherPairs::ceded), and the integral of its
+    /// function over what is covered here (area).
+    struct CededNode
+    {
+      NodeIndex node;
+      double    area;
+    };
+    std::vector<CededNode> ceded;
+
     /// This rank's nodes without a multiplier, and its faces without any.
     std::vector<DroppedNode> dropped;
     std::vector<LostFace>    lost_faces;

@@ -51,9 +51,6 @@ namespace Signorini
     /// The point with given barycentric coordinates, on the facet.
     dealii::Point<3> point(const unsigned int triangle, const std::array<double, 3> &weights) const;
 
-    /// The unit normal of a triangle; zero if it has no area.
-    Vector3 facet_normal(const unsigned int triangle) const;
-
     /// The unit normal at a point, linear on triangles; zero where there is none. Sharp vertices have that of
     /// the true surface over the triangle.
     Vector3 normal(const unsigned int triangle, const std::array<double, 3> &weights) const;
@@ -73,9 +70,6 @@ namespace Signorini
     }
 
   private:
-    /// That of the true surface over the triangle.
-    Vector3 normal_at_corner(const unsigned int triangle, const unsigned int corner) const;
-
     const ContactSurface &surface;
     std::vector<bool>     sharp_vertices;
     std::vector<FaceMap>  maps;

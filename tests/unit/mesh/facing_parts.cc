@@ -195,7 +195,7 @@ TEST(FacingParts, VerticesOnSharpEdges)
     foot[f] = std::abs(area_vector(corner, corner.faces[f])[2]) > 0.;
   for (const bool is_sharp : vertices_on_sharp_edges(corner, foot))
     EXPECT_FALSE(is_sharp);
-  for (const unsigned int n_sides : {5, 8})
+  for (const unsigned int n_sides : {5, 6, 8})
     {
       Quads prism;
       for (unsigned int i = 0; i < n_sides; ++i)

@@ -286,6 +286,37 @@ TEST(PairConflicts, NodesBelongToOneOfTwoBodies)
           EXPECT_NEAR(joined.gaps[row], 0., 1e-12);
           EXPECT_EQ(joined.pairs[row], place[0] < 1.01 ? 0u : 1u);
         }
+      // One pressure holds all nodes of the nonmortar side.
+      std::map<NodeIndex, double> rest;
+      for (std::size_t p = 0; p < 2; ++p)
+        {
+          const auto forces =
+              compute_contact_forces(pairs[p].non, pairs[p].mor, couplings[p], couplings[p].normals);
+          EXPECT_NEAR(forces.nonmortar.force[2] + forces.mortar.force[2], 0., 1e-14);
+          for (const auto &f : forces.nonmortar.nodes)
+            rest[f.node] -= f.force[2];
+          for (const auto &[node, load] : covered_loads(pairs[p].non, pairs[p].mor))
+            if (node < 1000)
+              rest[node] -= load;
+        }
+      for (const auto &[node, force] : rest)
+        EXPECT_NEAR(force, 0., 1e-14) << node;
+    }
+}
+
+// A pair cedes a node to another one, which cannot have it: it is a column then. Tied to two bodies there is
+// no reason to cede any.
+TEST(PairConflicts, NodesThatTheirPairCannotHave)
+{
+  auto pairs = under_two_bodies(5, 1.03);
+  fix(
+      pairs[0].non, [](const Point<3> &x) { return std::abs(x[0] - .8) < 1e-9 && x[1] == 0.; }, FixedMask(4));
+  for (const bool is_tied : {false, true})
+    {
+      const auto couplings = couple_together(pairs, {}, {}, {is_tied, is_tied}, false);
+      EXPECT_EQ(n_shared(couplings), 0u);
+      EXPECT_EQ(join_couplings(couplings, {}, all_nodes()).coupling.n_rows(), is_tied ? 16u : 23u);
+      EXPECT_EQ(couplings[1].r_nodes.size(), is_tied ? 4u : 1u);
     }
 }
 

@@ -116,10 +116,10 @@ namespace ReplicatedCoupling
           {
             if (surface.vertex_fixed[v].all())
               drop(v, DroppedNode::fixed);
-            else if (free_normal(v) < rule.smallest_free_normal)
-              drop(v, DroppedNode::normal_fixed);
             else if (excluded.count(surface.vertex_node[v]) > 0)
               drop(v, DroppedNode::other_pair);
+            else if (free_normal(v) < rule.smallest_free_normal)
+              drop(v, DroppedNode::normal_fixed);
             else if (!(covered[v] > 0.) || covered[v] < rule.smallest_share * full[v])
               drop(v, DroppedNode::thin_cover);
           }
