@@ -104,13 +104,14 @@ namespace Signorini
       DroppedNode::Reason reason;
     };
 
-    /// A node of this rank that is another pair's (NodesOfOtherPairs::ceded), and the integral of its
-    /// function over what is covered here (area).
+    /// A node of this rank that is another pair's (NodesOfOtherPairs::ceded).
     struct CededNode
     {
+      /// Which one, and the integral of its function over what is covered here (area).
       NodeIndex node;
       double    area;
     };
+    /// Those of this rank.
     std::vector<CededNode> ceded;
 
     /// This rank's nodes without a multiplier, and its faces without any.
