@@ -45,6 +45,8 @@ namespace Signorini
       double covered = 0., by_conditions = 0., by_other_pairs = 0.;
       /// Of that what is not far from the other side.
       double near_by_other_pairs = 0.;
+      /// What belongs to nodes of other pairs: their rows carry it, but not to this mortar body.
+      double ceded = 0.;
     };
 
     bool is_condition(const DroppedNode::Reason reason)
@@ -79,6 +81,9 @@ namespace Signorini
             result.near_by_other_pairs += is_far(m) ? 0. : m.covered;
           }
       });
+      for (const PairCoupling::CededNode &node : coupling.ceded)
+        result.ceded += node.area;
+      result.ceded               = Utilities::MPI::sum(result.ceded, comm);
       result.covered             = coupling.covered_area;
       result.by_conditions       = Utilities::MPI::sum(result.by_conditions, comm);
       result.by_other_pairs      = Utilities::MPI::sum(result.by_other_pairs, comm);
@@ -102,16 +107,17 @@ namespace Signorini
     LossOfChoice      result;
     if (lost.by_other_pairs > ContactRule().lost_share * lost.covered)
       result.refused = lost.by_other_pairs / lost.covered;
-    if (!(lost.near_by_other_pairs > 1e-12 * lost.covered) &&
+    const double to_others = lost.near_by_other_pairs + lost.ceded;
+    if (!(to_others > 1e-12 * lost.covered) &&
         !(lost.by_conditions > ContactRule().lost_share * lost.covered))
       return result;
-    result.share = (lost.near_by_other_pairs + lost.by_conditions) / lost.covered;
-    result.reason =
-        percent((lost.by_other_pairs + lost.by_conditions) / lost.covered) + " of \"" + pair.nonmortar.name +
-        "\" could carry no contact stress (" +
-        (lost.by_other_pairs > lost.by_conditions ? "it is the nonmortar side of another pair, too"
-                                                  : "its displacements are prescribed") +
-        ")";
+    result.share  = (to_others + lost.by_conditions) / lost.covered;
+    result.reason = percent((lost.by_other_pairs + lost.ceded + lost.by_conditions) / lost.covered) +
+                    " of \"" + pair.nonmortar.name + "\" could carry no contact stress (" +
+                    (lost.by_other_pairs + lost.ceded > lost.by_conditions
+                         ? "it is the nonmortar side of another pair, too"
+                         : "its displacements are prescribed") +
+                    ")";
     return result;
   }
 

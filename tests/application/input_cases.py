@@ -43,10 +43,10 @@ def shared_surfaces(p):
     certificate(s)
     check(any('sides are swapped' in note for note in s['notes']), f'notes: {s["notes"]}')
     near(sum(abs(pair['force'][2]) for pair in s['pairs']), 10.5, 1e-10, 'force')
-    # A layer in between that both of the others face from one side.
+    # A layer in between that both of the others face from one side: the second pair is left with nothing.
     refused(p, PATCH_TEST, ['Bodies=upper, lower, third', 'Contact pairs=interface, beside', 'Pair interface/Nonmortar=second',
                             *block_settings('third', '0, 0, 2', '1, 1, 3', '2, 2, 2', 'top: (0, 0, 0)'), 'Pair beside/First=third: bottom',
-                            'Pair beside/Second=lower: top', 'Pair beside/Nonmortar=second'], 'Pair interface', '"beside"', 'Nonmortar')
+                            'Pair beside/Second=lower: top', 'Pair beside/Nonmortar=second'], 'Pair beside', '"interface"', 'Nonmortar')
 
 
 def held_surfaces(p):
