@@ -25,12 +25,14 @@ namespace Signorini
       if (pairs.size() > 1)
         leave_faces_to_nearest(claims, comm);
       std::vector<PairToCouple> several;
+      // Each obstacle is a body of its own.
+      unsigned int obstacle = numbers::invalid_unsigned_int;
       for (const ContactPair &pair : pairs)
         several.push_back({{pair.nonmortar.surface, pair.mortar.surface, *pair.halo},
                            pair.moments,
                            static_cast<bool>(pair.prescribed_gap),
                            pair.is_tied,
-                           pair.mortar.body});
+                           pair.obstacle ? obstacle-- : pair.mortar.body});
       return couple_pairs(several, comm);
     }
 

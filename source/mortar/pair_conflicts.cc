@@ -128,11 +128,12 @@ namespace Signorini
           for (const auto &other : sums)
             if (!fit(one.second, other.second))
               return;
-        auto first = areas.begin();
-        for (auto body = areas.begin(); body != areas.end(); ++body)
-          if (body->second > rule.greater * first->second)
-            first = body;
-        owners = pairs[first->first];
+        // Of bodies that cover as much that of the first pair.
+        unsigned int best = sums.begin()->second.mortar_body;
+        for (const auto &[pair, touch] : sums)
+          if (areas[touch.mortar_body] > rule.greater * areas[best])
+            best = touch.mortar_body;
+        owners = pairs[best];
       }
 
       bool is_excluded() const
@@ -330,7 +331,7 @@ namespace Signorini
           double       share;
         };
         ListsByRank<Cover>     covers;
-        ListsByRank<NodeIndex> parcels;
+        ListsByRank<NodeIndex> corners;
         for (unsigned int p = 0; p < pairs.size(); ++p)
           for (const FaceMoments &m : pairs[p].moments)
             if (!is_empty(m) && pairs[p].surfaces.halo.owns_face(m.face))
@@ -338,23 +339,22 @@ namespace Signorini
                 const FaceName name = name_of(pairs[p].surfaces.nonmortar, m.face);
                 covers[meeting_at(name[0])].push_back({name, pairs[p].mortar_body, p, m.covered / m.area});
               }
-        std::map<std::pair<FaceName, unsigned int>, double>       shares;
-        std::map<std::pair<FaceName, unsigned int>, unsigned int> first_pairs;
-        std::set<std::pair<FaceName, unsigned int>>               of_several;
+        using SharesByPair = std::map<unsigned int, double>;
+        std::map<std::pair<FaceName, unsigned int>, SharesByPair> shares;
         for (const auto &[sender, list] : send_lists(covers, comm))
           for (const Cover &cover : list)
-            {
-              const std::pair<FaceName, unsigned int> place(cover.face, cover.mortar_body);
-              shares[place] += cover.share;
-              if (first_pairs.insert({place, cover.pair}).first->second != cover.pair)
-                of_several.insert(place);
-            }
-        for (const auto &place : of_several)
-          if (shares.at(place) > rule.greater)
-            for (const NodeIndex node : place.first)
-              parcels[meeting_at(node)].push_back(node);
+            shares[{cover.face, cover.mortar_body}][cover.pair] = cover.share;
+        for (const auto &[place, by_pair] : shares)
+          {
+            double sum = 0.;
+            for (const auto &[pair, share] : by_pair)
+              sum += share;
+            if (by_pair.size() > 1 && sum > rule.greater)
+              for (const NodeIndex node : place.first)
+                corners[meeting_at(node)].push_back(node);
+          }
         std::set<NodeIndex> result;
-        for (const auto &[sender, list] : send_lists(parcels, comm))
+        for (const auto &[sender, list] : send_lists(corners, comm))
           result.insert(list.begin(), list.end());
         return result;
       }

@@ -23,6 +23,30 @@ def block_settings(name, low, high, n, dirichlet):
             f'Body {name}/Young modulus=1000', f'Body {name}/Dirichlet={dirichlet}']
 
 
+FLOOR = """set Bodies        = block
+set Contact pairs = high, low
+subsection Body block
+  set Mesh          = block
+  set Upper corner  = 2, 1, 1
+  set Divisions     = 10, 5, 5
+  set Young modulus = 1000
+  set Poisson ratio = 0.3
+  set Dirichlet     = top: (0, 0, -0.01)
+  set Probes        = edge: (1, 0.4, 0)
+end
+subsection Pair high
+  set First        = block: bottom
+  set First region = 0.95 - x
+  set Obstacle     = plane: (0, 0, 0), (0, 0, 1)
+end
+subsection Pair low
+  set First        = block: bottom
+  set First region = x - 1.05
+  set Obstacle     = plane: (0, 0, -0.02), (0, 0, 1)
+end
+"""
+
+
 def shared_surfaces(p):
     """Pairs that have a surface in common."""
     again = ['Contact pairs=interface, again', 'Pair again/First=upper: bottom', 'Pair again/Second=lower: top']
@@ -43,6 +67,14 @@ def shared_surfaces(p):
     certificate(s)
     check(any('sides are swapped' in note for note in s['notes']), f'notes: {s["notes"]}')
     near(sum(abs(pair['force'][2]) for pair in s['pairs']), 10.5, 1e-10, 'force')
+    # A step in a rigid floor, two obstacles: the edge of the upper one holds the nodes over it.
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, 'floor.prm')
+        with open(path, 'w') as f:
+            f.write(FLOOR)
+        s = p.solve(path)
+        down = s['probes'][0]['displacement'][2]
+        check(abs(down) < 1e-12, f'displacement at the edge of the step: {down}')
     # A layer in between that both of the others face from one side: the second pair is left with nothing.
     refused(p, PATCH_TEST, ['Bodies=upper, lower, third', 'Contact pairs=interface, beside', 'Pair interface/Nonmortar=second',
                             *block_settings('third', '0, 0, 2', '1, 1, 3', '2, 2, 2', 'top: (0, 0, 0)'), 'Pair beside/First=third: bottom',

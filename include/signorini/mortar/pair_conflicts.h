@@ -31,17 +31,17 @@ namespace Signorini
     const std::vector<FaceMoments> &moments;
     /// As in couple(); whether the surfaces are glued together.
     bool prescribed_gap, is_tied;
-    /// Number of the body on the mortar side, one that no body has for an obstacle.
+    /// Number of the body on the mortar side; one that no body and no other obstacle has for an obstacle.
     unsigned int mortar_body;
   };
 
   /// Collective. couple() of several pairs, so that join_couplings() cannot fail. A node that is mortar in
   /// any pair is a row in none. So is one that is nonmortar in several if they do not look the same way there
   /// (SharedRowRule), are not all tied or all in contact, are tied to different bodies, or cover a face twice
-  /// with one body. Else it belongs to the pairs with the mortar body that covers most around it: they share
-  /// the row. If one of them has it, all do, however thinly they cover it. The others cede the node; the
-  /// weight of the row has what they cover. It is a row in none if that does not work out (hanging vertices
-  /// beside ceded nodes).
+  /// with one body. Else it belongs to the pairs with the mortar body that covers most around it (the
+  /// first of equal ones): they share the row. If one of them has it, all do, however thinly they cover it.
+  /// The others cede the node; the weight of the row has what they cover. It is a row in none if that does
+  /// not work out (hanging vertices beside ceded nodes).
   std::vector<PairCoupling> couple_pairs(const std::vector<PairToCouple> &pairs, const MPI_Comm communicator,
                                          const DroppingRule  &rule        = {},
                                          const SharedRowRule &shared_rule = {});

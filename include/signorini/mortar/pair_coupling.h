@@ -69,7 +69,8 @@ namespace Signorini
   struct PairCoupling
   {
     /// Rows: the nodes K of this rank. Entries: M_kq/D_kk for mortar nodes and -D_kr/D_kk for nodes in R;
-    /// weight D_kk (area).
+    /// weight D_kk (area), with what other pairs cover around the node if they cede it: the force on it is
+    /// the pressure times the weight.
     InterfaceCoupling coupling;
     /// In the order of the rows: outward unit normal n_p; weighted gap
     /// g_p = (1/D_pp) int psi_p (Phi(x) - x)·n_p (length); position; int psi_p (area; not D_pp beside nodes
