@@ -2,8 +2,8 @@
 // Copyright (C) 2026 by the Signorini authors
 
 #include <signorini/application/body_evaluation.h>
-#include <signorini/application/contact_evaluation.h>
 #include <signorini/application/nodal_sums.h>
+#include <signorini/application/pair_fields.h>
 #include <signorini/discretization/elasticity.h>
 #include <signorini/discretization/element.h>
 #include <signorini/mesh/surface_extraction.h>
@@ -233,7 +233,7 @@ namespace Signorini
       if (!pair.mapping)
         return result;
       const SurfaceValues on_mortar(pair.mortar.surface);
-      for (const OverlayTriangle &cell : pair.mapping->overlay())
+      for (const OverlayTriangle &cell : covered_overlay(pair))
         for (unsigned int c = 0; c < 3; ++c)
           for (unsigned int i = 0; i < 3; ++i)
             if (cell.nonmortar[c][i] == 1.)

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Signorini authors
 
 #include <signorini/application/certificate.h>
+#include <signorini/application/pair_fields.h>
 #include <signorini/discretization/elasticity.h>
 #include <signorini/output/final_words.h>
 #include <signorini/surface/mapping_quality.h>

@@ -6,7 +6,7 @@
 #include <signorini/algebra/gathered_lists.h>
 #include <signorini/algebra/input_error.h>
 #include <signorini/application/contact_checks.h>
-#include <signorini/application/contact_evaluation.h>
+#include <signorini/application/pair_fields.h>
 #include <signorini/mesh/surface_normals.h>
 #include <signorini/mortar/face_claims.h>
 #include <signorini/mortar/pair_conflicts.h>
@@ -378,7 +378,7 @@ namespace Signorini
       if (!pair.mapping)
         return;
       const SurfaceValues on_nonmortar(non, sharp_vertices(pair)), on_mortar(mor);
-      for (const OverlayTriangle &cell : pair.mapping->overlay())
+      for (const OverlayTriangle &cell : covered_overlay(pair))
         for (unsigned int c = 0; c < 3; ++c)
           {
             std::array<double, 3> corner = {{0., 0., 0.}};

@@ -4,11 +4,10 @@
 #include "nodal_contact_forces.h"
 
 #include <signorini/algebra/gathered_lists.h>
-#include <signorini/algebra/node_request.h>
 #include <signorini/application/contact_evaluation.h>
 #include <signorini/application/nodal_sums.h>
+#include <signorini/application/pair_fields.h>
 #include <signorini/discretization/elasticity.h>
-#include <signorini/mesh/facing_parts.h>
 #include <signorini/mesh/surface_extraction.h>
 #include <signorini/mortar/contact_forces.h>
 #include <signorini/mortar/geometric_penetration.h>
@@ -73,25 +72,6 @@ namespace Signorini
       double  scale = 0., n_nodes = 0., square = 0.;
     };
 
-    /// Which faces a pair covers: others it has left to a nearer pair.
-    std::vector<bool> covered_faces(const ContactPair &pair)
-    {
-      std::vector<bool> result(pair.nonmortar.surface.faces.size(), false);
-      for (const FaceMoments &m : pair.moments)
-        result[m.face] = m.covered > 0.;
-      return result;
-    }
-
-    /// The cells of the overlay over some faces.
-    std::vector<OverlayTriangle> overlay_of(const ContactPair &pair, const std::vector<bool> &is_covered)
-    {
-      std::vector<OverlayTriangle> cells;
-      for (const OverlayTriangle &cell : pair.mapping->overlay())
-        if (is_covered[pair.nonmortar.surface.triangle_face[cell.nonmortar_triangle]])
-          cells.push_back(cell);
-      return cells;
-    }
-
     /// @param pressure by row
     GeometricPenetration penetration_of(const Discretization &d, const unsigned int p,
                                         const Vector &displacement, const std::vector<double> &row_pressure)
@@ -102,7 +82,7 @@ namespace Signorini
       const auto         displaced = vertex_values(pair.nonmortar.surface, d.partition(), displacement);
       if (pair.obstacle)
         return sample_rigid_penetration(pair.nonmortar.surface, *pair.obstacle, displaced, pressure, comm);
-      const std::vector<OverlayTriangle> overlay = overlay_of(pair, covered_faces(pair));
+      const std::vector<OverlayTriangle> overlay = covered_overlay(pair);
       const FacingSurfaces facing{pair.nonmortar.surface, pair.mortar.surface, overlay, sharp_vertices(pair)};
       const auto           mortar = vertex_values(pair.mortar.surface, d.partition(), displacement);
       return sample_geometric_penetration(facing, displaced, mortar, pressure, pair.prescribed_gap, comm);
@@ -124,54 +104,12 @@ namespace Signorini
       if (!pair.prescribed_gap)
         result.gap_doubt = pair.obstacle ? sample_gap_doubt(pair.nonmortar.surface, is_active, comm)
                                          : sample_gap_doubt(pair.nonmortar.surface, pair.mortar.surface,
-                                                            pair.mapping->overlay(), is_active, comm);
+                                                            covered_overlay(pair), is_active, comm);
       // With a prescribed gap the surfaces need not lie where they touch.
       if (!pair.obstacle && !pair.prescribed_gap && result.load > 0.)
         result.moment_balance = moments.norm() / (result.load * width);
     }
   } // namespace
-
-
-
-  std::vector<bool> sharp_vertices(const ContactPair &pair)
-  {
-    const std::vector<bool>    here = vertices_on_sharp_edges(pair.nonmortar.surface, covered_faces(pair));
-    std::vector<unsigned char> flags(here.begin(), here.end());
-    pair.halo->update(flags);
-    // Coarse faces beside fine ones have hanging vertices on their edges, which are no corners of theirs.
-    const auto &hanging = pair.nonmortar.surface.hanging;
-    for (std::size_t v = 0; v < flags.size(); ++v)
-      if (!hanging[v].empty())
-        flags[v] = std::all_of(hanging[v].begin(), hanging[v].end(),
-                               [&](const auto &parent) { return flags[parent.first] != 0; });
-    return std::vector<bool>(flags.begin(), flags.end());
-  }
-
-
-
-  ContactStress stress_of_pair(const Discretization &d, const ContactStress &stress, const unsigned int p)
-  {
-    struct RowStress
-    {
-      Vector3       traction;
-      double        pressure, opening;
-      unsigned char active;
-    };
-    const NodeRequest request(d.partition(), d.couplings[p].coupling.rows);
-    ContactStress     result;
-    for (const RowStress &one : request.fetch([&](const unsigned int local) {
-           const std::size_t row = d.coupling.find(d.partition().to_global(local));
-           return RowStress{stress.traction[row], stress.pressure[row], stress.opening[row],
-                            stress.active[row]};
-         }))
-      {
-        result.traction.push_back(one.traction);
-        result.pressure.push_back(one.pressure);
-        result.opening.push_back(one.opening);
-        result.active.push_back(one.active);
-      }
-    return result;
-  }
 
 
 

@@ -5,6 +5,7 @@
 #include <signorini/algebra/input_error.h>
 #include <signorini/application/deck_results.h>
 #include <signorini/application/journal.h>
+#include <signorini/application/pair_fields.h>
 #include <signorini/discretization/element.h>
 #include <signorini/output/field_output.h>
 

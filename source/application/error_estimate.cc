@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
-#include <signorini/application/contact_evaluation.h>
 #include <signorini/application/error_estimate.h>
+#include <signorini/application/pair_fields.h>
 #include <signorini/discretization/error_indicator.h>
 #include <signorini/mesh/surface_extraction.h>
 #include <signorini/mortar/contact_indicator.h>
@@ -13,42 +13,6 @@ namespace Signorini
 
   namespace
   {
-    /// Collective. The contact stress lambda n (force per area) of a pair at the corners of this rank's faces
-    /// of its nonmortar surface.
-    std::vector<Vector3> stress_at_vertices(const Discretization &d, const ContactStress &all,
-                                            const unsigned int p)
-    {
-      const ContactSurface           &surface = d.pairs[p].nonmortar.surface;
-      const SurfaceHalo              &halo    = *d.pairs[p].halo;
-      const std::vector<Vector3>      rows    = stress_of_pair(d, all, p).traction;
-      std::vector<Vector3>            stress  = spread_rows(d.couplings[p], halo, rows);
-      const std::vector<unsigned int> known =
-          spread_rows(d.couplings[p], halo, std::vector<unsigned int>(rows.size(), 1));
-      // Vertices without a multiplier: the mean of the neighbours that have one.
-      std::vector<Vector3>      sum(stress.size());
-      std::vector<unsigned int> n(stress.size(), 0);
-      for (const ContactSurface::Face &face : surface.faces)
-        for (unsigned int a = 0; a < face.n_corners; ++a)
-          for (unsigned int b = 0; b < face.n_corners; ++b)
-            if (!known[face.corners[a]] && known[face.corners[b]])
-              {
-                sum[face.corners[a]] += stress[face.corners[b]];
-                ++n[face.corners[a]];
-              }
-      for (std::size_t v = 0; v < stress.size(); ++v)
-        if (!known[v] && n[v] > 0)
-          stress[v] = sum[v] / static_cast<double>(n[v]);
-      halo.update(stress);
-      for (std::size_t v = 0; v < stress.size(); ++v)
-        if (!surface.hanging[v].empty())
-          {
-            stress[v] = Vector3();
-            for (const auto &[parent, weight] : surface.hanging[v])
-              stress[v] += weight * stress[parent];
-          }
-      return stress;
-    }
-
     /// Collective. Values of faces, from the ranks that worked on them to those that own the cells.
     template <typename T>
     std::vector<T> send_to_owners(const ContactSurface &surface, const SurfaceHalo &halo,
@@ -72,7 +36,7 @@ namespace Signorini
 
     /// How far a pair is from its conditions, face by face of the nonmortar surface.
     std::vector<double> violation_of(const Discretization &d, const ContactPair &pair,
-                                     const std::vector<Vector3> &stress, const Vector &displacement)
+                                     const CornerValues &stress, const Vector &displacement)
     {
       const ContactSurface &non = pair.nonmortar.surface, &mor = pair.mortar.surface;
       const double          mu  = pair.nonmortar.material.mu();
@@ -81,7 +45,7 @@ namespace Signorini
         return contact_violation(non, rigid_images(non, *pair.obstacle), stress, own, mu,
                                  Utilities::MPI::this_mpi_process(d.nodal().communicator()));
       const auto other   = vertex_values(mor, d.partition(), displacement);
-      const auto overlay = pair.mapping->overlay();
+      const auto overlay = covered_overlay(pair);
       if (pair.is_tied)
         return tie_violation({non, mor, overlay}, own, other, mu);
       const FacingSurfaces facing{non, mor, overlay, sharp_vertices(pair)};
@@ -98,10 +62,10 @@ namespace Signorini
     std::vector<std::pair<unsigned int, double>> violations;
     for (unsigned int p = 0; p < d.pairs.size(); ++p)
       {
-        const ContactPair         &pair   = d.pairs[p];
-        const std::vector<Vector3> stress = stress_at_vertices(d, solution.stress, p);
-        const ContactFaces         non(d.nodal(), pair.nonmortar.surface, pair.nonmortar.ids);
-        const auto add = [&](const ContactFaces &faces, const std::vector<FaceTraction> &list) {
+        const ContactPair &pair   = d.pairs[p];
+        const CornerValues stress = stress_at_corners(d, solution.stress, p);
+        const ContactFaces non(d.nodal(), pair.nonmortar.surface, pair.nonmortar.ids);
+        const auto         add = [&](const ContactFaces &faces, const std::vector<FaceTraction> &list) {
           for (unsigned int f = 0; f < list.size(); ++f)
             faces.add(tractions, f, list[f]);
         };
@@ -109,7 +73,7 @@ namespace Signorini
                                 nonmortar_tractions(pair.nonmortar.surface, pair.moments, stress)));
         if (!pair.obstacle)
           add(ContactFaces(d.nodal(), pair.mortar.surface, pair.mortar.ids),
-              mortar_tractions(pair.nonmortar.surface, pair.mortar.surface, pair.mapping->overlay(), stress,
+              mortar_tractions(pair.nonmortar.surface, pair.mortar.surface, covered_overlay(pair), stress,
                                model.communicator()));
         const auto violation = send_to_owners(pair.nonmortar.surface, *pair.halo,
                                               violation_of(d, pair, stress, solution.displacement));

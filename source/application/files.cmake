@@ -31,6 +31,7 @@ signorini_add_layer(application
   loose_motions.cc
   nested_iteration.cc
   output_parameters.cc
+  pair_fields.cc
   pair_maker.cc
   pair_parameters.cc
   pair_pieces.cc

@@ -9,6 +9,7 @@
 #include <signorini/application/free_bodies.h>
 #include <signorini/application/journal.h>
 #include <signorini/application/nested_iteration.h>
+#include <signorini/application/pair_fields.h>
 #include <signorini/application/point_holds.h>
 #include <signorini/discretization/elasticity.h>
 #include <signorini/discretization/error_indicator.h>

@@ -6,6 +6,7 @@
 #include <signorini/algebra/gathered_lists.h>
 #include <signorini/algebra/interface_rows.h>
 #include <signorini/application/contact_evaluation.h>
+#include <signorini/application/pair_fields.h>
 #include <signorini/mortar/contact_forces.h>
 
 #include <algorithm>
@@ -48,9 +49,8 @@ namespace Signorini
     /// What one row of a pair does to a node of the mortar side, or the sum of several.
     struct MortarShare
     {
-      double  area = 0., recovered = 0., gap = 0.;
-      Vector3 force;
-      bool    is_active = false;
+      double area = 0., pressure = 0., recovered = 0., gap = 0.;
+      bool   is_active = false;
     };
 
     using MortarShares = std::unordered_map<NodeIndex, MortarShare>;
@@ -68,7 +68,7 @@ namespace Signorini
               const double weight = entry->weight * coupling.coupling.weight[i];
               MortarShare &share  = shares[entry->node];
               share.area += weight;
-              share.force += weight * stress.traction[i];
+              share.pressure += weight * stress.pressure[i];
               share.recovered += weight * recovered[coupling.vertices[i]];
               share.gap += weight * coupling.mean_gap(i, stress.opening[i]);
               share.is_active = share.is_active || stress.active[i] != 0;
@@ -153,7 +153,7 @@ namespace Signorini
         {
           const MortarShare &share  = it->second;
           const Vector3     &normal = surface.mesh.vertex_normals[v];
-          PressureRow        row{surface.mesh.vertices[v], share.area, -(share.force * normal),
+          PressureRow        row{surface.mesh.vertices[v], share.area, share.pressure,
                           share.recovered,          share.gap,  share.is_active};
           row.pair   = p;
           row.node   = it->first;

@@ -7,6 +7,7 @@
 #include <signorini/algebra/input_error.h>
 #include <signorini/application/body_evaluation.h>
 #include <signorini/application/deck_results.h>
+#include <signorini/application/pair_fields.h>
 #include <signorini/application/write_report.h>
 #include <signorini/application/write_results.h>
 #include <signorini/mesh/surface_extraction.h>
@@ -59,19 +60,6 @@ namespace Signorini
         for (unsigned int c = 0; c < dim; ++c)
           field.values.push_back(value[c]);
       return field;
-    }
-
-    /// Values at rows of a pair, at their vertices; hanging ones have those of their parents.
-    template <typename Value>
-    std::vector<Value> at_vertices(const Discretization &d, const unsigned int p,
-                                   const std::vector<Value> &row_values)
-    {
-      const ContactSurface &surface = d.pairs[p].nonmortar.surface;
-      std::vector<Value>    values  = spread_rows(d.couplings[p], *d.pairs[p].halo, row_values);
-      for (std::size_t v = 0; v < values.size(); ++v)
-        for (const auto &[parent, weight] : surface.hanging[v])
-          values[v] += weight * values[parent];
-      return values;
     }
 
     /// The vectors from the vertices of the nonmortar surface to their images, where the mapping reaches
@@ -152,14 +140,11 @@ namespace Signorini
                                          const unsigned int p)
   {
     const ContactSurface &surface = d.pairs[p].mortar.surface;
-    const auto           &normals = surface.mesh.vertex_normals;
-    const auto            stress =
-        mortar_stress(surface, d.couplings[p], stress_of_pair(d, solution.stress, p).traction, d.partition());
-    OutputField pressure{"pressure", 1, {}};
-    for (std::size_t v = 0; v < stress.size(); ++v)
-      pressure.values.push_back(-(stress[v] * normals[v]));
-    return {field_of("displacement", vertex_values(surface, d.partition(), solution.displacement)), pressure,
-            field_of("traction", stress), field_of("normal", normals)};
+    const ContactStress   stress  = stress_of_pair(d, solution.stress, p);
+    return {field_of("displacement", vertex_values(surface, d.partition(), solution.displacement)),
+            {"pressure", 1, mortar_means(surface, d.couplings[p], stress.pressure, d.partition())},
+            field_of("traction", mortar_means(surface, d.couplings[p], stress.traction, d.partition())),
+            field_of("normal", surface.mesh.vertex_normals)};
   }
 
 

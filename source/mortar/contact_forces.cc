@@ -157,83 +157,101 @@ namespace Signorini
 
   namespace
   {
-    /// What rows do to a node of the mortar side.
-    struct NodeForce
+    /// What rows bring to a node of the mortar side, times area.
+    template <typename Value>
+    struct NodeShare
     {
       NodeIndex node;
-      Vector3   force;
+      Value     sum  = Value();
       double    area = 0.;
     };
 
-    /// What the rows of this rank do to the nodes of a surface, by rising node.
-    std::vector<NodeForce> forces_of_rows(const std::vector<NodeIndex> &nodes, const PairCoupling &pair,
-                                          const std::vector<Vector3> &traction)
+    /// What the rows of this rank bring to the nodes of a surface, by rising node.
+    template <typename Value>
+    std::vector<NodeShare<Value>> shares_of_rows(const std::vector<NodeIndex> &nodes,
+                                                 const PairCoupling &pair, const std::vector<Value> &of_rows)
     {
-      std::vector<NodeForce> result;
+      std::vector<NodeShare<Value>> result;
       for (const NodeIndex node : nodes)
-        result.push_back({node, Vector3(), 0.});
-      for (std::size_t row = 0; row < traction.size(); ++row)
+        result.push_back({node});
+      for (std::size_t row = 0; row < of_rows.size(); ++row)
         for (const auto *entry = pair.coupling.begin(row); entry != pair.coupling.end(row); ++entry)
           if (const auto it = std::lower_bound(nodes.begin(), nodes.end(), entry->node);
               it != nodes.end() && *it == entry->node)
             {
-              const double weight = entry->weight * pair.coupling.weight[row];
-              NodeForce   &sum    = result[it - nodes.begin()];
-              sum.force += weight * traction[row];
-              sum.area += weight;
+              const double      weight = entry->weight * pair.coupling.weight[row];
+              NodeShare<Value> &share  = result[it - nodes.begin()];
+              share.sum += weight * of_rows[row];
+              share.area += weight;
             }
       return result;
     }
 
     /// Collective. The sums over all ranks, by owned node.
-    std::unordered_map<unsigned int, NodeForce> sums_of_owners(const std::vector<NodeForce> &forces,
-                                                               const NodePartition          &partition)
+    template <typename Value>
+    std::unordered_map<unsigned int, NodeShare<Value>>
+    sums_of_owners(const std::vector<NodeShare<Value>> &shares, const NodePartition &partition)
     {
-      ListsByRank<NodeForce> parcels;
-      for (const NodeForce &part : forces)
-        if (part.area != 0. || part.force.norm_square() != 0.)
+      ListsByRank<NodeShare<Value>> parcels;
+      for (const NodeShare<Value> &part : shares)
+        if (part.area != 0.)
           parcels[partition.owner(part.node)].push_back(part);
-      std::unordered_map<unsigned int, NodeForce> sums;
+      std::unordered_map<unsigned int, NodeShare<Value>> sums;
       for (const auto &[sender, list] : send_lists(parcels, partition.communicator()))
-        for (const NodeForce &part : list)
+        for (const NodeShare<Value> &part : list)
           {
-            NodeForce &sum = sums[partition.to_local(part.node)];
-            sum.force += part.force;
+            NodeShare<Value> &sum = sums[partition.to_local(part.node)];
+            sum.sum += part.sum;
             sum.area += part.area;
           }
       return sums;
+    }
+
+    template <typename Value>
+    std::vector<Value> means_at_vertices(const ContactSurface &mortar, const PairCoupling &pair,
+                                         const std::vector<Value> &of_rows, const NodePartition &partition)
+    {
+      const std::size_t      n = mortar.mesh.vertices.size();
+      std::vector<NodeIndex> nodes;
+      for (unsigned int v = 0; v < n; ++v)
+        if (mortar.hanging[v].empty())
+          nodes.push_back(mortar.vertex_node[v]);
+      std::sort(nodes.begin(), nodes.end());
+      const auto sums    = sums_of_owners(shares_of_rows(nodes, pair, of_rows), partition);
+      double     largest = 0.;
+      for (const auto &entry : sums)
+        largest = std::max(largest, entry.second.area);
+      largest                         = Utilities::MPI::max(largest, partition.communicator());
+      const std::vector<Value> values = NodeRequest(partition, nodes).fetch([&](const unsigned int local) {
+        const auto it = sums.find(local);
+        return it != sums.end() && it->second.area > 1e-6 * largest ? it->second.sum / it->second.area
+                                                                    : Value();
+      });
+      std::vector<Value>       means(n, Value());
+      for (std::size_t v = 0; v < n; ++v)
+        if (mortar.hanging[v].empty())
+          means[v] =
+              values[std::lower_bound(nodes.begin(), nodes.end(), mortar.vertex_node[v]) - nodes.begin()];
+      for (std::size_t v = 0; v < n; ++v)
+        for (const auto &[parent, share] : mortar.hanging[v])
+          means[v] += share * means[parent];
+      return means;
     }
   } // namespace
 
 
 
-  std::vector<Vector3> mortar_stress(const ContactSurface &mortar, const PairCoupling &pair,
-                                     const std::vector<Vector3> &traction, const NodePartition &partition)
+  std::vector<Vector3> mortar_means(const ContactSurface &mortar, const PairCoupling &pair,
+                                    const std::vector<Vector3> &of_rows, const NodePartition &partition)
   {
-    const std::size_t      n = mortar.mesh.vertices.size();
-    std::vector<NodeIndex> nodes;
-    for (unsigned int v = 0; v < n; ++v)
-      if (mortar.hanging[v].empty())
-        nodes.push_back(mortar.vertex_node[v]);
-    std::sort(nodes.begin(), nodes.end());
-    const auto sums    = sums_of_owners(forces_of_rows(nodes, pair, traction), partition);
-    double     largest = 0.;
-    for (const auto &entry : sums)
-      largest = std::max(largest, entry.second.area);
-    largest                           = Utilities::MPI::max(largest, partition.communicator());
-    const std::vector<Vector3> values = NodeRequest(partition, nodes).fetch([&](const unsigned int local) {
-      const auto it = sums.find(local);
-      return it != sums.end() && it->second.area > 1e-6 * largest ? it->second.force / it->second.area
-                                                                  : Vector3();
-    });
-    std::vector<Vector3>       stress(n);
-    for (std::size_t v = 0; v < n; ++v)
-      if (mortar.hanging[v].empty())
-        stress[v] =
-            values[std::lower_bound(nodes.begin(), nodes.end(), mortar.vertex_node[v]) - nodes.begin()];
-    for (std::size_t v = 0; v < n; ++v)
-      for (const auto &[parent, share] : mortar.hanging[v])
-        stress[v] += share * stress[parent];
-    return stress;
+    return means_at_vertices(mortar, pair, of_rows, partition);
+  }
+
+
+
+  std::vector<double> mortar_means(const ContactSurface &mortar, const PairCoupling &pair,
+                                   const std::vector<double> &of_rows, const NodePartition &partition)
+  {
+    return means_at_vertices(mortar, pair, of_rows, partition);
   }
 } // namespace Signorini

@@ -93,7 +93,7 @@ namespace Signorini
 
   std::vector<FaceTraction> nonmortar_tractions(const ContactSurface           &nonmortar,
                                                 const std::vector<FaceMoments> &moments,
-                                                const std::vector<Vector3>     &stress)
+                                                const CornerValues             &stress)
   {
     std::vector<FaceTraction> result(nonmortar.faces.size());
     for (const FaceMoments &m : moments)
@@ -103,8 +103,8 @@ namespace Signorini
         for (unsigned int a = 0; a < face.n_corners; ++a)
           {
             for (unsigned int b = 0; b < face.n_corners; ++b)
-              traction.moments[a] -= m.mass[4 * a + b] * stress[face.corners[b]];
-            traction.square -= traction.moments[a] * stress[face.corners[a]];
+              traction.moments[a] -= m.mass[4 * a + b] * stress[m.face][b];
+            traction.square -= traction.moments[a] * stress[m.face][a];
           }
       }
     return result;
@@ -146,7 +146,7 @@ namespace Signorini
 
   std::vector<FaceTraction> mortar_tractions(const ContactSurface &nonmortar, const ContactSurface &mortar,
                                              const std::vector<OverlayTriangle> &overlay,
-                                             const std::vector<Vector3> &stress, const MPI_Comm communicator)
+                                             const CornerValues &stress, const MPI_Comm communicator)
   {
     const SurfaceValues       non(nonmortar), mor(mortar);
     std::vector<FaceTraction> sums(mortar.faces.size());
@@ -214,7 +214,7 @@ namespace Signorini
 
 
 
-  std::vector<double> contact_violation(const FacingSurfaces &pair, const std::vector<Vector3> &stress,
+  std::vector<double> contact_violation(const FacingSurfaces &pair, const CornerValues &stress,
                                         const std::vector<Vector3> &displacement_nonmortar,
                                         const std::vector<Vector3> &displacement_mortar,
                                         const GapFunction &prescribed_gap, const double shear_modulus)
@@ -275,9 +275,8 @@ namespace Signorini
 
 
   std::vector<double> contact_violation(const ContactSurface &nonmortar, const ImageFunction &image,
-                                        const std::vector<Vector3> &stress,
-                                        const std::vector<Vector3> &displacement, const double shear_modulus,
-                                        const unsigned int rank)
+                                        const CornerValues &stress, const std::vector<Vector3> &displacement,
+                                        const double shear_modulus, const unsigned int rank)
   {
     const SurfaceValues non(nonmortar);
     Violation           violation(nonmortar);

@@ -98,4 +98,17 @@ namespace Signorini
       sum += shape[a] * field[corners[a]];
     return sum;
   }
+
+
+
+  Vector3 SurfaceValues::value(const CornerValues &field, const unsigned int triangle,
+                               const std::array<double, 4> &shape) const
+  {
+    AssertDimension(field.size(), surface.faces.size());
+    const auto &corners = field[surface.triangle_face[triangle]];
+    Vector3     sum;
+    for (unsigned int a = 0; a < 4; ++a)
+      sum += shape[a] * corners[a];
+    return sum;
+  }
 } // namespace Signorini

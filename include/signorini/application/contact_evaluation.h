@@ -23,14 +23,6 @@ namespace Signorini
     dealii::Point<3> point;
   };
 
-  /// Collective. Multipliers of one pair, per row of its own coupling on this rank.
-  ContactStress stress_of_pair(const Discretization &discretization, const ContactStress &stress,
-                               const unsigned int pair);
-
-  /// Collective. By vertex of the nonmortar surface, at the corners of this rank's faces: whether covered
-  /// faces around it lie beyond a sharp edge (vertices_on_sharp_edges()).
-  std::vector<bool> sharp_vertices(const ContactPair &pair);
-
   /// The whole equilibrium of a solution.
   struct Equilibrium
   {

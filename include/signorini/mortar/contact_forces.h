@@ -61,11 +61,14 @@ namespace Signorini
                                        const std::vector<FaceMoments> &moments, const PairCoupling &pair,
                                        const std::vector<double> &pressure);
 
-  /// Collective. The contact stress on the mortar side, by vertex of its surface: sum_p M_pq lambda_p n_p /
-  /// sum_p M_pq (force per area), zero where nothing is covered.
+  /// Collective. What arrives of values at the rows on the mortar side, by vertex of its surface: the means
+  /// sum_p M_pq value_p / sum_p M_pq, zero where nothing is covered. Of contact stresses or pressures (force
+  /// per area).
   /// @param partition of the nodes: their owners sum up
-  std::vector<Vector3> mortar_stress(const ContactSurface &mortar, const PairCoupling &pair,
-                                     const std::vector<Vector3> &traction, const NodePartition &partition);
+  std::vector<Vector3> mortar_means(const ContactSurface &mortar, const PairCoupling &pair,
+                                    const std::vector<Vector3> &of_rows, const NodePartition &partition);
+  std::vector<double>  mortar_means(const ContactSurface &mortar, const PairCoupling &pair,
+                                    const std::vector<double> &of_rows, const NodePartition &partition);
 } // namespace Signorini
 
 #endif

@@ -40,23 +40,23 @@ namespace Signorini
   };
 
   /// Tractions -lambda n on the faces of the nonmortar surface, zero outside of the covered part.
-  /// @param stress contact stress lambda_p n_p (force per area) at the vertices; at hanging ones, and at
-  /// those without a multiplier, as the weights of the constraint or the neighbours give it
+  /// @param stress contact stress lambda n (force per area); at corners without a multiplier as the
+  /// neighbours give it
   std::vector<FaceTraction> nonmortar_tractions(const ContactSurface           &nonmortar,
                                                 const std::vector<FaceMoments> &moments,
-                                                const std::vector<Vector3>     &stress);
+                                                const CornerValues             &stress);
 
   /// Collective. The tractions lambda n dA_non / dA_mor that the mapping brings to the faces of the mortar
   /// surface: known on the ranks that own the cells of these faces.
   /// @param overlay of this rank's own nonmortar faces
   std::vector<FaceTraction> mortar_tractions(const ContactSurface &nonmortar, const ContactSurface &mortar,
                                              const std::vector<OverlayTriangle> &overlay,
-                                             const std::vector<Vector3> &stress, const MPI_Comm communicator);
+                                             const CornerValues &stress, const MPI_Comm communicator);
 
   /// For each face of the nonmortar surface (those of this rank's overlay): the penetration
   /// mu / h_F |(n.(u - u_mor o Phi) - g)_+|^2 and the failure of complementarity |int lambda (g - n.[u])|
   /// (energy). Gaps are geometric, or prescribed.
-  std::vector<double> contact_violation(const FacingSurfaces &pair, const std::vector<Vector3> &stress,
+  std::vector<double> contact_violation(const FacingSurfaces &pair, const CornerValues &stress,
                                         const std::vector<Vector3> &displacement_nonmortar,
                                         const std::vector<Vector3> &displacement_mortar,
                                         const GapFunction &prescribed_gap, const double shear_modulus);
@@ -70,9 +70,8 @@ namespace Signorini
   /// contact_violation() for a rigid partner, given by the images of points (see compute_face_moments()); for
   /// the faces of rank `rank`.
   std::vector<double> contact_violation(const ContactSurface &nonmortar, const ImageFunction &image,
-                                        const std::vector<Vector3> &stress,
-                                        const std::vector<Vector3> &displacement, const double shear_modulus,
-                                        const unsigned int rank);
+                                        const CornerValues &stress, const std::vector<Vector3> &displacement,
+                                        const double shear_modulus, const unsigned int rank);
 } // namespace Signorini
 
 #endif

@@ -8,6 +8,7 @@
 #include <signorini/mortar/face_map.h>
 #include <signorini/surface/overlay.h>
 
+#include <array>
 #include <vector>
 
 namespace Signorini
@@ -39,6 +40,9 @@ namespace Signorini
     std::vector<bool> sharp_vertices = {};
   };
 
+  /// A field on a contact surface that may jump from face to face: by face, at its corners.
+  using CornerValues = std::vector<std::array<Vector3, 4>>;
+
   /// Fields on a contact surface at points of its triangles. Nodal fields are evaluated at the true reference
   /// point of the face. The surface must outlive the object.
   class SurfaceValues
@@ -60,6 +64,10 @@ namespace Signorini
 
     /// A field given by vertex, with the corner functions at the point.
     Vector3 value(const std::vector<Vector3> &field, const unsigned int triangle,
+                  const std::array<double, 4> &shape) const;
+
+    /// A field given by the corners of faces, with the corner functions at the point.
+    Vector3 value(const CornerValues &field, const unsigned int triangle,
                   const std::array<double, 4> &shape) const;
 
     /// A field given by vertices at a point of a triangle.
