@@ -43,10 +43,6 @@ namespace Signorini
     struct LostContact
     {
       double covered = 0., by_conditions = 0., by_other_pairs = 0.;
-      /// Of that what is not far from the other side.
-      double near_by_other_pairs = 0.;
-      /// What belongs to nodes of other pairs: their rows carry it, but not to this mortar body.
-      double ceded = 0.;
     };
 
     bool is_condition(const DroppedNode::Reason reason)
@@ -76,19 +72,37 @@ namespace Signorini
         if (reason != DroppedNode::other_pair)
           result.by_conditions += m.covered;
         else
-          {
-            result.by_other_pairs += m.covered;
-            result.near_by_other_pairs += is_far(m) ? 0. : m.covered;
-          }
+          result.by_other_pairs += m.covered;
       });
-      for (const PairCoupling::CededNode &node : coupling.ceded)
-        result.ceded += node.area;
-      result.ceded               = Utilities::MPI::sum(result.ceded, comm);
-      result.covered             = coupling.covered_area;
-      result.by_conditions       = Utilities::MPI::sum(result.by_conditions, comm);
-      result.by_other_pairs      = Utilities::MPI::sum(result.by_other_pairs, comm);
-      result.near_by_other_pairs = Utilities::MPI::sum(result.near_by_other_pairs, comm);
+      result.covered        = coupling.covered_area;
+      result.by_conditions  = Utilities::MPI::sum(result.by_conditions, comm);
+      result.by_other_pairs = Utilities::MPI::sum(result.by_other_pairs, comm);
       return result;
+    }
+
+    /// Collective. Of what a pair covers and is not far from, the area of nodes that have no row because of
+    /// other pairs, and of those that it cedes: their rows act on another mortar body.
+    double area_of_others(const ContactPair &pair, const PairCoupling &coupling, const MPI_Comm comm)
+    {
+      std::set<NodeIndex> nodes;
+      for (const DroppedNode &dropped : coupling.dropped)
+        if (dropped.reason == DroppedNode::other_pair)
+          nodes.insert(dropped.node);
+      const ContactSurface      &surface = pair.nonmortar.surface;
+      std::vector<unsigned char> is_lost(surface.vertex_node.size(), 0);
+      for (std::size_t v = 0; v < is_lost.size(); ++v)
+        is_lost[v] = nodes.count(surface.vertex_node[v]) > 0;
+      pair.halo->update(is_lost);
+      double area = 0.;
+      for (const FaceMoments &m : pair.moments)
+        if (pair.halo->owns_face(m.face) && m.covered > 0. && !is_far(m))
+          for (unsigned int a = 0; a < surface.faces[m.face].n_corners; ++a)
+            if (is_lost[surface.faces[m.face].corners[a]])
+              for (unsigned int b = 0; b < surface.faces[m.face].n_corners; ++b)
+                area += m.mass[4 * a + b];
+      for (const PairCoupling::CededNode &node : coupling.ceded)
+        area += node.area;
+      return Utilities::MPI::sum(area, comm);
     }
 
     std::string percent(const double share)
@@ -107,16 +121,15 @@ namespace Signorini
     LossOfChoice      result;
     if (lost.by_other_pairs > ContactRule().lost_share * lost.covered)
       result.refused = lost.by_other_pairs / lost.covered;
-    const double to_others = lost.near_by_other_pairs + lost.ceded;
-    if (!(to_others > 1e-12 * lost.covered) &&
+    const double of_others = area_of_others(pair, coupling, comm);
+    if (!(of_others > 1e-12 * lost.covered) &&
         !(lost.by_conditions > ContactRule().lost_share * lost.covered))
       return result;
-    result.share  = (to_others + lost.by_conditions) / lost.covered;
-    result.reason = percent((lost.by_other_pairs + lost.ceded + lost.by_conditions) / lost.covered) +
-                    " of \"" + pair.nonmortar.name + "\" could carry no contact stress (" +
-                    (lost.by_other_pairs + lost.ceded > lost.by_conditions
-                         ? "it is the nonmortar side of another pair, too"
-                         : "its displacements are prescribed") +
+    result.share  = (of_others + lost.by_conditions) / lost.covered;
+    result.reason = percent(result.share) + " of \"" + pair.nonmortar.name +
+                    "\" could carry no contact stress (" +
+                    (of_others > lost.by_conditions ? "it is the nonmortar side of another pair, too"
+                                                    : "its displacements are prescribed") +
                     ")";
     return result;
   }

@@ -6,44 +6,136 @@
 #include <signorini/application/journal.h>
 #include <signorini/mesh/facing_parts.h>
 #include <signorini/mesh/surface_piece.h>
+#include <signorini/mortar/face_claims.h>
 #include <signorini/mortar/surface_values.h>
 #include <signorini/surface/box_tree.h>
 #include <signorini/surface/normal_projection.h>
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 
 namespace Signorini
 {
   using namespace dealii;
 
-  void leave_out_blind_parts(std::vector<ContactSide> &sides, const PairModel &pair,
-                             const MPI_Comm communicator, Journal &journal)
+  namespace
   {
-    std::vector<FacingParts> parts;
-    for (const ContactSide &side : sides)
-      parts.emplace_back(side.surface);
-    if (std::all_of(parts.begin(), parts.end(), [](const FacingParts &p) { return p.n_parts() == 1; }))
-      return;
-    const double size = sides[0].surface.extent();
-    if (const auto &obstacle = pair.definition.obstacle)
-      see(
-          parts[0], sides[0].surface,
-          [&](double &distance, const Point<3> &p, const Vector3 &n) {
-            return obstacle->gap(distance, p, n, size) && obstacle->is_faced(p + distance * n, n, size);
-          },
-          communicator);
-    else
-      see_each_other(parts[0], sides[0].surface, parts[1], sides[1].surface, communicator);
-    for (unsigned int s = 0; s < sides.size(); ++s)
-      if (parts[s].leaves_out_anything())
-        {
-          const std::size_t n_faces = sides[s].surface.faces.size();
-          sides[s].surface          = without_blind_parts(sides[s].surface, parts[s], pair.sides[s].shapes);
-          if (const std::size_t left = n_faces - sides[s].surface.faces.size(); left > 0)
-            journal.note("pair " + pair.definition.name + ": " + std::to_string(left) + " of " +
-                         std::to_string(n_faces) + " faces of \"" + sides[s].name +
-                         "\" lie beyond sharp edges and face nothing of the other side: they are left out.");
-        }
+    /// What the sides of a pair see of each other.
+    struct PairSight
+    {
+      const PairModel          &pair;
+      std::vector<ContactSide> &sides;
+      std::vector<FacingParts>  parts;
+
+      bool has_sharp_edges() const
+      {
+        return std::any_of(parts.begin(), parts.end(), [](const FacingParts &p) { return p.n_parts() > 1; });
+      }
+
+      bool shares_body(const PairSight &other) const
+      {
+        return std::any_of(sides.begin(), sides.end(), [&](const ContactSide &one) {
+          return std::any_of(other.sides.begin(), other.sides.end(),
+                             [&](const ContactSide &two) { return one.body == two.body; });
+        });
+      }
+
+      void look(const MPI_Comm communicator)
+      {
+        const double size = sides[0].surface.extent();
+        if (const auto &obstacle = pair.definition.obstacle)
+          see(
+              parts[0], sides[0].surface,
+              [&](double &distance, const Point<3> &p, const Vector3 &n) {
+                return obstacle->gap(distance, p, n, size) && obstacle->is_faced(p + distance * n, n, size);
+              },
+              communicator);
+        else
+          see_each_other(parts[0], sides[0].surface, parts[1], sides[1].surface, communicator);
+      }
+
+      /// Calls f(side, face) for the faces that face anything.
+      template <typename F>
+      void for_faces(const F &f) const
+      {
+        for (unsigned int s = 0; s < sides.size(); ++s)
+          for (unsigned int face = 0; face < sides[s].surface.faces.size(); ++face)
+            if (std::isfinite(parts[s].distance(face)))
+              f(s, face);
+      }
+    };
+
+    void leave_parts_to_nearer_pairs(std::vector<PairSight> &sights, Journal &journal)
+    {
+      std::map<FaceName, double> nearest;
+      for (const PairSight &sight : sights)
+        sight.for_faces([&](const unsigned int s, const unsigned int face) {
+          const double distance = sight.pair.is_tied() ? 0. : sight.parts[s].distance(face);
+          const auto   entry    = nearest.emplace(name_of(sight.sides[s].surface, face), distance).first;
+          entry->second         = std::min(entry->second, distance);
+        });
+      for (PairSight &sight : sights)
+        if (!sight.pair.is_tied() && sight.has_sharp_edges())
+          {
+            std::vector<std::vector<bool>> lost;
+            for (const ContactSide &side : sight.sides)
+              lost.emplace_back(side.surface.faces.size(), false);
+            sight.for_faces([&](const unsigned int s, const unsigned int face) {
+              lost[s][face] =
+                  sight.parts[s].is_far(face) &&
+                  nearest.at(name_of(sight.sides[s].surface, face)) < sight.parts[s].distance(face);
+            });
+            for (unsigned int s = 0; s < lost.size(); ++s)
+              if (const std::size_t n = sight.parts[s].leave(lost[s]); n > 0)
+                journal.note("pair " + sight.pair.definition.name + ": " + std::to_string(n) + " of " +
+                             std::to_string(lost[s].size()) + " faces of \"" + sight.sides[s].name +
+                             "\" lie beyond sharp edges and nearer to the other side of another pair: they "
+                             "are left out.");
+          }
+    }
+
+    void take_facing_parts(PairSight &sight, Journal &journal)
+    {
+      for (unsigned int s = 0; s < sight.sides.size(); ++s)
+        if (ContactSide &side = sight.sides[s]; sight.parts[s].leaves_out_anything())
+          {
+            const std::size_t n_faces = side.surface.faces.size(), n_blind = sight.parts[s].n_blind();
+            side.surface = without_blind_parts(side.surface, sight.parts[s], sight.pair.sides[s].shapes);
+            if (n_blind > 0)
+              journal.note(
+                  "pair " + sight.pair.definition.name + ": " + std::to_string(n_blind) + " of " +
+                  std::to_string(n_faces) + " faces of \"" + side.name +
+                  "\" lie beyond sharp edges and face nothing of the other side: they are left out.");
+          }
+    }
+  } // namespace
+
+
+
+  void leave_out_blind_parts(std::vector<std::vector<ContactSide>> &sides,
+                             const std::vector<PairModel> &pairs, const MPI_Comm communicator,
+                             Journal &journal)
+  {
+    std::vector<PairSight> all, sights;
+    for (unsigned int p = 0; p < pairs.size(); ++p)
+      {
+        all.push_back({pairs[p], sides[p], {}});
+        for (const ContactSide &side : sides[p])
+          all.back().parts.emplace_back(side.surface);
+      }
+    for (const PairSight &sight : all)
+      if (std::any_of(all.begin(), all.end(), [&](const PairSight &other) {
+            return other.has_sharp_edges() && sight.shares_body(other);
+          }))
+        sights.push_back(sight);
+    for (PairSight &sight : sights)
+      sight.look(communicator);
+    if (sights.size() > 1)
+      leave_parts_to_nearer_pairs(sights, journal);
+    for (PairSight &sight : sights)
+      if (sight.has_sharp_edges())
+        take_facing_parts(sight, journal);
   }
 
 

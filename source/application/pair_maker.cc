@@ -142,28 +142,37 @@ namespace Signorini
 
 
 
-  ContactPair PairMaker::make(const PairModel &definition, const bool is_turned) const
+  PairMaker::PairMaker(const ContactModel &model, const ConstrainedSpace &constrained, Journal &journal)
+    : model(model)
+    , journal(journal)
   {
-    ContactPair pair;
-    pair.name           = definition.definition.name;
-    pair.is_tied        = definition.is_tied();
-    pair.prescribed_gap = definition.definition.prescribed_gap;
-    pair.obstacle       = definition.definition.obstacle;
-    {
-      const auto               time = journal.measure(Phase::mesh);
-      std::vector<ContactSide> sides;
-      for (const PairModel::Side &side : definition.sides)
-        sides.push_back(extract_side(definition, side, model, constrained));
-      leave_out_blind_parts(sides, definition, model.communicator(), journal);
-      const unsigned int non =
-          pair.obstacle ? 0
-                        : choose_nonmortar(definition.definition, sides, is_turned, model.bodies(), journal);
-      pair.nonmortar = std::move(sides[non]);
-      if (pair.obstacle)
-        pair.mortar.name = pair.obstacle->description();
-      else
-        pair.mortar = std::move(sides[1 - non]);
-    }
+    const auto time = journal.measure(Phase::mesh);
+    for (const PairModel &pair : model.pairs())
+      {
+        sides.emplace_back();
+        for (const PairModel::Side &side : pair.sides)
+          sides.back().push_back(extract_side(pair, side, model, constrained));
+      }
+    leave_out_blind_parts(sides, model.pairs(), model.communicator(), journal);
+  }
+
+
+
+  ContactPair PairMaker::make(const unsigned int p, const bool is_turned) const
+  {
+    const PairDefinition &definition = model.pairs()[p].definition;
+    ContactPair           pair;
+    pair.name           = definition.name;
+    pair.is_tied        = model.pairs()[p].is_tied();
+    pair.prescribed_gap = definition.prescribed_gap;
+    pair.obstacle       = definition.obstacle;
+    const unsigned int non =
+        pair.obstacle ? 0 : choose_nonmortar(definition, sides[p], is_turned, model.bodies(), journal);
+    pair.nonmortar = sides[p][non];
+    if (pair.obstacle)
+      pair.mortar.name = pair.obstacle->description();
+    else
+      pair.mortar = sides[p][1 - non];
     share(pair);
     if (pair.obstacle)
       {

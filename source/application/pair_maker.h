@@ -12,17 +12,13 @@ namespace Signorini
   class PairMaker
   {
   public:
-    /// All must outlive the object.
-    PairMaker(const ContactModel &model, const ConstrainedSpace &constrained, Journal &journal)
-      : model(model)
-      , constrained(constrained)
-      , journal(journal)
-    {
-    }
+    /// Collective. Extracts the surfaces of all pairs. All arguments must outlive the object.
+    PairMaker(const ContactModel &model, const ConstrainedSpace &constrained, Journal &journal);
 
     /// Collective. Moments are those of all that the pair covers.
+    /// @param pair its number
     /// @param is_turned whether the automatic choice of the nonmortar side is turned round
-    ContactPair make(const PairModel &definition, const bool is_turned) const;
+    ContactPair make(const unsigned int pair, const bool is_turned) const;
 
     /// Collective. Of all ranks, in words; empty if there are none.
     std::string mapping_errors(const ContactPair &pair) const;
@@ -30,9 +26,10 @@ namespace Signorini
   private:
     void share(ContactPair &pair) const;
 
-    const ContactModel     &model;
-    const ConstrainedSpace &constrained;
-    Journal                &journal;
+    const ContactModel &model;
+    Journal            &journal;
+    /// By pair: what of the surfaces is mapped, in the order of the definition.
+    std::vector<std::vector<ContactSide>> sides;
   };
 } // namespace Signorini
 

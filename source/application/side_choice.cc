@@ -9,6 +9,7 @@
 #include <signorini/mortar/pair_conflicts.h>
 
 #include <algorithm>
+#include <set>
 
 namespace Signorini
 {
@@ -53,6 +54,12 @@ namespace Signorini
         }
       return result;
     }
+
+    bool is_less(const std::pair<double, double> &one, const std::pair<double, double> &other)
+    {
+      constexpr double clearly = .9;
+      return one.first < other.first || (one.first == other.first && one.second < clearly * other.second);
+    }
   } // namespace
 
 
@@ -63,16 +70,18 @@ namespace Signorini
     , model(model)
     , maker(model, constrained, journal)
     , journal(journal)
+    , is_first(turned_before.empty())
+    , others(model.pairs().size())
   {
     turned.resize(model.pairs().size(), false);
     for (unsigned int p = 0; p < turned.size(); ++p)
       {
-        pairs.push_back(maker.make(model.pairs()[p], turned[p]));
+        pairs.push_back(maker.make(p, turned[p]));
         if (!turned[p] && is_open(p))
           turn_for_mapping(p);
       }
-    tried           = turned;
-    const auto time = journal.measure(Phase::mortar);
+    turned_for_mapping = turned;
+    const auto time    = journal.measure(Phase::mortar);
     if (pairs.size() > 1)
       for (const ContactPair &pair : pairs)
         covered.push_back(pair.moments);
@@ -92,7 +101,7 @@ namespace Signorini
   {
     if (maker.mapping_errors(pairs[p]).empty() || !has_sharp_edges(pairs[p]))
       return;
-    ContactPair other = maker.make(model.pairs()[p], true);
+    ContactPair other = maker.make(p, true);
     if (!maker.mapping_errors(other).empty())
       return;
     pairs[p]  = std::move(other);
@@ -113,8 +122,22 @@ namespace Signorini
 
 
 
-  void SideChoice::couple_again()
+  void SideChoice::turn(const std::vector<bool> &choice)
   {
+    for (unsigned int p = 0; p < pairs.size(); ++p)
+      if (choice[p] != turned[p])
+        {
+          if (!others[p])
+            others[p] = maker.make(p, choice[p]);
+          std::swap(pairs[p], *others[p]);
+          // Those of a pair that is not in use are of all that it covers.
+          if (!covered.empty())
+            {
+              others[p]->moments = std::move(covered[p]);
+              covered[p]         = pairs[p].moments;
+            }
+        }
+    turned = choice;
     for (unsigned int p = 0; p < covered.size(); ++p)
       pairs[p].moments = covered[p];
     couplings = claim_and_couple(pairs, model.communicator());
@@ -122,65 +145,55 @@ namespace Signorini
 
 
 
-  bool SideChoice::try_turned(const std::vector<unsigned int> &some, const std::vector<LossOfChoice> &before)
+  std::vector<std::vector<bool>> SideChoice::neighbours(const std::vector<LossOfChoice> &now) const
   {
-    std::vector<ContactPair> old;
-    for (const unsigned int p : some)
-      {
-        old.push_back(std::move(pairs[p]));
-        pairs[p] = maker.make(model.pairs()[p], true);
-        if (!covered.empty())
-          {
-            old.back().moments = std::move(covered[p]);
-            covered[p]         = pairs[p].moments;
-          }
-      }
-    couple_again();
-    const bool is_better = measure(losses()) < measure(before);
-    for (std::size_t k = 0; k < some.size(); ++k)
-      if (const unsigned int p = some[k]; is_better)
+    const bool                     is_refused = measure(now).first > 0.;
+    std::vector<bool>              all        = turned;
+    std::vector<std::vector<bool>> result;
+    for (unsigned int p = 0; p < pairs.size(); ++p)
+      if (is_open(p) && now[p].share > 0. && (is_refused || !turned_for_mapping[p]))
         {
-          turned[p] = true;
-          journal.note("pair " + pairs[p].name + ": its sides are swapped, because " + before[p].reason +
-                       ".");
+          all[p] = !all[p];
+          result.push_back(turned);
+          result.back()[p] = !turned[p];
         }
-      else
-        {
-          pairs[p] = std::move(old[k]);
-          if (!covered.empty())
-            covered[p] = pairs[p].moments;
-        }
-    if (!is_better)
-      couple_again();
-    return is_better;
+    if (result.size() > 1)
+      result.push_back(all);
+    return result;
   }
 
 
 
   void SideChoice::improve()
   {
-    const auto time = journal.measure(Phase::mortar);
+    const auto                  time = journal.measure(Phase::mortar);
+    std::set<std::vector<bool>> seen = {turned};
     while (true)
       {
         const std::vector<LossOfChoice> now = losses();
-        std::vector<unsigned int>       some;
-        for (unsigned int p = 0; p < pairs.size(); ++p)
-          if (is_open(p) && !tried[p] && now[p].share > 0.)
-            some.push_back(p);
-        if (some.empty())
+        // Shares fall from mesh to mesh: what was tried on the first one is not tried again.
+        if (!is_first && !(measure(now).first > 0.))
           return;
-        if (some.size() == 1 || !try_turned(some, now))
-          {
-            // The worst one alone.
-            const unsigned int worst =
-                *std::max_element(some.begin(), some.end(), [&](const unsigned int p, const unsigned int q) {
-                  return now[p].share < now[q].share;
-                });
-            some = {worst};
-            try_turned(some, now);
-          }
-        for (const unsigned int p : some)
-          tried[p] = true;
+        const std::vector<bool>   before = turned;
+        std::vector<bool>         best   = turned;
+        std::pair<double, double> least  = measure(now);
+        for (const std::vector<bool> &choice : neighbours(now))
+          if (seen.insert(choice).second)
+            {
+              turn(choice);
+              if (const auto measured = measure(losses()); is_less(measured, least))
+                {
+                  least = measured;
+                  best  = choice;
+                }
+              turn(before);
+            }
+        if (best == before)
+          return;
+        turn(best);
+        for (unsigned int p = 0; p < pairs.size(); ++p)
+          if (best[p] != before[p])
+            journal.note("pair " + pairs[p].name + ": its sides are swapped, because " + now[p].reason + ".");
       }
   }
 } // namespace Signorini

@@ -8,6 +8,7 @@
 
 #include <signorini/application/contact_checks.h>
 
+#include <optional>
 #include <vector>
 
 namespace Signorini
@@ -20,10 +21,12 @@ namespace Signorini
   public:
     /// Collective. Couples the pairs with the choice of another mesh, or the default one. All must outlive
     /// the object.
+    /// @param turned_before the choice of a coarser mesh; empty on the first one
     SideChoice(const ContactModel &model, const ConstrainedSpace &constrained,
                const std::vector<bool> &turned_before, Journal &journal);
 
-    /// Collective. Turns what is better turned.
+    /// Collective. Turns what is better turned: descends in what is lost. On the first mesh; on others only
+    /// if the choice would be refused.
     void improve();
 
     /// By pair, and whether the automatic choice is turned round.
@@ -39,17 +42,21 @@ namespace Signorini
     void turn_for_mapping(const unsigned int p);
     /// By pair.
     std::vector<LossOfChoice> losses() const;
-    void                      couple_again();
-    /// Turns some pairs, which are never tried again; back if not less is lost than before.
-    bool try_turned(const std::vector<unsigned int> &some, const std::vector<LossOfChoice> &before);
+    /// Changes to another choice and couples again.
+    void turn(const std::vector<bool> &choice);
+    /// The choices that differ in one pair that loses something, or in all of them. A mapping without errors
+    /// is kept, unless the choice would be refused.
+    std::vector<std::vector<bool>> neighbours(const std::vector<LossOfChoice> &now) const;
 
     const ContactModel &model;
     const PairMaker     maker;
     Journal            &journal;
+    const bool          is_first;
+    std::vector<bool>   turned_for_mapping;
     /// By pair, where there are several: the moments of all that it covers.
     std::vector<std::vector<FaceMoments>> covered;
-    /// By pair: whether it was turned, with success or without.
-    std::vector<bool> tried;
+    /// By pair, where it has been made: the pair the other way round.
+    std::vector<std::optional<ContactPair>> others;
   };
 } // namespace Signorini
 

@@ -51,6 +51,7 @@ namespace Signorini
   FacingParts::FacingParts(const ContactSurface &surface)
     : surface(surface)
     , part_of(surface.faces.size())
+    , seen(surface.faces.size(), infinite)
   {
     const std::vector<Vector3> normals = face_normals(surface);
     const SurfaceTopology      topology(surface.mesh.triangles, surface.mesh.vertices.size());
@@ -124,30 +125,42 @@ namespace Signorini
 
 
 
-  void FacingParts::see(const unsigned int face, const double distance)
+  namespace
   {
-    Part &part    = parts[part_of[face]];
-    part.distance = std::min(part.distance, distance);
-    part.widths =
-        std::min(part.widths, distance / std::sqrt(area_vector(surface, surface.faces[face]).norm()));
+    double width_of(const ContactSurface &surface, const unsigned int face)
+    {
+      return std::sqrt(area_vector(surface, surface.faces[face]).norm());
+    }
+  } // namespace
+
+
+
+  bool FacingParts::is_far(const unsigned int face) const
+  {
+    return seen[face] > width_of(surface, face);
   }
 
 
 
   void FacingParts::finish(const MPI_Comm communicator)
   {
-    for (double Part::*const value : {&Part::distance, &Part::widths})
+    Utilities::MPI::min(seen, communicator, seen);
+    for (unsigned int f = 0; f < part_of.size(); ++f)
       {
-        std::vector<double> values;
-        for (const Part &part : parts)
-          values.push_back(part.*value);
-        Utilities::MPI::min(values, communicator, values);
-        for (std::size_t p = 0; p < parts.size(); ++p)
-          parts[p].*value = values[p];
+        Part &part    = parts[part_of[f]];
+        part.distance = std::min(part.distance, seen[f]);
+        part.widths   = std::min(part.widths, seen[f] / width_of(surface, f));
       }
     if (std::none_of(parts.begin(), parts.end(), [](const Part &part) { return part.distance < infinite; }))
       for (Part &part : parts)
         part = {0., 0.};
+    find_nearest();
+  }
+
+
+
+  void FacingParts::find_nearest()
+  {
     nearest.assign(surface.mesh.vertices.size(), infinite);
     for (unsigned int f = 0; f < part_of.size(); ++f)
       for (const unsigned int v : surface.faces[f].corners)
@@ -156,10 +169,45 @@ namespace Signorini
 
 
 
+  std::size_t FacingParts::leave(const std::vector<bool> &some)
+  {
+    std::vector<bool> stays(parts.size(), false), goes(parts.size(), false);
+    for (unsigned int f = 0; f < part_of.size(); ++f)
+      if (seen[f] < infinite)
+        (some[f] ? goes : stays)[part_of[f]] = true;
+    if (std::none_of(stays.begin(), stays.end(), [](const bool stay) { return stay; }))
+      return 0;
+    std::size_t n_faces = 0;
+    for (unsigned int f = 0; f < part_of.size(); ++f)
+      if (const unsigned int p = part_of[f]; goes[p] && !stays[p])
+        {
+          parts[p] = {infinite, infinite};
+          ++n_faces;
+        }
+    find_nearest();
+    return n_faces;
+  }
+
+
+
   bool FacingParts::counts(const unsigned int face, const unsigned int vertex) const
   {
     const Part &part = parts[part_of[face]];
     return part.distance < infinite && (part.widths <= 1. || part.distance <= nearest[vertex]);
+  }
+
+
+
+  std::size_t FacingParts::n_blind() const
+  {
+    std::vector<bool> is_blind(parts.size(), true);
+    for (unsigned int f = 0; f < part_of.size(); ++f)
+      if (seen[f] < infinite)
+        is_blind[part_of[f]] = false;
+    std::size_t n = 0;
+    for (const unsigned int part : part_of)
+      n += is_blind[part] && !(parts[part].distance < infinite);
+    return n;
   }
 
 

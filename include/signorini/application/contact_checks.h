@@ -22,8 +22,8 @@ namespace Signorini
   /// What the choice of its nonmortar side costs a pair.
   struct LossOfChoice
   {
-    /// Of what the pair covers, the share that can carry no contact stress for a reason that the other choice
-    /// may not have; zero if there is none.
+    /// Of what the pair covers, the share whose nodes carry no contact stress, or only toward the body of
+    /// another pair, for a reason that the other choice may not have; zero if there is none.
     double share = 0.;
     /// The share that other pairs take away where that is so much that the pair is refused; else zero.
     double refused = 0.;

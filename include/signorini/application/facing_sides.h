@@ -13,10 +13,12 @@ namespace Signorini
 {
   class Journal;
 
-  /// Collective. Takes from the whole surfaces of a pair what faces nothing of the other side beyond sharp
-  /// edges (FacingParts), with a note.
-  void leave_out_blind_parts(std::vector<ContactSide> &sides, const PairModel &pair,
-                             const MPI_Comm communicator, Journal &journal);
+  /// Collective. Takes from the whole surfaces of pairs, by pair and side, what faces nothing of the other
+  /// side beyond sharp edges (FacingParts), and what lies far from that but nearer to the other side of
+  /// another pair: the shaft is between the seat of a key and the far side of the bore. Tied pairs keep that.
+  void leave_out_blind_parts(std::vector<std::vector<ContactSide>> &sides,
+                             const std::vector<PairModel> &pairs, const MPI_Comm communicator,
+                             Journal &journal);
 
   /// Collective. By face of the nonmortar surface of a mapped pair: whether its image lies behind its own
   /// body. Normals of the upper half of a ball that lies on a ball meet the lower half of the other one,

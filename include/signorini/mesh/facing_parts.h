@@ -7,7 +7,9 @@
 #include <signorini/mesh/boundary_shape.h>
 #include <signorini/mesh/contact_surface.h>
 
+#include <algorithm>
 #include <functional>
+#include <limits>
 #include <vector>
 
 namespace Signorini
@@ -28,10 +30,29 @@ namespace Signorini
     }
 
     /// A face faces something at a distance along its normal (length, no sign).
-    void see(const unsigned int face, const double distance);
+    void see(const unsigned int face, const double distance)
+    {
+      seen[face] = std::min(seen[face], distance);
+    }
 
     /// Collective, after all that this rank has seen. Where nothing is seen by any part all of it stays.
     void finish(const MPI_Comm communicator);
+
+    /// From what a face faces (length), infinite if that is nothing; after finish().
+    double distance(const unsigned int face) const
+    {
+      return seen[face];
+    }
+
+    /// Whether that is more than the face is wide.
+    bool is_far(const unsigned int face) const;
+
+    /// Leaves out the parts all of whose faces that face anything are among some. Nothing if nothing else
+    /// would be left. Returns how many faces that are.
+    std::size_t leave(const std::vector<bool> &some);
+
+    /// How many faces belong to parts that face nothing.
+    std::size_t n_blind() const;
 
     /// Whether a part faces nothing, or a normal does not count at some vertex.
     bool leaves_out_anything() const;
@@ -55,9 +76,13 @@ namespace Signorini
 
     static constexpr double infinite = std::numeric_limits<double>::infinity();
 
+    void find_nearest();
+
     const ContactSurface     &surface;
     std::vector<unsigned int> part_of;
     std::vector<Part>         parts;
+    /// By face: the least distance of what it faces.
+    std::vector<double> seen;
     /// By vertex: the least distance of a part there.
     std::vector<double> nearest;
   };

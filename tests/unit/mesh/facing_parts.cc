@@ -168,6 +168,34 @@ TEST(FacingParts, WhereNothingIsSeenAllStays)
   EXPECT_FALSE(pair.second_parts.leaves_out_anything());
 }
 
+// The wall of the step is 1.1 away, four widths of a face.
+TEST(FacingParts, PartsMayBeLeftToOthers)
+{
+  Pair       pair(foot_and_wall(.1), floor_and_step(2.1));
+  const auto faces = [&](const bool far) {
+    std::vector<bool> result;
+    for (unsigned int f = 0; f < pair.first.faces.size(); ++f)
+      result.push_back(pair.first_parts.is_far(f) == far);
+    return result;
+  };
+  EXPECT_NEAR(pair.first_parts.distance(0), .1, 1e-14);
+  EXPECT_NEAR(pair.first_parts.distance(31), 1.1, 1e-14);
+  EXPECT_FALSE(pair.first_parts.is_far(0));
+  EXPECT_TRUE(pair.first_parts.is_far(31));
+  // Nothing if nothing is left.
+  EXPECT_EQ(pair.first_parts.leave(std::vector<bool>(32, true)), 0u);
+  // One face is not the part.
+  std::vector<bool> one(32, false);
+  one[31] = true;
+  EXPECT_EQ(pair.first_parts.leave(one), 0u);
+  EXPECT_EQ(without_blind_parts(pair.first, pair.first_parts, {}).faces.size(), 32u);
+  EXPECT_EQ(pair.first_parts.leave(faces(true)), 16u);
+  EXPECT_EQ(pair.first_parts.n_blind(), 0u);
+  const ContactSurface foot = without_blind_parts(pair.first, pair.first_parts, {});
+  EXPECT_EQ(foot.faces.size(), 16u);
+  EXPECT_LT((normal_at(foot, Point<3>(1., .5, .1)) - vector(0., 0., -1.)).norm(), 1e-14);
+}
+
 TEST(FacingParts, ObstaclesAreSeen)
 {
   const ContactSurface block = foot_and_wall(.1);
