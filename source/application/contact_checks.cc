@@ -80,8 +80,8 @@ namespace Signorini
       return result;
     }
 
-    /// Collective. Of what a pair covers and is not far from, the area of nodes that have no row because of
-    /// other pairs, and of those that it cedes: their rows act on another mortar body.
+    /// Collective. Of what a pair covers and is not far from, the area of nodes that have no row in it
+    /// because of other pairs: they have none at all, or act on another mortar body.
     double area_of_others(const ContactPair &pair, const PairCoupling &coupling, const MPI_Comm comm)
     {
       std::set<NodeIndex> nodes;
@@ -100,8 +100,6 @@ namespace Signorini
             if (is_lost[surface.faces[m.face].corners[a]])
               for (unsigned int b = 0; b < surface.faces[m.face].n_corners; ++b)
                 area += m.mass[4 * a + b];
-      for (const PairCoupling::CededNode &node : coupling.ceded)
-        area += node.area;
       return Utilities::MPI::sum(area, comm);
     }
 
@@ -122,14 +120,15 @@ namespace Signorini
     if (lost.by_other_pairs > ContactRule().lost_share * lost.covered)
       result.refused = lost.by_other_pairs / lost.covered;
     const double of_others = area_of_others(pair, coupling, comm);
-    if (!(of_others > 1e-12 * lost.covered) &&
-        !(lost.by_conditions > ContactRule().lost_share * lost.covered))
+    const double by_conditions =
+        lost.by_conditions > ContactRule().lost_share * lost.covered ? lost.by_conditions : 0.;
+    if (!(of_others + by_conditions > 0.))
       return result;
-    result.share  = (of_others + lost.by_conditions) / lost.covered;
+    result.share  = (of_others + by_conditions) / lost.covered;
     result.reason = percent(result.share) + " of \"" + pair.nonmortar.name +
                     "\" could carry no contact stress (" +
-                    (of_others > lost.by_conditions ? "it is the nonmortar side of another pair, too"
-                                                    : "its displacements are prescribed") +
+                    (of_others > by_conditions ? "it is the nonmortar side of another pair, too"
+                                               : "its displacements are prescribed") +
                     ")";
     return result;
   }
@@ -381,13 +380,15 @@ namespace Signorini
       const ContactSurface &non = pair.nonmortar.surface, &mor = pair.mortar.surface;
       const double          size = non.extent();
       if (pair.obstacle)
-        for (std::size_t v = 0; v < non.mesh.vertices.size(); ++v)
-          {
-            const Point<3> &x = non.mesh.vertices[v];
-            const Vector3  &n = non.mesh.vertex_normals[v];
-            if (double gap; pair.obstacle->gap(gap, x, n, size))
-              f(x, n, gap);
-          }
+        {
+          const std::vector<bool> faces = faces_of_pair(pair);
+          for (std::size_t t = 0; t < non.mesh.triangles.size(); ++t)
+            if (faces[non.triangle_face[t]])
+              for (const unsigned int v : non.mesh.triangles[t])
+                if (double gap;
+                    pair.obstacle->gap(gap, non.mesh.vertices[v], non.mesh.vertex_normals[v], size))
+                  f(non.mesh.vertices[v], non.mesh.vertex_normals[v], gap);
+        }
       if (!pair.mapping)
         return;
       const SurfaceValues on_nonmortar(non, sharp_vertices(pair)), on_mortar(mor);

@@ -81,7 +81,8 @@ namespace Signorini
       const auto         pressure  = spread_rows(d.couplings[p], *pair.halo, row_pressure);
       const auto         displaced = vertex_values(pair.nonmortar.surface, d.partition(), displacement);
       if (pair.obstacle)
-        return sample_rigid_penetration(pair.nonmortar.surface, *pair.obstacle, displaced, pressure, comm);
+        return sample_rigid_penetration(pair.nonmortar.surface, *pair.obstacle, displaced, pressure,
+                                        faces_of_pair(pair), comm);
       const std::vector<OverlayTriangle> overlay = covered_overlay(pair);
       const FacingSurfaces facing{pair.nonmortar.surface, pair.mortar.surface, overlay, sharp_vertices(pair)};
       const auto           mortar = vertex_values(pair.mortar.surface, d.partition(), displacement);

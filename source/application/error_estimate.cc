@@ -43,7 +43,7 @@ namespace Signorini
       const auto            own = vertex_values(non, d.partition(), displacement);
       if (pair.obstacle)
         return contact_violation(non, rigid_images(non, *pair.obstacle), stress, own, mu,
-                                 Utilities::MPI::this_mpi_process(d.nodal().communicator()));
+                                 faces_of_pair(pair));
       const auto other   = vertex_values(mor, d.partition(), displacement);
       const auto overlay = covered_overlay(pair);
       if (pair.is_tied)

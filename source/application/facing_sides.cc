@@ -24,9 +24,32 @@ namespace Signorini
     /// What the sides of a pair see of each other.
     struct PairSight
     {
+      /// Both must outlive the object.
+      PairSight(const PairModel &pair, std::vector<ContactSide> &sides)
+        : pair(pair)
+        , sides(sides)
+        , n_left(sides.size(), 0)
+      {
+        for (const ContactSide &side : sides)
+          parts.emplace_back(side.surface);
+      }
+
       const PairModel          &pair;
       std::vector<ContactSide> &sides;
       std::vector<FacingParts>  parts;
+      /// By side: how many faces are left to other pairs.
+      std::vector<std::size_t> n_left;
+
+      bool leaves_parts() const
+      {
+        return std::any_of(n_left.begin(), n_left.end(), [](const std::size_t n) { return n > 0; });
+      }
+
+      /// Tied surfaces are as one, and with a prescribed gap they need not lie where they touch.
+      bool may_leave_parts() const
+      {
+        return has_sharp_edges() && !pair.is_tied() && !pair.definition.prescribed_gap;
+      }
 
       bool has_sharp_edges() const
       {
@@ -39,6 +62,13 @@ namespace Signorini
           return std::any_of(other.sides.begin(), other.sides.end(),
                              [&](const ContactSide &two) { return one.body == two.body; });
         });
+      }
+
+      bool sees_anything() const
+      {
+        bool result = false;
+        for_faces([&](const unsigned int, const unsigned int) { result = true; });
+        return result;
       }
 
       void look(const MPI_Comm communicator)
@@ -66,7 +96,8 @@ namespace Signorini
       }
     };
 
-    void leave_parts_to_nearer_pairs(std::vector<PairSight> &sights, Journal &journal)
+    /// Marks parts that lie far from the other side, but nearer to that of another pair.
+    void leave_parts_to_nearer_pairs(std::vector<PairSight> &sights)
     {
       std::map<FaceName, double> nearest;
       for (const PairSight &sight : sights)
@@ -76,7 +107,7 @@ namespace Signorini
           entry->second         = std::min(entry->second, distance);
         });
       for (PairSight &sight : sights)
-        if (!sight.pair.is_tied() && sight.has_sharp_edges())
+        if (sight.may_leave_parts())
           {
             std::vector<std::vector<bool>> lost;
             for (const ContactSide &side : sight.sides)
@@ -87,27 +118,66 @@ namespace Signorini
                   nearest.at(name_of(sight.sides[s].surface, face)) < sight.parts[s].distance(face);
             });
             for (unsigned int s = 0; s < lost.size(); ++s)
-              if (const std::size_t n = sight.parts[s].leave(lost[s]); n > 0)
-                journal.note("pair " + sight.pair.definition.name + ": " + std::to_string(n) + " of " +
-                             std::to_string(lost[s].size()) + " faces of \"" + sight.sides[s].name +
-                             "\" lie beyond sharp edges and nearer to the other side of another pair: they "
-                             "are left out.");
+              sight.n_left[s] = sight.parts[s].leave(lost[s]);
           }
+    }
+
+    /// The sides without the parts that are marked or face nothing, by side.
+    std::vector<ContactSide> facing_parts(const PairSight &sight)
+    {
+      std::vector<ContactSide> result = sight.sides;
+      for (unsigned int s = 0; s < result.size(); ++s)
+        if (sight.parts[s].leaves_out_anything())
+          result[s].surface =
+              without_blind_parts(std::move(result[s].surface), sight.parts[s], sight.pair.sides[s].shapes);
+      return result;
+    }
+
+    /// Notes of what is left out.
+    /// @param n_faces of each side
+    /// @param why in words
+    void note_left_out(const PairSight &sight, const std::vector<std::size_t> &n_faces,
+                       const std::string &why, Journal &journal)
+    {
+      for (unsigned int s = 0; s < n_faces.size(); ++s)
+        if (n_faces[s] > 0)
+          journal.note("pair " + sight.pair.definition.name + ": " + std::to_string(n_faces[s]) + " of " +
+                       std::to_string(sight.sides[s].surface.faces.size()) + " faces of \"" +
+                       sight.sides[s].name + "\" lie beyond sharp edges and " + why + ": they are left out.");
+    }
+
+    void note_blind(const PairSight &sight, Journal &journal)
+    {
+      std::vector<std::size_t> n_blind;
+      for (const FacingParts &parts : sight.parts)
+        n_blind.push_back(parts.n_blind());
+      note_left_out(sight, n_blind, "face nothing of the other side", journal);
     }
 
     void take_facing_parts(PairSight &sight, Journal &journal)
     {
-      for (unsigned int s = 0; s < sight.sides.size(); ++s)
-        if (ContactSide &side = sight.sides[s]; sight.parts[s].leaves_out_anything())
-          {
-            const std::size_t n_faces = side.surface.faces.size(), n_blind = sight.parts[s].n_blind();
-            side.surface = without_blind_parts(side.surface, sight.parts[s], sight.pair.sides[s].shapes);
-            if (n_blind > 0)
-              journal.note(
-                  "pair " + sight.pair.definition.name + ": " + std::to_string(n_blind) + " of " +
-                  std::to_string(n_faces) + " faces of \"" + side.name +
-                  "\" lie beyond sharp edges and face nothing of the other side: they are left out.");
-          }
+      note_blind(sight, journal);
+      sight.sides = facing_parts(sight);
+    }
+
+    /// Collective. Takes what is left of a pair that leaves parts to others; all of it, if the rest does not
+    /// face each other.
+    void take_rest(PairSight &sight, const MPI_Comm communicator, Journal &journal)
+    {
+      std::vector<ContactSide> rest = facing_parts(sight);
+      PairSight                again(sight.pair, rest);
+      again.look(communicator);
+      if (again.sees_anything())
+        {
+          note_blind(sight, journal);
+          note_left_out(sight, sight.n_left, "nearer to the other side of another pair", journal);
+          take_facing_parts(again, journal);
+          sight.sides = std::move(rest);
+          return;
+        }
+      PairSight whole(sight.pair, sight.sides);
+      whole.look(communicator);
+      take_facing_parts(whole, journal);
     }
   } // namespace
 
@@ -119,11 +189,7 @@ namespace Signorini
   {
     std::vector<PairSight> all, sights;
     for (unsigned int p = 0; p < pairs.size(); ++p)
-      {
-        all.push_back({pairs[p], sides[p], {}});
-        for (const ContactSide &side : sides[p])
-          all.back().parts.emplace_back(side.surface);
-      }
+      all.emplace_back(pairs[p], sides[p]);
     for (const PairSight &sight : all)
       if (std::any_of(all.begin(), all.end(), [&](const PairSight &other) {
             return other.has_sharp_edges() && sight.shares_body(other);
@@ -132,9 +198,11 @@ namespace Signorini
     for (PairSight &sight : sights)
       sight.look(communicator);
     if (sights.size() > 1)
-      leave_parts_to_nearer_pairs(sights, journal);
+      leave_parts_to_nearer_pairs(sights);
     for (PairSight &sight : sights)
-      if (sight.has_sharp_edges())
+      if (sight.leaves_parts())
+        take_rest(sight, communicator, journal);
+      else if (sight.has_sharp_edges())
         take_facing_parts(sight, journal);
   }
 

@@ -14,6 +14,7 @@ namespace Signorini
 
   namespace
   {
+    /// Own and ghost faces.
     std::vector<bool> covered_faces(const ContactPair &pair)
     {
       std::vector<bool> result(pair.nonmortar.surface.faces.size(), false);
@@ -67,16 +68,25 @@ namespace Signorini
 
 
 
+  std::vector<bool> faces_of_pair(const ContactPair &pair)
+  {
+    std::vector<bool> result = covered_faces(pair);
+    for (unsigned int f = 0; f < result.size(); ++f)
+      result[f] = result[f] && pair.halo->owns_face(f);
+    return result;
+  }
+
+
+
   std::vector<OverlayTriangle> covered_overlay(const ContactPair &pair)
   {
-    const std::vector<bool>      is_covered = covered_faces(pair);
-    std::vector<OverlayTriangle> cells      = pair.mapping->overlay();
-    cells.erase(
-        std::remove_if(cells.begin(), cells.end(),
-                       [&](const OverlayTriangle &cell) {
-                         return !is_covered[pair.nonmortar.surface.triangle_face[cell.nonmortar_triangle]];
-                       }),
-        cells.end());
+    const std::vector<bool>      faces = faces_of_pair(pair);
+    std::vector<OverlayTriangle> cells = pair.mapping->overlay();
+    cells.erase(std::remove_if(cells.begin(), cells.end(),
+                               [&](const OverlayTriangle &cell) {
+                                 return !faces[pair.nonmortar.surface.triangle_face[cell.nonmortar_triangle]];
+                               }),
+                cells.end());
     return cells;
   }
 
@@ -194,8 +204,8 @@ namespace Signorini
 
   namespace
   {
-    /// By vertex: nodes that lost their multiplier though the other side lies over most of what is around
-    /// them.
+    /// By vertex: nodes that have no multiplier at all though the other side lies over most of what is around
+    /// them. Ceded ones have one in another pair.
     std::vector<unsigned char> covered_without_row(const ContactPair &pair, const PairCoupling &coupling)
     {
       constexpr double    most = .5;
@@ -203,6 +213,8 @@ namespace Signorini
       for (const DroppedNode &dropped : coupling.dropped)
         if (dropped.share > most)
           nodes.insert(dropped.node);
+      for (const PairCoupling::CededNode &ceded : coupling.ceded)
+        nodes.erase(ceded.node);
       std::vector<unsigned char> result(pair.nonmortar.surface.vertex_node.size(), 0);
       for (std::size_t v = 0; v < result.size(); ++v)
         result[v] = nodes.count(pair.nonmortar.surface.vertex_node[v]) > 0;

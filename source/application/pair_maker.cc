@@ -87,20 +87,22 @@ namespace Signorini
       else
         softer =
             average_face_area(sides[0].surface) <= average_face_area(sides[1].surface) * (1. + 1e-9) ? 0 : 1;
+      const auto warn_if_stiffer = [&](const unsigned int chosen) {
+        if (young[chosen] > 10. * young[1 - chosen])
+          journal.note(
+              "warning: pair " + pair.name +
+              ": the nonmortar side is the stiffer body; the contact nodes need a direct solver this way.");
+        return chosen;
+      };
       if (is_turned)
-        return 1 - softer;
+        return warn_if_stiffer(1 - softer);
       if (pair.nonmortar == NonmortarChoice::automatic)
         {
           journal.note("pair " + pair.name + ": \"" + bodies.body_name(sides[softer].body) +
                        "\" is the nonmortar side (the softer body, then the finer mesh).");
           return softer;
         }
-      const unsigned int chosen = pair.nonmortar == NonmortarChoice::first ? 0 : 1;
-      if (young[chosen] > 10. * young[1 - chosen])
-        journal.note(
-            "warning: pair " + pair.name +
-            ": the nonmortar side is the stiffer body; the contact nodes need a direct solver this way.");
-      return chosen;
+      return warn_if_stiffer(pair.nonmortar == NonmortarChoice::first ? 0 : 1);
     }
 
     void map_pair(ContactPair &pair, const MPI_Comm comm, Journal &journal)
@@ -158,7 +160,7 @@ namespace Signorini
 
 
 
-  ContactPair PairMaker::make(const unsigned int p, const bool is_turned) const
+  ContactPair PairMaker::make(const unsigned int p, const bool is_turned)
   {
     const PairDefinition &definition = model.pairs()[p].definition;
     ContactPair           pair;
@@ -168,11 +170,13 @@ namespace Signorini
     pair.obstacle       = definition.obstacle;
     const unsigned int non =
         pair.obstacle ? 0 : choose_nonmortar(definition, sides[p], is_turned, model.bodies(), journal);
-    pair.nonmortar = sides[p][non];
+    // Whole surfaces are large.
+    const auto take = [&](const unsigned int s) { return is_open(p) ? sides[p][s] : std::move(sides[p][s]); };
+    pair.nonmortar  = take(non);
     if (pair.obstacle)
       pair.mortar.name = pair.obstacle->description();
     else
-      pair.mortar = sides[p][1 - non];
+      pair.mortar = take(1 - non);
     share(pair);
     if (pair.obstacle)
       {

@@ -15,10 +15,18 @@ namespace Signorini
     /// Collective. Extracts the surfaces of all pairs. All arguments must outlive the object.
     PairMaker(const ContactModel &model, const ConstrainedSpace &constrained, Journal &journal);
 
-    /// Collective. Moments are those of all that the pair covers.
+    /// Collective. Moments are those of all that the pair covers. Only pairs whose nonmortar side is open can
+    /// be made again.
     /// @param pair its number
     /// @param is_turned whether the automatic choice of the nonmortar side is turned round
-    ContactPair make(const unsigned int pair, const bool is_turned) const;
+    ContactPair make(const unsigned int pair, const bool is_turned);
+
+    /// Whether the nonmortar side of a pair is chosen automatically.
+    bool is_open(const unsigned int pair) const
+    {
+      const PairDefinition &definition = model.pairs()[pair].definition;
+      return !definition.obstacle && definition.nonmortar == NonmortarChoice::automatic;
+    }
 
     /// Collective. Of all ranks, in words; empty if there are none.
     std::string mapping_errors(const ContactPair &pair) const;

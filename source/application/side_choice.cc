@@ -9,7 +9,7 @@
 #include <signorini/mortar/pair_conflicts.h>
 
 #include <algorithm>
-#include <set>
+#include <cmath>
 
 namespace Signorini
 {
@@ -43,23 +43,42 @@ namespace Signorini
              FacingParts(pair.mortar.surface).n_parts() > 1;
     }
 
-    /// What would be refused, at worst, then what is lost at all.
-    std::pair<double, double> measure(const std::vector<LossOfChoice> &losses)
+    /// Pure numbers.
+    struct SideRule
     {
-      std::pair<double, double> result = {0., 0.};
-      for (const LossOfChoice &loss : losses)
-        {
-          result.first = std::max(result.first, loss.refused);
-          result.second += loss.share;
-        }
-      return result;
-    }
+      /// Of what a pair covers: less than this is no reason to swap sides. The edge of a block in a corner
+      /// has 1 to 10 % of the nodes, and what is swapped for it would be so on all finer meshes.
+      double least_share = .02;
+      /// Of the loss of the pairs that are swapped, what that has to save.
+      double least_gain = .1;
+      /// From this ratio of Young's moduli on, the stiffer side is nonmortar only where the pair would be
+      /// refused.
+      double much_stiffer = 10.;
+    };
 
-    bool is_less(const std::pair<double, double> &one, const std::pair<double, double> &other)
+    /// Of all pairs.
+    struct TotalLoss
     {
-      constexpr double clearly = .9;
-      return one.first < other.first || (one.first == other.first && one.second < clearly * other.second);
-    }
+      double refused = 0., share = 0.;
+
+      explicit TotalLoss(const std::vector<LossOfChoice> &losses)
+      {
+        for (const LossOfChoice &loss : losses)
+          {
+            refused += loss.refused;
+            share += loss.share;
+          }
+      }
+
+      /// @param margin by which the share has to be less
+      bool is_less_than(const TotalLoss &other, const double margin) const
+      {
+        constexpr double rounding = 1e-9;
+        if (std::abs(refused - other.refused) > rounding * other.refused)
+          return refused < other.refused;
+        return share < other.share - margin;
+      }
+    };
   } // namespace
 
 
@@ -71,28 +90,21 @@ namespace Signorini
     , maker(model, constrained, journal)
     , journal(journal)
     , is_first(turned_before.empty())
+    , is_for_mapping(model.pairs().size(), false)
     , others(model.pairs().size())
   {
     turned.resize(model.pairs().size(), false);
     for (unsigned int p = 0; p < turned.size(); ++p)
       {
         pairs.push_back(maker.make(p, turned[p]));
-        if (!turned[p] && is_open(p))
+        if (!turned[p] && maker.is_open(p))
           turn_for_mapping(p);
       }
-    turned_for_mapping = turned;
-    const auto time    = journal.measure(Phase::mortar);
+    const auto time = journal.measure(Phase::mortar);
     if (pairs.size() > 1)
       for (const ContactPair &pair : pairs)
         covered.push_back(pair.moments);
     couplings = claim_and_couple(pairs, model.communicator());
-  }
-
-
-
-  bool SideChoice::is_open(const unsigned int p) const
-  {
-    return !pairs[p].obstacle && model.pairs()[p].definition.nonmortar == NonmortarChoice::automatic;
   }
 
 
@@ -104,8 +116,9 @@ namespace Signorini
     ContactPair other = maker.make(p, true);
     if (!maker.mapping_errors(other).empty())
       return;
-    pairs[p]  = std::move(other);
-    turned[p] = true;
+    pairs[p]          = std::move(other);
+    turned[p]         = true;
+    is_for_mapping[p] = true;
     journal.note("pair " + pairs[p].name +
                  ": its sides are swapped, because the mapping has errors the other way round.");
   }
@@ -145,55 +158,83 @@ namespace Signorini
 
 
 
+  bool SideChoice::may_turn(const unsigned int p, const LossOfChoice &loss) const
+  {
+    const bool is_much_stiffer =
+        pairs[p].mortar.material.young > SideRule().much_stiffer * pairs[p].nonmortar.material.young;
+    return maker.is_open(p) && !is_for_mapping[p] && loss.share > 0. &&
+           (loss.refused > 0. || !is_much_stiffer);
+  }
+
+
+
   std::vector<std::vector<bool>> SideChoice::neighbours(const std::vector<LossOfChoice> &now) const
   {
-    const bool                     is_refused = measure(now).first > 0.;
-    std::vector<bool>              all        = turned;
+    std::vector<bool>              all = turned;
     std::vector<std::vector<bool>> result;
     for (unsigned int p = 0; p < pairs.size(); ++p)
-      if (is_open(p) && now[p].share > 0. && (is_refused || !turned_for_mapping[p]))
+      if (may_turn(p, now[p]))
         {
           all[p] = !all[p];
-          result.push_back(turned);
-          result.back()[p] = !turned[p];
+          if (now[p].share > SideRule().least_share)
+            {
+              result.push_back(turned);
+              result.back()[p] = !turned[p];
+            }
         }
-    if (result.size() > 1)
+    // A body that two others share may lose much in one pair and little in the other one.
+    if (!result.empty())
       result.push_back(all);
     return result;
   }
 
 
 
+  std::vector<bool> SideChoice::best_neighbour(const std::vector<LossOfChoice> &now)
+  {
+    const std::vector<bool> before = turned;
+    std::vector<bool>       best   = turned;
+    TotalLoss               least(now);
+    for (const std::vector<bool> &choice : neighbours(now))
+      if (seen.insert(choice).second)
+        {
+          double of_turned = 0.;
+          for (unsigned int p = 0; p < pairs.size(); ++p)
+            if (choice[p] != before[p])
+              of_turned += now[p].share;
+          turn(choice);
+          const TotalLoss loss(losses());
+          if (loss.is_less_than(TotalLoss(now), SideRule().least_gain * of_turned) &&
+              loss.is_less_than(least, 0.))
+            {
+              least = loss;
+              best  = choice;
+            }
+        }
+    return best;
+  }
+
+
+
   void SideChoice::improve()
   {
-    const auto                  time = journal.measure(Phase::mortar);
-    std::set<std::vector<bool>> seen = {turned};
+    const auto time = journal.measure(Phase::mortar);
+    seen            = {turned};
     while (true)
       {
         const std::vector<LossOfChoice> now = losses();
         // Shares fall from mesh to mesh: what was tried on the first one is not tried again.
-        if (!is_first && !(measure(now).first > 0.))
-          return;
-        const std::vector<bool>   before = turned;
-        std::vector<bool>         best   = turned;
-        std::pair<double, double> least  = measure(now);
-        for (const std::vector<bool> &choice : neighbours(now))
-          if (seen.insert(choice).second)
-            {
-              turn(choice);
-              if (const auto measured = measure(losses()); is_less(measured, least))
-                {
-                  least = measured;
-                  best  = choice;
-                }
-              turn(before);
-            }
+        if (!is_first && !(TotalLoss(now).refused > 0.))
+          break;
+        const std::vector<bool> before = turned, best = best_neighbour(now);
+        if (best != turned)
+          turn(best);
         if (best == before)
-          return;
-        turn(best);
+          break;
         for (unsigned int p = 0; p < pairs.size(); ++p)
           if (best[p] != before[p])
             journal.note("pair " + pairs[p].name + ": its sides are swapped, because " + now[p].reason + ".");
       }
+    others.clear();
   }
 } // namespace Signorini

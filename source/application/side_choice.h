@@ -9,6 +9,7 @@
 #include <signorini/application/contact_checks.h>
 
 #include <optional>
+#include <set>
 #include <vector>
 
 namespace Signorini
@@ -35,7 +36,6 @@ namespace Signorini
     std::vector<bool>         turned;
 
   private:
-    bool is_open(const unsigned int p) const;
     /// Turns it if the mapping has errors one way and none the other way, as it may have where a rim of one
     /// part lies over that of another one. Elsewhere errors are where surfaces turn away from each other, and
     /// the choice matters for other pairs.
@@ -44,18 +44,24 @@ namespace Signorini
     std::vector<LossOfChoice> losses() const;
     /// Changes to another choice and couples again.
     void turn(const std::vector<bool> &choice);
-    /// The choices that differ in one pair that loses something, or in all of them. A mapping without errors
-    /// is kept, unless the choice would be refused.
+    /// Whether the sides of a pair may be swapped for what it loses: not those of a mapping without errors.
+    bool may_turn(const unsigned int p, const LossOfChoice &loss) const;
+    /// The choices that differ in one such pair that loses much, or in all of them.
     std::vector<std::vector<bool>> neighbours(const std::vector<LossOfChoice> &now) const;
+    /// The one with the least loss, or the present choice if that is not clearly less. Leaves any of them.
+    std::vector<bool> best_neighbour(const std::vector<LossOfChoice> &now);
 
     const ContactModel &model;
-    const PairMaker     maker;
+    PairMaker           maker;
     Journal            &journal;
     const bool          is_first;
-    std::vector<bool>   turned_for_mapping;
+    /// By pair: whether it was turned because of its mapping, on this mesh.
+    std::vector<bool> is_for_mapping;
+    /// What has been tried.
+    std::set<std::vector<bool>> seen;
     /// By pair, where there are several: the moments of all that it covers.
     std::vector<std::vector<FaceMoments>> covered;
-    /// By pair, where it has been made: the pair the other way round.
+    /// By pair, where it has been made: the pair in the orientation that is not in use.
     std::vector<std::optional<ContactPair>> others;
   };
 } // namespace Signorini

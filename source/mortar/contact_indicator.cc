@@ -276,12 +276,12 @@ namespace Signorini
 
   std::vector<double> contact_violation(const ContactSurface &nonmortar, const ImageFunction &image,
                                         const CornerValues &stress, const std::vector<Vector3> &displacement,
-                                        const double shear_modulus, const unsigned int rank)
+                                        const double shear_modulus, const std::vector<bool> &faces)
   {
     const SurfaceValues non(nonmortar);
     Violation           violation(nonmortar);
     for (unsigned int t = 0; t < nonmortar.mesh.triangles.size(); ++t)
-      if (nonmortar.faces[nonmortar.triangle_face[t]].worker == rank)
+      if (faces[nonmortar.triangle_face[t]])
         for (const auto &point : points)
           {
             const Point<3> x   = non.point(t, point);

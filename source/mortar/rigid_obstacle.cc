@@ -275,9 +275,9 @@ namespace Signorini
   GeometricPenetration sample_rigid_penetration(const ContactSurface &surface, const RigidObstacle &obstacle,
                                                 const std::vector<Vector3> &displacement,
                                                 const std::vector<double>  &pressure,
-                                                const MPI_Comm              communicator)
+                                                const std::vector<bool> &faces, const MPI_Comm communicator)
   {
-    // Corners, middles of edges and centres of the triangles of own faces, displaced; normals as they were.
+    // Corners, middles of edges and centres of triangles, displaced; normals as they were.
     const std::array<std::array<double, 3>, 7> samples = {{{{1., 0., 0.}},
                                                            {{0., 1., 0.}},
                                                            {{0., 0., 1.}},
@@ -286,11 +286,10 @@ namespace Signorini
                                                            {{.5, 0., .5}},
                                                            {{1. / 3., 1. / 3., 1. / 3.}}}};
     const double                               size    = surface.extent();
-    const unsigned int                         rank    = Utilities::MPI::this_mpi_process(communicator);
     GapUnderLoad                               under_load(surface, pressure);
     LeastGap                                   initially, deformed;
     for (unsigned int t = 0; t < surface.mesh.triangles.size(); ++t)
-      if (surface.faces[surface.triangle_face[t]].worker == rank)
+      if (faces[surface.triangle_face[t]])
         {
           double least = std::numeric_limits<double>::infinity();
           for (const auto &w : samples)

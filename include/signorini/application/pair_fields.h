@@ -19,7 +19,11 @@ namespace Signorini
   /// faces around it lie beyond a sharp edge (vertices_on_sharp_edges()).
   std::vector<bool> sharp_vertices(const ContactPair &pair);
 
-  /// The overlay of this rank's nonmortar faces that the pair covers: others it has left to a nearer pair.
+  /// By face of the nonmortar surface: whether it is this rank's and the pair covers it. Others it has left
+  /// to a nearer pair.
+  std::vector<bool> faces_of_pair(const ContactPair &pair);
+
+  /// The overlay of these faces.
   std::vector<OverlayTriangle> covered_overlay(const ContactPair &pair);
 
   /// Collective. The contact stress lambda n (force per area) of a pair at the corners of this rank's faces

@@ -51,7 +51,7 @@ namespace Signorini
     /// would be left. Returns how many faces that are.
     std::size_t leave(const std::vector<bool> &some);
 
-    /// How many faces belong to parts that face nothing.
+    /// How many faces belong to parts that face nothing; none where nothing is seen by any part.
     std::size_t n_blind() const;
 
     /// Whether a part faces nothing, or a normal does not count at some vertex.

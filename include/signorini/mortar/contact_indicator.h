@@ -67,11 +67,11 @@ namespace Signorini
                                     const std::vector<Vector3> &displacement_mortar,
                                     const double                shear_modulus);
 
-  /// contact_violation() for a rigid partner, given by the images of points (see compute_face_moments()); for
-  /// the faces of rank `rank`.
+  /// contact_violation() for a rigid partner, given by the images of points (see compute_face_moments()).
+  /// @param faces those of this rank to look at
   std::vector<double> contact_violation(const ContactSurface &nonmortar, const ImageFunction &image,
                                         const CornerValues &stress, const std::vector<Vector3> &displacement,
-                                        const double shear_modulus, const unsigned int rank);
+                                        const double shear_modulus, const std::vector<bool> &faces);
 } // namespace Signorini
 
 #endif

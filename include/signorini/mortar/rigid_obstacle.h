@@ -100,10 +100,11 @@ namespace Signorini
                                                  const MPI_Comm communicator);
 
   /// Collective. As sample_geometric_penetration(), against an obstacle.
+  /// @param faces those of this rank to look at
   GeometricPenetration sample_rigid_penetration(const ContactSurface &surface, const RigidObstacle &obstacle,
                                                 const std::vector<Vector3> &displacement,
                                                 const std::vector<double>  &pressure,
-                                                const MPI_Comm              communicator);
+                                                const std::vector<bool> &faces, const MPI_Comm communicator);
 } // namespace Signorini
 
 #endif

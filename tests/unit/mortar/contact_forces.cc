@@ -111,6 +111,8 @@ TEST(ContactForces, StressOnTheMortarSide)
                              MPI_COMM_SELF);
   for (const Vector3 &t : mortar_means(s.mor, pair, traction, nodes))
     EXPECT_LT((t - Point<3>(.5, 0., 2.)).norm(), 1e-12);
+  for (const double p : mortar_means(s.mor, pair, std::vector<double>(pair.gaps.size(), 3.), nodes))
+    EXPECT_NEAR(p, 3., 1e-12);
 }
 
 TEST(GeometricPenetration, ConstantAndBilinearDisplacements)
