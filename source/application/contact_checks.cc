@@ -11,6 +11,7 @@
 #include <signorini/mortar/face_claims.h>
 #include <signorini/mortar/pair_conflicts.h>
 #include <signorini/mortar/surface_values.h>
+#include <signorini/surface/mapping_quality.h>
 
 #include <iomanip>
 
@@ -461,6 +462,13 @@ namespace Signorini
                 "boundaries of the pair (First, Second)"
              << (pair.obstacle ? ", the obstacle" : "")
              << (pair.prescribed_gap ? ", and \"Initial gap\"." : ".");
+        if (pair.mapping)
+          if (const std::string errors =
+                  describe_errors(sum_reports(pair.mapping->report(), space.communicator()));
+              !errors.empty())
+            text << " The contact mapping has errors (" << errors
+                 << "), and this may be one of them: then give only the faces that may touch as boundaries "
+                    "of the pair.";
         if (-gap.value <= ContactRule().overlap * width)
           text << " If an interference fit is meant, write \"Initial penetration = resolve\".";
         throw InputError(text.str());

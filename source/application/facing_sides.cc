@@ -6,10 +6,9 @@
 #include <signorini/application/journal.h>
 #include <signorini/mesh/facing_parts.h>
 #include <signorini/mesh/surface_piece.h>
+#include <signorini/mesh/way_out.h>
 #include <signorini/mortar/face_claims.h>
 #include <signorini/mortar/surface_values.h>
-#include <signorini/surface/box_tree.h>
-#include <signorini/surface/normal_projection.h>
 
 #include <algorithm>
 #include <cmath>
@@ -210,98 +209,81 @@ namespace Signorini
 
   namespace
   {
-    /// Whether segments leave the body of a whole surface.
-    class WayOut
+    /// Calls f(polygon, face, area, whether the image lies behind the body) for the polygons of this rank.
+    template <typename F>
+    void for_polygons(const ContactMapping &mapping, const ContactPair &pair, const F &f)
     {
-    public:
-      explicit WayOut(const ContactSurface &surface)
-        : surface(surface)
-        , tree(tree_of_triangles(surface.mesh))
-      {
-      }
-
-      /// Whether the segment from x in a triangle to y goes out through another face, farther from x than
-      /// half a width of the face.
-      bool leads_from(const unsigned int triangle, const Point<3> &x, const Point<3> &y, const double width)
-      {
-        const double  length    = x.distance(y);
-        const Vector3 direction = (y - x) / length;
-        found.clear();
-        tree.find_along_segment(found, x, y);
-        return std::any_of(found.begin(), found.end(), [&](const unsigned int t) {
-          if (surface.triangle_face[t] == surface.triangle_face[triangle])
-            return false;
-          const auto                   &c       = surface.mesh.triangles[t];
-          const std::array<Point<3>, 3> corners = {
-              {surface.mesh.vertices[c[0]], surface.mesh.vertices[c[1]], surface.mesh.vertices[c[2]]}};
-          std::array<double, 3> weights;
-          double                along;
-          return cross_product_3d(corners[1] - corners[0], corners[2] - corners[0]) * direction > 0. &&
-                 NormalProjection::intersect_line(weights, along, x, direction, corners) &&
-                 along > .5 * width && along < length &&
-                 std::all_of(weights.begin(), weights.end(), [](const double w) { return w >= 0.; });
-        });
-      }
-
-    private:
-      const ContactSurface     &surface;
-      const BoxTree             tree;
-      std::vector<unsigned int> found;
-    };
-
-    /// Of each face the area that is covered and the part of it whose image lies behind the body, on this
-    /// rank.
-    struct CoveredFaces
-    {
-      std::vector<double> all, behind;
-
-      explicit CoveredFaces(const ContactPair &pair)
-        : all(pair.nonmortar.surface.faces.size(), 0.)
-        , behind(all)
-      {
-        constexpr std::array<double, 3> centre = {{1. / 3., 1. / 3., 1. / 3.}};
-        const ContactSurface           &non    = pair.nonmortar.surface;
-        const SurfaceValues             on_nonmortar(non), on_mortar(pair.mortar.surface);
-        std::optional<WayOut>           way;
-        for (const OverlayTriangle &cell : pair.mapping->overlay())
-          {
-            const unsigned int t = cell.nonmortar_triangle, f = non.triangle_face[t];
-            const double       whole = triangle_area(non.mesh, t), area = std::abs(cell.share()) * whole;
-            const auto         weights = compose(cell.nonmortar, centre);
-            const Point<3>     x       = on_nonmortar.point(t, weights),
-                           y           = on_mortar.point(cell.mortar_triangle, compose(cell.mortar, centre));
-            const double width         = std::sqrt(whole);
-            all[f] += area;
-            if ((y - x) * on_nonmortar.normal(t, weights) > -width)
-              continue;
-            if (!way)
-              way.emplace(non);
-            if (way->leads_from(t, x, y, width))
-              behind[f] += area;
-          }
-      }
-    };
+      constexpr std::array<double, 3> centre = {{1. / 3., 1. / 3., 1. / 3.}};
+      const ContactSurface           &non    = pair.nonmortar.surface;
+      const SurfaceValues             on_nonmortar(non), on_mortar(pair.mortar.surface);
+      std::optional<WayOut>           way;
+      std::vector<OverlayTriangle>    cells;
+      for (std::size_t polygon = 0; polygon < mapping.n_polygons(); ++polygon)
+        {
+          const unsigned int t     = mapping.polygon_triangles[polygon].first;
+          const double       whole = triangle_area(non.mesh, t), width = std::sqrt(whole);
+          double             area = 0., behind = 0.;
+          cells.clear();
+          mapping.triangulate(cells, polygon);
+          for (const OverlayTriangle &cell : cells)
+            {
+              const double   part    = std::abs(cell.share()) * whole;
+              const auto     weights = compose(cell.nonmortar, centre);
+              const Point<3> x       = on_nonmortar.point(t, weights),
+                             y       = on_mortar.point(cell.mortar_triangle, compose(cell.mortar, centre));
+              area += part;
+              if ((y - x) * on_nonmortar.normal(t, weights) > -width)
+                continue;
+              if (!way)
+                way.emplace(non);
+              if (way->leads_from(non.triangle_face[t], x, y, width))
+                behind += part;
+            }
+          f(polygon, non.triangle_face[t], area, behind > .5 * area);
+        }
+    }
   } // namespace
 
 
 
   std::vector<bool> faces_with_images_behind(const ContactPair &pair, const MPI_Comm communicator)
   {
-    const CoveredFaces        covered(pair);
+    std::vector<double> all(pair.nonmortar.surface.faces.size(), 0.), behind(all);
+    for_polygons(*pair.mapping, pair,
+                 [&](const std::size_t, const unsigned int f, const double area, const bool is_behind) {
+                   all[f] += area;
+                   if (is_behind)
+                     behind[f] += area;
+                 });
     std::vector<unsigned int> mine;
     bool                      others = false;
-    for (unsigned int f = 0; f < covered.all.size(); ++f)
-      if (covered.behind[f] > .5 * covered.all[f])
+    for (unsigned int f = 0; f < all.size(); ++f)
+      if (behind[f] > .5 * all[f])
         mine.push_back(f);
       else
-        others = others || covered.all[f] > 0.;
+        others = others || all[f] > 0.;
     const auto list = gather_lists(std::move(mine), communicator, Receivers::all);
     if (list.empty() || Utilities::MPI::max(static_cast<int>(others), communicator) == 0)
       return {};
-    std::vector<bool> result(covered.all.size(), false);
+    std::vector<bool> result(all.size(), false);
     for (const unsigned int f : list)
       result[f] = true;
     return result;
+  }
+
+
+
+  void leave_out_images_behind(ContactMapping &mapping, const ContactPair &pair, const MPI_Comm communicator)
+  {
+    std::vector<bool> is_behind(mapping.n_polygons(), false);
+    bool              others = false;
+    for_polygons(mapping, pair,
+                 [&](const std::size_t i, const unsigned int, const double, const bool is_this) {
+                   is_behind[i] = is_this;
+                   others       = others || !is_this;
+                 });
+    if (Utilities::MPI::max(static_cast<int>(others), communicator) > 0)
+      mapping.leave_out(is_behind);
   }
 
 

@@ -105,26 +105,30 @@ namespace Signorini
       return warn_if_stiffer(pair.nonmortar == NonmortarChoice::first ? 0 : 1);
     }
 
-    void map_pair(ContactPair &pair, const MPI_Comm comm, Journal &journal)
+    std::shared_ptr<ContactMapping> map_surfaces(ContactPair &pair, const MPI_Comm comm, Journal &journal)
     {
       const unsigned int    rank      = Utilities::MPI::this_mpi_process(comm);
       const ContactSurface &nonmortar = pair.nonmortar.surface;
-      {
-        PhaseTimes::Scope time = journal.measure(Phase::mapping);
-        pair.mapping           = std::make_shared<const ContactMapping>(
-            nonmortar.mesh, pair.mortar.surface.mesh,
-            [&](const unsigned int t) { return nonmortar.faces[nonmortar.triangle_face[t]].worker == rank; },
-            comm);
-        if (Utilities::MPI::sum(pair.mapping->report().n_cells, comm) == 0)
-          throw InputError("Pair " + pair.name + ": the surfaces \"" + pair.nonmortar.name + "\" and \"" +
-                           pair.mortar.name +
-                           "\" do not face each other anywhere: there is not a single overlay cell.");
-        pair.mapping_time = time.stop();
-      }
+      PhaseTimes::Scope     time      = journal.measure(Phase::mapping);
+      auto                  mapping   = std::make_shared<ContactMapping>(
+          nonmortar.mesh, pair.mortar.surface.mesh,
+          [&](const unsigned int t) { return nonmortar.faces[nonmortar.triangle_face[t]].worker == rank; },
+          comm);
+      if (Utilities::MPI::sum(mapping->report().n_cells, comm) == 0)
+        throw InputError("Pair " + pair.name + ": the surfaces \"" + pair.nonmortar.name + "\" and \"" +
+                         pair.mortar.name +
+                         "\" do not face each other anywhere: there is not a single overlay cell.");
+      pair.mapping      = mapping;
+      pair.mapping_time = time.stop();
+      return mapping;
+    }
+
+    void integrate(ContactPair &pair, const MPI_Comm comm, Journal &journal)
+    {
       const auto time = journal.measure(Phase::mortar);
-      pair.halo       = std::make_shared<const SurfaceHalo>(nonmortar, comm);
+      pair.halo       = std::make_shared<const SurfaceHalo>(pair.nonmortar.surface, comm);
       pair.moments    = pair.halo->add_ghosts(compute_face_moments(
-             nonmortar, pair.mortar.surface, pair.mapping->overlay(), pair.prescribed_gap, comm));
+             pair.nonmortar.surface, pair.mortar.surface, pair.mapping->overlay(), pair.prescribed_gap, comm));
     }
 
     void meet_obstacle(ContactPair &pair, const MPI_Comm comm, Journal &journal)
@@ -183,13 +187,15 @@ namespace Signorini
         meet_obstacle(pair, model.communicator(), journal);
         return pair;
       }
-    map_pair(pair, model.communicator(), journal);
+    auto mapping = map_surfaces(pair, model.communicator(), journal);
     if (const auto behind = faces_with_images_behind(pair, model.communicator()); !behind.empty())
       {
         leave_out(pair.nonmortar.surface, behind);
         share(pair);
-        map_pair(pair, model.communicator(), journal);
+        mapping = map_surfaces(pair, model.communicator(), journal);
       }
+    leave_out_images_behind(*mapping, pair, model.communicator());
+    integrate(pair, model.communicator(), journal);
     return pair;
   }
 

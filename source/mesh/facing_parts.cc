@@ -6,6 +6,7 @@
 #include <signorini/mesh/surface_normals.h>
 #include <signorini/mesh/surface_piece.h>
 #include <signorini/mesh/symmetry_planes.h>
+#include <signorini/mesh/way_out.h>
 #include <signorini/surface/box_tree.h>
 #include <signorini/surface/normal_projection.h>
 
@@ -13,6 +14,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 
 namespace Signorini
 {
@@ -315,13 +317,22 @@ namespace Signorini
     void look(FacingParts &from_parts, const ContactSurface &from, FacingParts &to_parts,
               const ContactSurface &to, const MPI_Comm communicator)
     {
-      const SurfaceSight sight(to);
+      const SurfaceSight    sight(to);
+      std::optional<WayOut> way;
       for_places(from, communicator,
                  [&](const unsigned int face, const Point<3> &p, const Vector3 &n, const double width) {
                    double       distance = 0.;
                    unsigned int seen     = 0;
                    if (!sight.find(distance, seen, p, n, FacingRule().same_place * width))
                      return;
+                   // The teeth of a gear would see others through their own.
+                   if (distance < -width)
+                     {
+                       if (!way)
+                         way.emplace(from);
+                       if (way->leads_from(face, p, p + distance * n, width))
+                         return;
+                     }
                    from_parts.see(face, std::abs(distance));
                    to_parts.see(seen, std::abs(distance));
                  });

@@ -45,4 +45,5 @@ signorini_add_layer(mesh
   true_shape.cc
   vertex_history.cc
   volume_mesh.cc
+  way_out.cc
 )

@@ -296,6 +296,28 @@ namespace Signorini
 
 
 
+  void ContactMapping::leave_out(const std::vector<bool> &polygons)
+  {
+    AssertDimension(polygons.size(), n_polygons());
+    std::vector<std::pair<unsigned int, unsigned int>> triangles;
+    std::vector<unsigned int>                          start(1, 0), corners;
+    for (std::size_t i = 0; i < polygons.size(); ++i)
+      if (!polygons[i])
+        {
+          triangles.push_back(polygon_triangles[i]);
+          corners.insert(corners.end(), polygon_corners.begin() + polygon_start[i],
+                         polygon_corners.begin() + polygon_start[i + 1]);
+          start.push_back(static_cast<unsigned int>(corners.size()));
+        }
+    polygon_triangles.swap(triangles);
+    polygon_start.swap(start);
+    polygon_corners.swap(corners);
+    by_mortar_start.clear();
+    by_mortar.clear();
+  }
+
+
+
   void ContactMapping::triangulate(std::vector<OverlayTriangle> &triangles, const std::size_t polygon) const
   {
     const auto [t, m] = polygon_triangles[polygon];

@@ -315,3 +315,46 @@ def key_joint(p):
         # A traction of 1 on the rim, 20 long and with a radius of 30; nothing holds the hub but the key.
         near(abs(moments['way']), 2. * math.pi * 30. ** 2 * 20., .03, 'moment on the key')
         near(abs(moments['seat']), abs(moments['way']), 1e-6, 'moments on both halves of the key')
+
+
+GEARS = """set Bodies        = pinion, gear
+set Contact pairs = teeth
+subsection Body pinion
+  set Mesh          = gears.msh
+  set Volumes       = pinion
+  set Young modulus = 210e3
+  set Poisson ratio = 0.3
+  set Dirichlet     = pinion hub: (-1e-3*y, 1e-3*x, 0)
+end
+subsection Body gear
+  set Mesh          = gears.msh
+  set Volumes       = gear
+  set Young modulus = 210e3
+  set Poisson ratio = 0.3
+  set Dirichlet     = gear hub: (0, 0, 0)
+end
+subsection Pair teeth
+  set First  = pinion: pinion flanks
+  set Second = gear: gear flanks
+end
+"""
+
+
+def gear_teeth(p):
+    """Flanks see others through their own teeth, behind them. The force is along the line of action, and Hertz' one on a line."""
+    with tempfile.TemporaryDirectory() as folder:
+        make_mesh(os.path.join(GEOMETRIES, 'gears.geo'), os.path.join(folder, 'gears.msh'), '-setnumber', 'h', '0.45')
+        path = os.path.join(folder, 'gears.prm')
+        with open(path, 'w') as f:
+            f.write(GEARS)
+        for side in ('first', 'second'):
+            s = p.solve(path, f'Pair teeth/Nonmortar={side}')
+            pair = s['pairs'][0]
+            along, across = (abs(f) for f in pair['force'][:2])
+            print(f'{s["cycles"][-1]["nonlinear"]["iterations"]} iterations, force {pair["force"]}, area {pair["contact_area"]}')
+            near(along / across, math.tan(math.radians(20.)), .03, 'pressure angle')
+            # Length 6, both radii 40 sin(20 degrees): a strip of about one face.
+            radius, modulus = 20. * math.sin(math.radians(20.)), 210e3 / 2. / (1. - .3 ** 2)
+            width = 2. * math.sqrt(4. * math.hypot(along, across) / 6. * radius / (math.pi * modulus))
+            near(pair['contact_area'], 6. * width, .15, 'contact area')
+            check(pair['initial_penetration'] < 1e-3, f'initial penetration {pair["initial_penetration"]}')

@@ -25,6 +25,11 @@ namespace Signorini
   /// backward, through both bodies. Empty if there is no such face, or nothing else.
   std::vector<bool> faces_with_images_behind(const ContactPair &pair, const MPI_Comm communicator);
 
+  /// Collective. Leaves what of the others has its image behind the body out of the mapping between the
+  /// surfaces of a pair: slivers where normals near the tip of a tooth lead through it. Nothing if nothing
+  /// else is there.
+  void leave_out_images_behind(ContactMapping &mapping, const ContactPair &pair, const MPI_Comm communicator);
+
   /// Takes faces from a whole surface.
   void leave_out(ContactSurface &surface, const std::vector<bool> &faces);
 } // namespace Signorini

@@ -94,6 +94,9 @@ namespace Signorini
     ContactMapping(const ContactMapping &whole, const SurfacePart &nonmortar_part,
                    const SurfacePart &mortar_part);
 
+    /// Leaves out polygons: what they cover counts as uncovered. The report stays as it is.
+    void leave_out(const std::vector<bool> &polygons);
+
     /// Number of polygons in which triangles meet.
     std::size_t n_polygons() const
     {

@@ -24,6 +24,44 @@ TEST(ContactMapping, IdenticalAndNestedGrids)
 
 
 
+TEST(ContactMapping, PolygonsAreLeftOut)
+{
+  const SurfaceMesh    one = grid(3, flat, true), other = grid(4, flat, false);
+  ContactMapping       mapping(one, other);
+  const ContactMapping whole = mapping;
+  std::vector<bool>    left_out(mapping.n_polygons(), false);
+  for (std::size_t i = 0; i < left_out.size(); i += 2)
+    left_out[i] = true;
+  // Phi^-1 has its own order of the polygons.
+  EXPECT_NE(mapping.preimage(0, {{1. / 3., 1. / 3., 1. / 3.}}).on, SurfacePoint::On::nothing);
+  mapping.leave_out(left_out);
+  ASSERT_EQ(mapping.n_polygons(), whole.n_polygons() / 2);
+  for (std::size_t i = 0; i < mapping.n_polygons(); ++i)
+    {
+      std::vector<OverlayTriangle> cells, expected;
+      mapping.triangulate(cells, i);
+      whole.triangulate(expected, 2 * i + 1);
+      ASSERT_EQ(cells.size(), expected.size());
+      for (std::size_t c = 0; c < cells.size(); ++c)
+        {
+          EXPECT_EQ(cells[c].nonmortar, expected[c].nonmortar);
+          EXPECT_EQ(cells[c].mortar_triangle, expected[c].mortar_triangle);
+        }
+    }
+  unsigned int n_found = 0, n_found_in_whole = 0;
+  for (unsigned int m = 0; m < other.triangles.size(); ++m)
+    {
+      const std::array<double, 3> place = {{.31, .32, .37}};
+      n_found += mapping.preimage(m, place).on != SurfacePoint::On::nothing;
+      n_found_in_whole += whole.preimage(m, place).on != SurfacePoint::On::nothing;
+    }
+  EXPECT_EQ(n_found_in_whole, other.triangles.size());
+  EXPECT_GT(n_found, 0u);
+  EXPECT_LT(n_found, n_found_in_whole);
+}
+
+
+
 TEST(ContactMapping, VeryDifferentSizes)
 {
   expect_full_cover(grid(1, flat, true), grid(100, flat, false));
