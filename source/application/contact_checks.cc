@@ -123,14 +123,14 @@ namespace Signorini
     const double of_others = area_of_others(pair, coupling, comm);
     const double by_conditions =
         lost.by_conditions > ContactRule().lost_share * lost.covered ? lost.by_conditions : 0.;
-    if (!(of_others + by_conditions > 0.))
+    if (!(of_others + by_conditions > 1e-12 * lost.covered) && result.refused == 0.)
       return result;
-    result.share  = (of_others + by_conditions) / lost.covered;
-    result.reason = percent(result.share) + " of \"" + pair.nonmortar.name +
-                    "\" could carry no contact stress (" +
-                    (of_others > by_conditions ? "it is the nonmortar side of another pair, too"
-                                               : "its displacements are prescribed") +
-                    ")";
+    result.share = std::max(result.refused, (of_others + by_conditions) / lost.covered);
+    result.reason =
+        percent(result.share) + " of \"" + pair.nonmortar.name + "\" could carry no contact stress (" +
+        (of_others > by_conditions || by_conditions == 0. ? "it is the nonmortar side of another pair, too"
+                                                          : "its displacements are prescribed") +
+        ")";
     return result;
   }
 

@@ -5,6 +5,7 @@
 #include <signorini/application/facing_sides.h>
 #include <signorini/application/journal.h>
 #include <signorini/mesh/facing_parts.h>
+#include <signorini/mesh/surface_normals.h>
 #include <signorini/mesh/surface_piece.h>
 #include <signorini/mesh/way_out.h>
 #include <signorini/mortar/face_claims.h>
@@ -20,6 +21,12 @@ namespace Signorini
 
   namespace
   {
+    void keep_whole(ContactSide &side)
+    {
+      if (!side.whole)
+        side.whole = std::make_shared<const SurfaceMesh>(side.surface.mesh);
+    }
+
     /// What the sides of a pair see of each other.
     struct PairSight
     {
@@ -30,7 +37,7 @@ namespace Signorini
         , n_left(sides.size(), 0)
       {
         for (const ContactSide &side : sides)
-          parts.emplace_back(side.surface);
+          parts.emplace_back(side.surface, side.boundary());
       }
 
       const PairModel          &pair;
@@ -126,9 +133,12 @@ namespace Signorini
     {
       std::vector<ContactSide> result = sight.sides;
       for (unsigned int s = 0; s < result.size(); ++s)
-        if (sight.parts[s].leaves_out_anything())
-          result[s].surface =
-              without_blind_parts(std::move(result[s].surface), sight.parts[s], sight.pair.sides[s].shapes);
+        if (ContactSide &side = result[s]; sight.parts[s].leaves_out_anything())
+          {
+            keep_whole(side);
+            side.surface =
+                without_blind_parts(std::move(side.surface), sight.parts[s], sight.pair.sides[s].shapes);
+          }
       return result;
     }
 
@@ -209,91 +219,107 @@ namespace Signorini
 
   namespace
   {
-    /// Calls f(polygon, face, area, whether the image lies behind the body) for the polygons of this rank.
-    template <typename F>
-    void for_polygons(const ContactMapping &mapping, const ContactPair &pair, const F &f)
+    /// What of a mapping has its image behind the nonmortar body.
+    struct ImagesBehind
     {
-      constexpr std::array<double, 3> centre = {{1. / 3., 1. / 3., 1. / 3.}};
-      const ContactSurface           &non    = pair.nonmortar.surface;
-      const SurfaceValues             on_nonmortar(non), on_mortar(pair.mortar.surface);
-      std::optional<WayOut>           way;
-      std::vector<OverlayTriangle>    cells;
-      for (std::size_t polygon = 0; polygon < mapping.n_polygons(); ++polygon)
-        {
-          const unsigned int t     = mapping.polygon_triangles[polygon].first;
-          const double       whole = triangle_area(non.mesh, t), width = std::sqrt(whole);
-          double             area = 0., behind = 0.;
-          cells.clear();
-          mapping.triangulate(cells, polygon);
-          for (const OverlayTriangle &cell : cells)
-            {
-              const double   part    = std::abs(cell.share()) * whole;
-              const auto     weights = compose(cell.nonmortar, centre);
-              const Point<3> x       = on_nonmortar.point(t, weights),
-                             y       = on_mortar.point(cell.mortar_triangle, compose(cell.mortar, centre));
-              area += part;
-              if ((y - x) * on_nonmortar.normal(t, weights) > -width)
-                continue;
-              if (!way)
-                way.emplace(non);
-              if (way->leads_from(non.triangle_face[t], x, y, width))
-                behind += part;
-            }
-          f(polygon, non.triangle_face[t], area, behind > .5 * area);
-        }
+      /// By polygon of this rank; and by face, the areas that are covered, and that so.
+      std::vector<bool>   polygons;
+      std::vector<double> covered, behind;
+
+      explicit ImagesBehind(const ContactPair &pair)
+        : polygons(pair.mapping->n_polygons(), false)
+        , covered(pair.nonmortar.surface.faces.size(), 0.)
+        , behind(covered)
+      {
+        const ContactSurface        &non = pair.nonmortar.surface;
+        const SurfaceMesh           &mor = pair.mortar.surface.mesh;
+        std::optional<WayOut>        way_out;
+        std::vector<OverlayTriangle> cells;
+        for (std::size_t i = 0; i < polygons.size(); ++i)
+          {
+            const unsigned int t = pair.mapping->polygon_triangles[i].first, f = non.triangle_face[t];
+            const double       whole = triangle_area(non.mesh, t), width = std::sqrt(whole);
+            double             area = 0., area_behind = 0.;
+            cells.clear();
+            pair.mapping->triangulate(cells, i);
+            for (const OverlayTriangle &cell : cells)
+              {
+                constexpr std::array<double, 3> centre = {{1. / 3., 1. / 3., 1. / 3.}};
+                const double                    part   = std::abs(cell.share()) * whole;
+                const Point<3>                  x = evaluate(non.mesh, t, compose(cell.nonmortar, centre)),
+                               y = evaluate(mor, cell.mortar_triangle, compose(cell.mortar, centre));
+                area += part;
+                if ((y - x) * facet_normal(non, t) > -width)
+                  continue;
+                if (!way_out)
+                  way_out.emplace(pair.nonmortar.boundary());
+                if (way_out->leads_from(x, y, width))
+                  area_behind += part;
+              }
+            covered[f] += area;
+            behind[f] += area_behind;
+            polygons[i] = area_behind > .5 * area;
+          }
+      }
+
+      /// Collective. The faces of which that is most, of all ranks; empty if there are none, or nothing else.
+      std::vector<bool> faces(const MPI_Comm communicator) const
+      {
+        std::vector<unsigned int> mine;
+        bool                      others = false;
+        for (unsigned int f = 0; f < covered.size(); ++f)
+          if (behind[f] > .5 * covered[f])
+            mine.push_back(f);
+          else
+            others = others || covered[f] > 0.;
+        const auto list = gather_lists(std::move(mine), communicator, Receivers::all);
+        if (list.empty() || Utilities::MPI::max(static_cast<int>(others), communicator) == 0)
+          return {};
+        std::vector<bool> result(covered.size(), false);
+        for (const unsigned int f : list)
+          result[f] = true;
+        return result;
+      }
+
+      /// Collective. Whether there is more than such polygons, on any rank.
+      bool leave_anything(const MPI_Comm communicator) const
+      {
+        const bool mine = std::find(polygons.begin(), polygons.end(), false) != polygons.end();
+        return Utilities::MPI::max(static_cast<int>(mine), communicator) > 0;
+      }
+    };
+
+    void leave_out(ContactSide &side, const std::vector<bool> &faces)
+    {
+      keep_whole(side);
+      std::vector<bool> kept = faces;
+      kept.flip();
+      side.surface =
+          cut_out(side.surface, SurfacePiece(side.surface, kept,
+                                             std::vector<bool>(side.surface.mesh.vertices.size(), false)));
+      side.surface.origin.reset();
     }
   } // namespace
 
 
 
-  std::vector<bool> faces_with_images_behind(const ContactPair &pair, const MPI_Comm communicator)
+  void leave_out_images_behind(ContactPair &pair, const std::function<std::shared_ptr<ContactMapping>()> &map,
+                               const MPI_Comm communicator)
   {
-    std::vector<double> all(pair.nonmortar.surface.faces.size(), 0.), behind(all);
-    for_polygons(*pair.mapping, pair,
-                 [&](const std::size_t, const unsigned int f, const double area, const bool is_behind) {
-                   all[f] += area;
-                   if (is_behind)
-                     behind[f] += area;
-                 });
-    std::vector<unsigned int> mine;
-    bool                      others = false;
-    for (unsigned int f = 0; f < all.size(); ++f)
-      if (behind[f] > .5 * all[f])
-        mine.push_back(f);
-      else
-        others = others || all[f] > 0.;
-    const auto list = gather_lists(std::move(mine), communicator, Receivers::all);
-    if (list.empty() || Utilities::MPI::max(static_cast<int>(others), communicator) == 0)
-      return {};
-    std::vector<bool> result(all.size(), false);
-    for (const unsigned int f : list)
-      result[f] = true;
-    return result;
-  }
-
-
-
-  void leave_out_images_behind(ContactMapping &mapping, const ContactPair &pair, const MPI_Comm communicator)
-  {
-    std::vector<bool> is_behind(mapping.n_polygons(), false);
-    bool              others = false;
-    for_polygons(mapping, pair,
-                 [&](const std::size_t i, const unsigned int, const double, const bool is_this) {
-                   is_behind[i] = is_this;
-                   others       = others || !is_this;
-                 });
-    if (Utilities::MPI::max(static_cast<int>(others), communicator) > 0)
-      mapping.leave_out(is_behind);
-  }
-
-
-
-  void leave_out(ContactSurface &surface, const std::vector<bool> &faces)
-  {
-    std::vector<bool> kept = faces;
-    kept.flip();
-    surface =
-        cut_out(surface, SurfacePiece(surface, kept, std::vector<bool>(surface.mesh.vertices.size(), false)));
-    surface.origin.reset();
+    std::shared_ptr<ContactMapping> mapping = map();
+    pair.mapping                            = mapping;
+    ImagesBehind images(pair);
+    if (const std::vector<bool> faces = images.faces(communicator); !faces.empty())
+      {
+        leave_out(pair.nonmortar, faces);
+        mapping      = map();
+        pair.mapping = mapping;
+        images       = ImagesBehind(pair);
+      }
+    if (images.leave_anything(communicator) &&
+        std::find(images.polygons.begin(), images.polygons.end(), true) != images.polygons.end())
+      mapping->leave_out(images.polygons);
+    pair.nonmortar.whole.reset();
+    pair.mortar.whole.reset();
   }
 } // namespace Signorini

@@ -87,22 +87,15 @@ namespace Signorini
       else
         softer =
             average_face_area(sides[0].surface) <= average_face_area(sides[1].surface) * (1. + 1e-9) ? 0 : 1;
-      const auto warn_if_stiffer = [&](const unsigned int chosen) {
-        if (young[chosen] > 10. * young[1 - chosen])
-          journal.note(
-              "warning: pair " + pair.name +
-              ": the nonmortar side is the stiffer body; the contact nodes need a direct solver this way.");
-        return chosen;
-      };
       if (is_turned)
-        return warn_if_stiffer(1 - softer);
+        return 1 - softer;
       if (pair.nonmortar == NonmortarChoice::automatic)
         {
           journal.note("pair " + pair.name + ": \"" + bodies.body_name(sides[softer].body) +
                        "\" is the nonmortar side (the softer body, then the finer mesh).");
           return softer;
         }
-      return warn_if_stiffer(pair.nonmortar == NonmortarChoice::first ? 0 : 1);
+      return pair.nonmortar == NonmortarChoice::first ? 0 : 1;
     }
 
     std::shared_ptr<ContactMapping> map_surfaces(ContactPair &pair, const MPI_Comm comm, Journal &journal)
@@ -118,8 +111,7 @@ namespace Signorini
         throw InputError("Pair " + pair.name + ": the surfaces \"" + pair.nonmortar.name + "\" and \"" +
                          pair.mortar.name +
                          "\" do not face each other anywhere: there is not a single overlay cell.");
-      pair.mapping      = mapping;
-      pair.mapping_time = time.stop();
+      pair.mapping_time += time.stop();
       return mapping;
     }
 
@@ -181,20 +173,20 @@ namespace Signorini
       pair.mortar.name = pair.obstacle->description();
     else
       pair.mortar = take(1 - non);
-    share(pair);
     if (pair.obstacle)
       {
+        share(pair);
+        pair.nonmortar.whole.reset();
         meet_obstacle(pair, model.communicator(), journal);
         return pair;
       }
-    auto mapping = map_surfaces(pair, model.communicator(), journal);
-    if (const auto behind = faces_with_images_behind(pair, model.communicator()); !behind.empty())
-      {
-        leave_out(pair.nonmortar.surface, behind);
-        share(pair);
-        mapping = map_surfaces(pair, model.communicator(), journal);
-      }
-    leave_out_images_behind(*mapping, pair, model.communicator());
+    leave_out_images_behind(
+        pair,
+        [&] {
+          share(pair);
+          return map_surfaces(pair, model.communicator(), journal);
+        },
+        model.communicator());
     integrate(pair, model.communicator(), journal);
     return pair;
   }

@@ -162,7 +162,7 @@ namespace Signorini
   {
     const bool is_much_stiffer =
         pairs[p].mortar.material.young > SideRule().much_stiffer * pairs[p].nonmortar.material.young;
-    return maker.is_open(p) && !is_for_mapping[p] && loss.share > 0. &&
+    return maker.is_open(p) && !is_for_mapping[p] && (is_first ? loss.share : loss.refused) > 0. &&
            (loss.refused > 0. || !is_much_stiffer);
   }
 
@@ -236,5 +236,11 @@ namespace Signorini
             journal.note("pair " + pairs[p].name + ": its sides are swapped, because " + now[p].reason + ".");
       }
     others.clear();
+    for (const ContactPair &pair : pairs)
+      if (!pair.obstacle &&
+          pair.nonmortar.material.young > SideRule().much_stiffer * pair.mortar.material.young)
+        journal.note(
+            "warning: pair " + pair.name +
+            ": the nonmortar side is the stiffer body; the contact nodes need a direct solver this way.");
   }
 } // namespace Signorini

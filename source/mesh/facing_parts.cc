@@ -13,6 +13,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 
@@ -50,8 +51,9 @@ namespace Signorini
 
 
 
-  FacingParts::FacingParts(const ContactSurface &surface)
+  FacingParts::FacingParts(const ContactSurface &surface, const SurfaceMesh &boundary)
     : surface(surface)
+    , boundary(boundary)
     , part_of(surface.faces.size())
     , seen(surface.faces.size(), infinite)
   {
@@ -240,8 +242,10 @@ namespace Signorini
 
       /// The nearest triangle before or behind a point, if it faces the line.
       /// @param same_place lengths that do not differ
+      /// @param is_open(distance) tells whether one can see as far
+      template <typename IsOpen>
       bool find(double &distance, unsigned int &face, const Point<3> &p, const Vector3 &n,
-                const double same_place) const
+                const double same_place, const IsOpen &is_open) const
       {
         found.clear();
         tree.find_along_line(found, p, n);
@@ -263,9 +267,10 @@ namespace Signorini
                     faced  = surface.triangle_face[t];
                   }
               }
-            if (facing <= nearest + same_place && (!is_seen || facing < std::abs(distance)))
+            if (std::isfinite(facing) && facing <= nearest + same_place &&
+                (!is_seen || facing < std::abs(distance)) && is_open(side * facing))
               {
-                is_seen  = facing < std::numeric_limits<double>::infinity();
+                is_seen  = true;
                 distance = side * facing;
                 face     = faced;
               }
@@ -318,21 +323,21 @@ namespace Signorini
               const ContactSurface &to, const MPI_Comm communicator)
     {
       const SurfaceSight    sight(to);
-      std::optional<WayOut> way;
+      std::optional<WayOut> way_out;
       for_places(from, communicator,
                  [&](const unsigned int face, const Point<3> &p, const Vector3 &n, const double width) {
                    double       distance = 0.;
                    unsigned int seen     = 0;
-                   if (!sight.find(distance, seen, p, n, FacingRule().same_place * width))
-                     return;
                    // The teeth of a gear would see others through their own.
-                   if (distance < -width)
-                     {
-                       if (!way)
-                         way.emplace(from);
-                       if (way->leads_from(face, p, p + distance * n, width))
-                         return;
-                     }
+                   const auto is_open = [&](const double way) {
+                     if (way >= -width)
+                       return true;
+                     if (!way_out)
+                       way_out.emplace(from_parts.boundary_of_body());
+                     return !way_out->leads_from(p, p + way * n, width);
+                   };
+                   if (!sight.find(distance, seen, p, n, FacingRule().same_place * width, is_open))
+                     return;
                    from_parts.see(face, std::abs(distance));
                    to_parts.see(seen, std::abs(distance));
                  });

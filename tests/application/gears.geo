@@ -1,6 +1,6 @@
 // Three teeth each of two spur gears with involute flanks (module 4, 20 teeth, pressure angle 20 degrees) that touch at the pitch point.
 SetFactory("OpenCASCADE");
-DefineConstant[ h = 0.8 ];
+DefineConstant[ h = 0.8, backlash = 0 ];
 m = 4; z = 20;
 rp = m * z / 2; rb = rp * Cos(Pi / 9); ra = rp + m; rf = rp - 1.25 * m; ri = rf - 6;
 r0 = rb + 0.01; n = 12;
@@ -21,6 +21,8 @@ Function Segment
         r = r0 + (ra - r0) * j / (n - 1);
         al = Acos(rb / r);
         half = Pi / (2 * z) + Tan(Pi / 9) - Pi / 9 - (Tan(al) - al);
+        // The other flanks touch at the pitch point.
+        half = side == 0 ? half - backlash / r : half;
         s = side == 0 ? t - half : t + half;
         p = newp; Point(p) = {cx + r * Cos(s), r * Sin(s), 0};
         flank() += {p};

@@ -343,11 +343,12 @@ end
 def gear_teeth(p):
     """Flanks see others through their own teeth, behind them. The force is along the line of action, and Hertz' one on a line."""
     with tempfile.TemporaryDirectory() as folder:
-        make_mesh(os.path.join(GEOMETRIES, 'gears.geo'), os.path.join(folder, 'gears.msh'), '-setnumber', 'h', '0.45')
         path = os.path.join(folder, 'gears.prm')
         with open(path, 'w') as f:
             f.write(GEARS)
-        for side in ('first', 'second'):
+        for side, backlash in (('first', 0.), ('second', 0.), ('auto', .5)):
+            make_mesh(os.path.join(GEOMETRIES, 'gears.geo'), os.path.join(folder, 'gears.msh'), '-setnumber', 'h', '0.45', '-setnumber', 'backlash',
+                      str(backlash))
             s = p.solve(path, f'Pair teeth/Nonmortar={side}')
             pair = s['pairs'][0]
             along, across = (abs(f) for f in pair['force'][:2])

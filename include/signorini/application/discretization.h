@@ -33,6 +33,13 @@ namespace Signorini
     /// Its triangles and faces: the whole surface until the pair is mapped and coupled, then the piece of
     /// this rank (keep_piece()).
     ContactSurface surface;
+    /// Until the pair is mapped, where parts of the surface are left out: the mesh that it had before.
+    std::shared_ptr<const SurfaceMesh> whole;
+    /// The boundary of the body as far as it was given.
+    const SurfaceMesh &boundary() const
+    {
+      return whole ? *whole : surface.mesh;
+    }
     /// Of the cells behind the surface, the mean over its area.
     IsotropicMaterial material;
   };

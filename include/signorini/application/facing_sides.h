@@ -7,6 +7,8 @@
 #include <signorini/application/contact_model.h>
 #include <signorini/application/discretization.h>
 
+#include <functional>
+#include <memory>
 #include <vector>
 
 namespace Signorini
@@ -20,18 +22,14 @@ namespace Signorini
                              const std::vector<PairModel> &pairs, const MPI_Comm communicator,
                              Journal &journal);
 
-  /// Collective. By face of the nonmortar surface of a mapped pair: whether its image lies behind its own
-  /// body. Normals of the upper half of a ball that lies on a ball meet the lower half of the other one,
-  /// backward, through both bodies. Empty if there is no such face, or nothing else.
-  std::vector<bool> faces_with_images_behind(const ContactPair &pair, const MPI_Comm communicator);
-
-  /// Collective. Leaves what of the others has its image behind the body out of the mapping between the
-  /// surfaces of a pair: slivers where normals near the tip of a tooth lead through it. Nothing if nothing
-  /// else is there.
-  void leave_out_images_behind(ContactMapping &mapping, const ContactPair &pair, const MPI_Comm communicator);
-
-  /// Takes faces from a whole surface.
-  void leave_out(ContactSurface &surface, const std::vector<bool> &faces);
+  /// Collective. Maps a pair without what has its image behind the nonmortar body: faces for the most part of
+  /// which that is so are left out of the surface, which is mapped again, and what is left of such polygons
+  /// out of the mapping. Normals of the upper half of a ball that lies on a ball meet the lower half of the
+  /// other one, backward, through both bodies; near the tip of a tooth they lead through it. Nothing is left
+  /// out where nothing else would be left.
+  /// @param map makes the mapping of the pair as it is
+  void leave_out_images_behind(ContactPair &pair, const std::function<std::shared_ptr<ContactMapping>()> &map,
+                               const MPI_Comm communicator);
 } // namespace Signorini
 
 #endif

@@ -21,7 +21,19 @@ namespace Signorini
   {
   public:
     /// @param surface must outlive this
-    explicit FacingParts(const ContactSurface &surface);
+    /// @param boundary that of the body with what the surface has lost already; must outlive this
+    FacingParts(const ContactSurface &surface, const SurfaceMesh &boundary);
+    /// The same with the boundary that the surface is.
+    explicit FacingParts(const ContactSurface &surface)
+      : FacingParts(surface, surface.mesh)
+    {
+    }
+
+    /// Through which nothing is seen.
+    const SurfaceMesh &boundary_of_body() const
+    {
+      return boundary;
+    }
 
     /// How many there are.
     std::size_t n_parts() const
@@ -79,6 +91,7 @@ namespace Signorini
     void find_nearest();
 
     const ContactSurface     &surface;
+    const SurfaceMesh        &boundary;
     std::vector<unsigned int> part_of;
     std::vector<Part>         parts;
     /// By face: the least distance of what it faces.

@@ -4,27 +4,26 @@
 #ifndef signorini_mesh_way_out_h
 #define signorini_mesh_way_out_h
 
-#include <signorini/mesh/contact_surface.h>
 #include <signorini/surface/box_tree.h>
+#include <signorini/surface/surface_mesh.h>
 
 #include <vector>
 
 namespace Signorini
 {
-  /// Whether segments that begin on a surface leave the body behind it.
+  /// Whether segments that begin on the boundary of a body leave it behind that boundary.
   class WayOut
   {
   public:
-    /// @param surface a whole one, which must outlive this
-    explicit WayOut(const ContactSurface &surface);
+    /// @param boundary as much of it as is known, with what is not mapped; must outlive this
+    explicit WayOut(const SurfaceMesh &boundary);
 
-    /// Whether the segment from x in a face to y goes out through another face, farther from x than half of a
-    /// width (length).
-    bool leads_from(const unsigned int face, const dealii::Point<3> &x, const dealii::Point<3> &y,
-                    const double width) const;
+    /// Whether the segment from x on the boundary to y goes out through it, farther from x than half of a
+    /// width (length): that of the face around x.
+    bool leads_from(const dealii::Point<3> &x, const dealii::Point<3> &y, const double width) const;
 
   private:
-    const ContactSurface             &surface;
+    const SurfaceMesh                &boundary;
     const BoxTree                     tree;
     mutable std::vector<unsigned int> found;
   };
