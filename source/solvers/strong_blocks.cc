@@ -8,8 +8,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <Eigen/CholmodSupport>
 #include <Eigen/Dense>
-#include <Eigen/SparseCholesky>
 
 namespace Signorini
 {
@@ -69,8 +69,8 @@ namespace Signorini
     /// Damping of its rows, relative to their diagonal blocks; empty if nothing clashes.
     std::vector<double> shift;
 
-    Eigen::LLT<Eigen::MatrixXd>                                        dense;
-    std::unique_ptr<Eigen::SimplicialLLT<Eigen::SparseMatrix<double>>> sparse;
+    Eigen::LLT<Eigen::MatrixXd>                                               dense;
+    std::unique_ptr<Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>>> sparse;
   };
 
 
@@ -421,7 +421,8 @@ namespace Signorini
         sparse.setFromTriplets(entries.begin(), entries.end());
         if (!block.sparse)
           {
-            block.sparse = std::make_unique<Eigen::SimplicialLLT<Eigen::SparseMatrix<double>>>();
+            block.sparse = std::make_unique<Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>>>();
+            block.sparse->cholmod().print = 0;
             block.sparse->analyzePattern(sparse);
           }
         block.sparse->factorize(sparse);
