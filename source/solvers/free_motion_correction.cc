@@ -133,16 +133,6 @@ namespace Signorini
 
 
 
-  bool FreeMotionCorrection::moves(const unsigned int row) const
-  {
-    return std::any_of(motions.begin(), motions.end(), [row](const Vector &motion) {
-      return std::any_of(motion.begin() + dim * row, motion.begin() + dim * (row + 1),
-                         [](const double x) { return x != 0.; });
-    });
-  }
-
-
-
   double FreeMotionCorrection::largest_opposition(const HalfSpaces &spaces) const
   {
     std::vector<double> sums(motions.size(), 0.);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include "single_threaded.h"
+
 #include <signorini/algebra/rank_colour.h>
 #include <signorini/algebra/replicated_data.h>
 #include <signorini/solvers/strong_blocks.h>
@@ -396,6 +398,8 @@ namespace Signorini
           if (column >= matrix.n_rows() || place_in_block[column] < 0)
             return;
           const auto j = static_cast<std::size_t>(place_in_block[column]);
+          if (j > i)
+            return;
           auto       restricted =
               restrict_to_planes(entry.block(), row_normal, contact.plane(column), row == column);
           if (row == column && !block.shift.empty())
@@ -404,7 +408,7 @@ namespace Signorini
             for (unsigned int d = 0; d < dim; ++d)
               if (is_dense)
                 full(dim * i + c, dim * j + d) = restricted[c][d];
-              else
+              else if (j < i || d <= c)
                 entries.emplace_back(dim * i + c, dim * j + d, restricted[c][d]);
         });
       }
@@ -425,6 +429,7 @@ namespace Signorini
             block.sparse->cholmod().print = 0;
             block.sparse->analyzePattern(sparse);
           }
+        const SingleThreaded single_threaded;
         block.sparse->factorize(sparse);
         block.is_definite = block.sparse->info() == Eigen::Success;
       }

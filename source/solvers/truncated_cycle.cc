@@ -108,9 +108,8 @@ namespace Signorini
     const NodePartition   &partition = hierarchy.level(level).matrix.partition();
     std::vector<NodeIndex> own;
     for (const NodeIndex node : hierarchy.level(level).contact_nodes)
-      if (partition.owns(node))
-        if (const unsigned int row = partition.to_local(node); contact.at(row) >= 0 || motions.moves(row))
-          own.push_back(node);
+      if (partition.owns(node) && contact.at(partition.to_local(node)) >= 0)
+        own.push_back(node);
     return gather_lists(std::move(own), partition.communicator(), Receivers::all);
   }
 

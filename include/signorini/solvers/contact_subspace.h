@@ -41,8 +41,7 @@ namespace Signorini
     static bool exists(const MultigridHierarchy &hierarchy, const unsigned int level);
 
     /// Collective. Of a level of the hierarchy, with the levels below it.
-    /// @param nodes contact nodes of the level, sorted, those of all ranks: all that half-spaces restrict,
-    ///   and what moves freely beside these
+    /// @param nodes nodes of the level that half-spaces restrict, sorted, those of all ranks
     /// @param free_motions rigid motions that nothing but contact holds: orthonormal, A m = 0; must outlive
     ///   the object
     ContactSubspace(const MultigridHierarchy &hierarchy, const unsigned int level,

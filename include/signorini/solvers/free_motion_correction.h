@@ -57,9 +57,6 @@ namespace Signorini
     /// nothing is in its way or loads do none.
     double drive(Vector &c, const ContactState &contact) const;
 
-    /// Whether a motion moves a node of this rank.
-    bool moves(const unsigned int row) const;
-
     /// Collective. Subtracts A s from a residual, which is tangential at active nodes; s minimizes over the
     /// motions. Returns the coefficients of s.
     std::vector<double> minimize(Vector &residual) const;

@@ -19,7 +19,7 @@ namespace Signorini
 
   /// Over lines and planes of stretched cells (StrongBlocks): where sweeps by node leave less, a block is not
   /// worth its factors.
-  constexpr SlowSweepsRule slow_in_blocks = {4, .7};
+  constexpr SlowSweepsRule slow_in_blocks = {4, .75};
 
   /// Over the contact nodes of both sides (InterfaceCorrection): 0.8 to 0.93 where the nonmortar side is as
   /// stiff as the mortar side or softer, 0.96 where it is ten times as stiff. Soft motions that the first

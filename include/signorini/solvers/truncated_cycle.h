@@ -86,8 +86,8 @@ namespace Signorini
     /// semidefinite problems.
     double add_better(const double length);
 
-    /// Collective. Contact nodes for the subspace: those with half-spaces, and those of bodies that nothing
-    /// else holds. The others move as coarse functions do.
+    /// Collective. Contact nodes for the subspace: those with half-spaces. The others move as coarse
+    /// functions do.
     std::vector<NodeIndex> nodes_of_subspace() const;
 
     /// Collective. Adds the minimizer in the contact subspace to the correction, and updates new_residual.
