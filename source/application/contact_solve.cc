@@ -181,7 +181,7 @@ namespace Signorini
       PhaseTimes::Scope assembly = journal.measure(Phase::assembly);
       journal.show("assembling");
       LinearSystem system = assemble_elasticity(model.bodies(), d.nodal(), model.loads(), d.dirichlet(),
-                                                d.coupling, d.projections);
+                                                d.expansion(), d.projections);
       fix_tied_unknowns(system, d);
       problem.rhs = std::move(system.rhs);
       assembly.stop();

@@ -40,7 +40,9 @@ namespace Signorini
     std::vector<NodeIndex> nodes(owned.coupling.rows);
     nodes.insert(nodes.end(), partition().ghosts().begin(), partition().ghosts().end());
     const NodeRequest request(partition(), sorted_nodes(std::move(nodes)));
-    coupling        = import_rows(owned.coupling, request);
+    coupling = import_rows(owned.coupling, request);
+    if (owned.chained)
+      chained = import_rows(*owned.chained, request);
     gaps            = import_row_values(owned.coupling, owned.gaps, request);
     tied            = import_row_values(owned.coupling, tied, request);
     projections     = import_row_values(owned.coupling, projections, request);
@@ -50,8 +52,8 @@ namespace Signorini
     refuse_rigid_mortar_nodes();
     if (has_ties())
       lifted = std::make_unique<const DirichletData>(lift_ties(*constrained, coupling, projections, tied));
-    transformation =
-        std::make_unique<const BasisTransformation>(nodal(), partition(), dirichlet(), coupling, projections);
+    transformation = std::make_unique<const BasisTransformation>(nodal(), partition(), dirichlet(), coupling,
+                                                                 expansion(), projections);
   }
 
 
@@ -138,8 +140,13 @@ namespace Signorini
       for (unsigned int p = 0; p < coupled.pairs.size(); ++p)
         {
           std::vector<unsigned int> counts(DroppedNode::n_reasons, 0);
-          for (const DroppedNode &node : coupled.couplings[p].dropped)
-            ++counts[node.reason];
+          const PairCoupling       &coupling = coupled.couplings[p];
+          std::set<NodeIndex>       elsewhere;
+          for (const PairCoupling::CededNode &node : coupling.ceded)
+            elsewhere.insert(node.node);
+          for (const DroppedNode &node : coupling.dropped)
+            if (elsewhere.count(node.node) == 0)
+              ++counts[node.reason];
           Utilities::MPI::sum(counts, coupled.model.communicator(), counts);
           for (unsigned int reason = 0; reason < counts.size(); ++reason)
             if (counts[reason] > 0)

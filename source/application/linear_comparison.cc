@@ -73,7 +73,7 @@ namespace Signorini
     building.stop();
 
     const NodeBlockMatrix    &matrix = hierarchy.finest().matrix;
-    const BasisTransformation plain(d.nodal(), d.partition(), d.dirichlet(), none, no_rows);
+    const BasisTransformation plain(d.nodal(), d.partition(), d.dirichlet(), none, none, no_rows);
     Vector                    v, solution;
     const auto                solve = [&](const SolverMethod method, const Phase phase) {
       const auto time = journal.measure(phase);

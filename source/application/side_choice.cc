@@ -33,6 +33,7 @@ namespace Signorini
                            pair.moments,
                            static_cast<bool>(pair.prescribed_gap),
                            pair.is_tied,
+                           pair.nonmortar.body,
                            pair.obstacle ? obstacle-- : pair.mortar.body});
       return couple_pairs(several, comm);
     }

@@ -14,11 +14,13 @@ namespace Signorini
 
   BasisTransformation::BasisTransformation(const NodalSpace &space, const NodePartition &space_partition,
                                            const DirichletData &dirichlet, const InterfaceCoupling &coupling,
+                                           const InterfaceCoupling          &expansion,
                                            const std::vector<RowProjection> &projections)
     : space(space)
     , partition(space_partition)
     , dirichlet(dirichlet)
     , coupling(coupling)
+    , expansion(expansion)
     , projections(projections)
   {
     for (std::size_t p = 0; p < coupling.n_rows(); ++p)
@@ -89,7 +91,7 @@ namespace Signorini
     for (const auto &[p, local] : owned_rows)
       {
         Vector3 shift;
-        for (const auto *entry = coupling.begin(p); entry != coupling.end(p); ++entry)
+        for (const auto *entry = expansion.begin(p); entry != expansion.end(p); ++entry)
           {
             const unsigned int q = unknowns.to_local(entry->node);
             for (unsigned int c = 0; c < dim; ++c)
@@ -213,7 +215,7 @@ namespace Signorini
         for (unsigned int c = 0; c < dim; ++c)
           force[c] = forces.local_element(dim * local + c);
         force = force * projections[p].block();
-        for (const auto *entry = coupling.begin(p); entry != coupling.end(p); ++entry)
+        for (const auto *entry = expansion.begin(p); entry != expansion.end(p); ++entry)
           for (unsigned int c = 0; c < dim; ++c)
             result.local_element(dim * unknowns.to_local(entry->node) + c) += entry->weight * force[c];
       }

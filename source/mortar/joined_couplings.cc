@@ -5,6 +5,8 @@
 #include <signorini/algebra/interface_rows.h>
 #include <signorini/mortar/pair_conflicts.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <algorithm>
 #include <map>
 
@@ -26,42 +28,144 @@ namespace Signorini
       return text.str();
     }
 
-    /// Collective. No column may be a row. The message that one is, if this rank knows one.
-    std::string describe_chain(const JoinedCouplings &joined, const std::vector<std::string> &names,
-                               const NodePartition &partition)
+    /// A row that is a column of others.
+    struct RowThere
     {
-      const InterfaceCoupling &coupling = joined.coupling;
-      std::vector<NodeIndex>   columns;
-      for (const auto &entry : coupling.entries)
-        columns.push_back(entry.node);
-      const NodeRequest request(partition, sorted_nodes(std::move(columns)));
-      // The pair of the row that a column is, and where that is.
-      struct RowThere
+      unsigned int pair;
+      bool         is_fixed;
+      Point<3>     position;
+    };
+
+    /// S + S² + ..., power by power.
+    class Chains
+    {
+    public:
+      Chains(const JoinedCouplings &joined, const std::vector<std::string> &names,
+             const NodePartition &partition)
+        : joined(joined)
+        , names(names)
+        , partition(partition)
       {
-        bool         is_row;
-        unsigned int pair;
-        Point<3>     position;
-      };
-      const std::vector<RowThere> rows = request.fetch([&](const unsigned int local) {
-        const std::ptrdiff_t row = coupling.find(partition.to_global(local));
-        return row < 0 ? RowThere{false, 0, Point<3>()}
-                       : RowThere{true, joined.pairs[row], joined.positions[row]};
-      });
-      for (std::size_t row = 0; row < coupling.n_rows(); ++row)
+        for (std::size_t row = 0; row < joined.coupling.n_rows(); ++row)
+          power.emplace_back(as_map(joined.coupling, row));
+        sums = power;
+        links.resize(power.size());
+      }
+
+      /// Collective. Goes on to the next power of S, adds it, and returns whether it has entries on any rank.
+      bool follow()
+      {
+        std::vector<NodeIndex> columns;
+        for (const auto &row : power)
+          for (const auto &entry : row)
+            columns.push_back(entry.first);
+        const NodeRequest           request(partition, sorted_nodes(std::move(columns)));
+        const InterfaceCoupling     others = import_rows(joined.coupling, request);
+        const std::vector<RowThere> there  = import_row_values(joined.coupling, rows_here(), request);
+        bool                        any    = false;
+        for (std::size_t row = 0; row < power.size(); ++row)
+          {
+            Entries next;
+            for (const auto &[node, weight] : power[row])
+              if (const std::ptrdiff_t other = others.find(node); other >= 0)
+                {
+                  for (const auto *entry = others.begin(other); entry != others.end(other); ++entry)
+                    next[entry->node] += weight * entry->weight;
+                  if (!links[row] || there[other].is_fixed)
+                    links[row] = {node, there[other]};
+                }
+            for (const auto &[node, weight] : next)
+              sums[row][node] += weight;
+            any        = any || !next.empty();
+            power[row] = std::move(next);
+          }
+        return Utilities::MPI::max(static_cast<int>(any), partition.communicator()) != 0;
+      }
+
+      /// The message that a column is a row with prescribed components, if this rank knows one.
+      std::string describe_fixed_link() const
+      {
+        for (std::size_t row = 0; row < links.size(); ++row)
+          if (links[row] && links[row]->second.is_fixed)
+            return describe_link(row, "chain in a node with prescribed displacements");
+        return "";
+      }
+
+      /// The message that a power that should be zero is not, if this rank knows a row of it.
+      std::string describe_cycle() const
+      {
+        for (std::size_t row = 0; row < links.size(); ++row)
+          if (links[row] && !power[row].empty())
+            return describe_link(row, "cycle");
+        return "";
+      }
+
+      InterfaceCoupling sum() const
+      {
+        InterfaceCoupling result;
+        result.rows   = joined.coupling.rows;
+        result.weight = joined.coupling.weight;
+        for (const Entries &row : sums)
+          {
+            for (const auto &[node, weight] : row)
+              result.entries.push_back({node, weight});
+            result.row_start.push_back(result.entries.size());
+          }
+        return result;
+      }
+
+    private:
+      using Entries = std::map<NodeIndex, double>;
+
+      static Entries as_map(const InterfaceCoupling &coupling, const std::size_t row)
+      {
+        Entries result;
         for (const auto *entry = coupling.begin(row); entry != coupling.end(row); ++entry)
-          if (const RowThere &other =
-                  rows[std::lower_bound(request.nodes().begin(), request.nodes().end(), entry->node) -
-                       request.nodes().begin()];
-              other.is_row)
-            {
-              const std::string here  = pair_name(names, joined.pairs[row]),
-                                there = pair_name(names, other.pair);
-              return "Contact pairs " + here + " and " + there +
-                     " form a chain or a cycle: " + describe(entry->node, other.position) +
-                     " carries a contact stress in " + there + " and moves others in " + here +
-                     ". Swap the sides of one of the pairs, or take the common part out of one.";
-            }
-      return "";
+          result[entry->node] = entry->weight;
+        return result;
+      }
+
+      std::vector<RowThere> rows_here() const
+      {
+        std::vector<RowThere> result;
+        for (std::size_t row = 0; row < joined.coupling.n_rows(); ++row)
+          result.push_back({joined.pairs[row], joined.fixed[row].any(), joined.positions[row]});
+        return result;
+      }
+
+      std::string describe_link(const std::size_t row, const std::string &what) const
+      {
+        const auto &[node, there] = *links[row];
+        const std::string here = pair_name(names, joined.pairs[row]), other = pair_name(names, there.pair);
+        return "Contact pairs " + here + " and " + other + " form a " + what + ": " +
+               describe(node, there.position) + " carries a contact stress in " + other +
+               " and moves others in " + here +
+               ". Swap the sides of one of the pairs, or take the common part out of one.";
+      }
+
+      const JoinedCouplings          &joined;
+      const std::vector<std::string> &names;
+      const NodePartition            &partition;
+      /// By row.
+      std::vector<Entries> power, sums;
+      /// By row: one of its columns that is a row itself, rather one with prescribed components.
+      std::vector<std::optional<std::pair<NodeIndex, RowThere>>> links;
+    };
+
+    /// Collective. JoinedCouplings::chained.
+    std::optional<InterfaceCoupling> follow_chains(const JoinedCouplings          &joined,
+                                                   const std::vector<std::string> &names,
+                                                   const NodePartition &partition, const std::size_t n_pairs)
+    {
+      Chains chains(joined, names, partition);
+      if (!chains.follow())
+        return {};
+      throw_everywhere(chains.describe_fixed_link(), partition.communicator());
+      // Without a cycle a chain has each pair once.
+      for (std::size_t n_links = 1; chains.follow(); ++n_links)
+        if (n_links > n_pairs)
+          throw_everywhere(chains.describe_cycle(), partition.communicator());
+      return chains.sum();
     }
   } // namespace
 
@@ -188,7 +292,7 @@ namespace Signorini
                   ", where their surfaces look opposite ways. Take it out of one of the pairs.";
       }
     throw_everywhere(error, communicator);
-    throw_everywhere(describe_chain(joined, names, partition), communicator);
+    joined.chained = follow_chains(joined, names, partition, pairs.size());
     return joined;
   }
 } // namespace Signorini

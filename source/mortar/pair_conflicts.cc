@@ -66,12 +66,42 @@ namespace Signorini
       unsigned int pair;
       bool         is_mortar, is_tied;
       unsigned int mortar_body;
-      /// Of the nonmortar side: sum of the normals of this rank's faces around the node with their covered
-      /// areas.
+      /// Of the nonmortar side: whether the node may be mortar in other pairs; sum of the normals of this
+      /// rank's faces around the node with their covered areas.
+      bool    may_chain;
       Vector3 normal;
       /// The rank that says so; set on arrival.
       unsigned int sender;
     };
+
+    /// Bodies from which pairs lead back to themselves, from the nonmortar to the mortar side.
+    std::set<unsigned int> bodies_in_cycles(const std::vector<PairToCouple> &pairs)
+    {
+      std::set<unsigned int> result;
+      for (const PairToCouple &pair : pairs)
+        {
+          std::set<unsigned int> reached = {pair.mortar_body};
+          for (std::size_t n = 0; n < reached.size();)
+            {
+              n = reached.size();
+              for (const PairToCouple &other : pairs)
+                if (reached.count(other.nonmortar_body) > 0)
+                  reached.insert(other.mortar_body);
+            }
+          if (reached.count(pair.nonmortar_body) > 0)
+            result.insert(pair.nonmortar_body);
+        }
+      return result;
+    }
+
+    std::set<NodeIndex> nodes_with_conditions(const ContactSurface &surface)
+    {
+      std::set<NodeIndex> result;
+      for (unsigned int v = 0; v < surface.vertex_node.size(); ++v)
+        if (surface.hanging[v].empty() && surface.vertex_fixed[v].any())
+          result.insert(surface.vertex_node[v]);
+      return result;
+    }
 
     /// The nonmortar nodes that a pair touches on this rank.
     std::map<NodeIndex, Vector3> touched_normals(const PairToCouple &pair)
@@ -103,10 +133,14 @@ namespace Signorini
 
       NodeOfSeveralPairs(const std::vector<Touch> &touches, const SharedRowRule &rule)
       {
+        const bool is_mortar =
+            std::any_of(touches.begin(), touches.end(), [](const Touch &touch) { return touch.is_mortar; });
         std::map<unsigned int, Touch> sums;
         for (const Touch &touch : touches)
           {
             if (touch.is_mortar)
+              continue;
+            if (is_mortar && !touch.may_chain)
               return;
             const auto [entry, is_new] = sums.insert({touch.pair, touch});
             if (!is_new)
@@ -285,14 +319,18 @@ namespace Signorini
 
       void meet(const std::vector<PairToCouple> &pairs)
       {
-        ListsByRank<Touch> sent;
+        ListsByRank<Touch>           sent;
+        const std::set<unsigned int> in_cycles = bodies_in_cycles(pairs);
         for (unsigned int p = 0; p < pairs.size(); ++p)
           {
-            Touch touch{0, p, false, pairs[p].is_tied, pairs[p].mortar_body, Vector3(), 0};
+            Touch      touch{0, p, false, pairs[p].is_tied, pairs[p].mortar_body, false, Vector3(), 0};
+            const bool may_chain  = !pairs[p].is_tied && in_cycles.count(pairs[p].nonmortar_body) == 0;
+            const auto conditions = nodes_with_conditions(pairs[p].surfaces.nonmortar);
             for (const auto &[node, normal] : touched_normals(pairs[p]))
               {
-                touch.node   = node;
-                touch.normal = normal;
+                touch.node      = node;
+                touch.normal    = normal;
+                touch.may_chain = may_chain && conditions.count(node) == 0;
                 sent[meeting_at(node)].push_back(touch);
               }
             touch.is_mortar = true;

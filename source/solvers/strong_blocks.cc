@@ -400,7 +400,7 @@ namespace Signorini
           const auto j = static_cast<std::size_t>(place_in_block[column]);
           if (j > i)
             return;
-          auto       restricted =
+          auto restricted =
               restrict_to_planes(entry.block(), row_normal, contact.plane(column), row == column);
           if (row == column && !block.shift.empty())
             restricted *= 1. + block.shift[i];

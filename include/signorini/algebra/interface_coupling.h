@@ -15,9 +15,10 @@ namespace Signorini
   ///
   /// Row k is a node that carries a multiplier (the set K of the nonmortar nodes):
   ///   relative displacement  û_k = u_k - sum_q S_kq u_q .
-  /// Columns q are mortar nodes and nonmortar nodes without multiplier (the set R). No column is a
-  /// row (S² = 0). All nodes are conforming: hanging nodes are resolved. A rank has the rows of the nodes
-  /// that it owns and of others that it needs, with all of their entries.
+  /// Columns q are mortar nodes and nonmortar nodes without multiplier (the set R). A column is a row only
+  /// where pairs form a chain: S² = 0 without chains, and some power of S is zero. All nodes are conforming:
+  /// hanging nodes are resolved. A rank has the rows of the nodes that it owns and of others that it needs,
+  /// with all of their entries.
   struct InterfaceCoupling
   {
     /// A node of the other side, or in R, with its weight (pure number).

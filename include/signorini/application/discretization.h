@@ -124,6 +124,12 @@ namespace Signorini
       return partition().owns(coupling.rows[row]);
     }
 
+    /// T = I + A times this: the joined coupling S, and the links of chains of pairs.
+    const InterfaceCoupling &expansion() const
+    {
+      return chained ? *chained : coupling;
+    }
+
     /// Errors: InputError for nodes of the mortar sides that belong to rigid faces.
     void refuse_rigid_mortar_nodes() const;
 
@@ -138,6 +144,8 @@ namespace Signorini
 
     /// Of all pairs, joined: rows by contact node, sorted, of the nodes that are relevant to this rank.
     InterfaceCoupling coupling;
+    /// JoinedCouplings::chained of these rows.
+    std::optional<InterfaceCoupling> chained;
     /// Number of contact nodes of all ranks.
     std::size_t n_contact_nodes = 0;
     /// See has_ties().

@@ -15,15 +15,19 @@
 
 namespace Signorini
 {
-  /// u = u_D + T v with T = I + A S, and back (doc/algorithm.md, (25)). v is the unknown of the obstacle
-  /// problem: relative displacement at nodes with a multiplier, zero in fixed components.
+  /// u = u_D + T v with T = I + A S (S + S² + ... if pairs form chains), and back (doc/algorithm.md, (25)). v
+  /// is the unknown of the obstacle problem: relative displacement at nodes with a multiplier, zero in fixed
+  /// components.
   class BasisTransformation
   {
   public:
-    /// All arguments must outlive the object. projections: A_p of the rows of the coupling.
+    /// All arguments must outlive the object.
+    /// @param coupling S
+    /// @param expansion what T has in its place: with links of chains
+    /// @param projections A_p of the rows of both
     BasisTransformation(const NodalSpace &space, const NodePartition &space_partition,
                         const DirichletData &dirichlet, const InterfaceCoupling &coupling,
-                        const std::vector<RowProjection> &projections);
+                        const InterfaceCoupling &expansion, const std::vector<RowProjection> &projections);
 
     /// Collective. The physical displacement of all relevant nodes, hanging ones included, on the
     /// partition of the space. `unknowns` is the partition of v; it knows the columns of owned rows.
@@ -61,7 +65,7 @@ namespace Signorini
     const NodalSpace                 &space;
     const NodePartition              &partition;
     const DirichletData              &dirichlet;
-    const InterfaceCoupling          &coupling;
+    const InterfaceCoupling          &coupling, &expansion;
     const std::vector<RowProjection> &projections;
     /// Rows of the coupling that this rank owns: position, local node.
     std::vector<std::pair<std::size_t, unsigned int>> owned_rows;

@@ -27,8 +27,9 @@ namespace Signorini
     std::vector<FixedDirections> fixed;
   };
 
-  /// Collective. projections: A_p of the rows of the coupling. An empty coupling gives the
-  /// decoupled linear problem. Errors: InputError for cells with nonpositive Jacobian.
+  /// Collective. coupling: S, with the links of chains (BasisTransformation). projections: A_p of its rows.
+  /// An empty coupling gives the decoupled linear problem. Errors: InputError for cells with nonpositive
+  /// Jacobian.
   LinearSystem assemble_elasticity(const Bodies &bodies, const NodalSpace &space, const Loads &loads,
                                    const DirichletData &dirichlet, const InterfaceCoupling &coupling,
                                    const std::vector<RowProjection> &projections);

@@ -37,8 +37,8 @@ namespace Signorini
       Vector3 transposed_product(const Vector3 &source) const;
     };
 
-    /// All arguments must outlive the object. projections: A_p of the rows of the coupling. rigid: null
-    /// without rigid faces.
+    /// All arguments must outlive the object. coupling: S, with the links of chains (BasisTransformation).
+    /// projections: A_p of its rows. rigid: null without rigid faces.
     VertexExpansion(const NodalSpace &space, const InterfaceCoupling &coupling,
                     const std::vector<RowProjection> &projections, const RigidFaces *const rigid);
 

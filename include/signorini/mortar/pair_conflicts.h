@@ -6,6 +6,7 @@
 
 #include <signorini/mortar/pair_coupling.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,12 +32,14 @@ namespace Signorini
     const std::vector<FaceMoments> &moments;
     /// As in couple(); whether the surfaces are glued together.
     bool prescribed_gap, is_tied;
-    /// Number of the body on the mortar side; one that no body and no other obstacle has for an obstacle.
-    unsigned int mortar_body;
+    /// Number of the body on each side; for an obstacle one that no body and no other obstacle has.
+    unsigned int nonmortar_body, mortar_body;
   };
 
   /// Collective. couple() of several pairs, so that join_couplings() cannot fail. A node that is mortar in
-  /// any pair is a row in none. So is one that is nonmortar in several if they do not look the same way there
+  /// one pair is a row in another one (a chain) unless it is tied there, has prescribed components, or its
+  /// body is nonmortar and mortar in a cycle of pairs: then it is a row in none. So is one that is nonmortar
+  /// in several if they do not look the same way there
   /// (SharedRowRule), are not all tied or all in contact, are tied to different bodies, or cover a face twice
   /// with one body. Else it belongs to the pairs with the mortar body that covers most around it (the
   /// first of equal ones): they share the row. If one of them has it, all do, however thinly they cover it.
@@ -58,6 +61,8 @@ namespace Signorini
     /// S and D of all pairs. A row that pairs a, b, ... share (doc/algorithm.md, (16a)):
     /// D = D_a + D_b + ..., S = (D_a S_a + D_b S_b + ...) / D.
     InterfaceCoupling coupling;
+    /// S + S² + ... if columns are rows on any rank: u = v + A (S + S² + ...) v.
+    std::optional<InterfaceCoupling> chained;
     /// By row: the (first) pair it comes from, and as in PairCoupling; means with the weights D if shared.
     std::vector<unsigned int>     pairs;
     std::vector<Vector3>          normals;
@@ -68,8 +73,8 @@ namespace Signorini
 
   /// Collective. Joins the couplings of all pairs: rows go to the ranks that own their nodes.
   /// @param names of the pairs, for messages; numbers if left out
-  /// Errors: InputError naming the pairs if a row of one pair is a column of another (S² is not 0, the pairs
-  /// form a chain or a cycle), or if the normals of a shared row are opposite.
+  /// Errors: InputError naming the pairs if they form a cycle (no power of S is zero) or a chain in a node
+  /// with prescribed components (S is not all of T⁻¹), or if the normals of a shared row are opposite.
   JoinedCouplings join_couplings(const std::vector<PairCoupling> &pairs,
                                  const std::vector<std::string> &names, const NodePartition &partition);
 } // namespace Signorini

@@ -56,8 +56,12 @@ namespace
 } // namespace
 
 // The top of a block follows its bottom, as if it were in contact with it, with prescribed values and hanging
-// nodes on both.
-TEST(PartlyFixed, TransformedProblemIsTheSameProblem)
+// nodes on both; with a chain it follows nodes in the middle as well, which follow the bottom.
+class PartlyFixed : public testing::TestWithParam<bool>
+{
+};
+
+TEST_P(PartlyFixed, TransformedProblemIsTheSameProblem)
 {
   Bodies bodies(MPI_COMM_WORLD, define_bodies(MPI_COMM_WORLD, {block()}, "."));
   for (const auto &cell : bodies.triangulation().active_cell_iterators())
@@ -73,23 +77,58 @@ TEST(PartlyFixed, TransformedProblemIsTheSameProblem)
   loads.add(bodies, 0, parameters.definition(""));
   const DirichletData dirichlet = evaluate_dirichlet(space, loads, true);
 
-  InterfaceCoupling          coupling;
-  std::vector<RowProjection> projections;
-  std::vector<double>        gaps;
-  const auto                 columns = nodes_at(space, 0.);
-  auto                       rows    = nodes_at(space, 3.);
-  std::sort(rows.begin(), rows.end(), [](const auto &a, const auto &b) { return a.first < b.first; });
-  std::map<FixedMask, unsigned int> n_rows;
-  for (const auto &[node, x] : rows)
+  using Row              = std::map<NodeIndex, double>;
+  const bool has_chain   = GetParam();
+  const auto columns     = nodes_at(space, 0.);
+  const auto row_entries = [&](const Point<3> &x) {
+    Row entries;
+    for (std::size_t k = 0; k < columns.size(); k += 3)
+      entries[columns[k].first] = .1 + .5 * value(x + Vector3(columns[k].second), 0);
+    return entries;
+  };
+  // S, and S + S² + ...
+  std::map<NodeIndex, Row>      rows, expanded;
+  std::map<NodeIndex, Point<3>> places;
+  if (has_chain)
+    for (const auto &[node, x] : nodes_at(space, 1.5))
+      if (x[0] > 1e-12 && x[0] < 1. - 1e-12)
+        {
+          rows[node] = expanded[node] = row_entries(x);
+          places[node]                = x;
+        }
+  const std::map<NodeIndex, Row> middle = rows;
+  EXPECT_EQ(middle.empty(), !has_chain);
+  for (const auto &[node, x] : nodes_at(space, 3.))
     {
-      std::map<NodeIndex, double> entries;
-      for (std::size_t k = 0; k < columns.size(); k += 3)
-        entries[columns[k].first] = .1 + .5 * value(x + Vector3(columns[k].second), 0);
-      for (const auto &[column, weight] : entries)
-        coupling.entries.push_back({column, weight});
-      coupling.rows.push_back(node);
-      coupling.row_start.push_back(coupling.entries.size());
-      coupling.weight.push_back(1.);
+      rows[node] = expanded[node] = row_entries(x);
+      places[node]                = x;
+      for (const auto &[link, links] : middle)
+        {
+          const double weight = .2 * value(x + Vector3(places.at(link)), 1);
+          rows[node][link] += weight;
+          expanded[node][link] += weight;
+          for (const auto &[column, other] : links)
+            expanded[node][column] += weight * other;
+        }
+    }
+  const auto as_coupling = [](const std::map<NodeIndex, Row> &list) {
+    InterfaceCoupling result;
+    for (const auto &[node, row] : list)
+      {
+        for (const auto &[column, weight] : row)
+          result.entries.push_back({column, weight});
+        result.rows.push_back(node);
+        result.row_start.push_back(result.entries.size());
+        result.weight.push_back(1.);
+      }
+    return result;
+  };
+  const InterfaceCoupling           coupling = as_coupling(rows), expansion = as_coupling(expanded);
+  std::vector<RowProjection>        projections;
+  std::vector<double>               gaps;
+  std::map<FixedMask, unsigned int> n_rows;
+  for (const auto &[node, x] : places)
+    {
       projections.emplace_back(x[0] < 1e-12 ? 1 : x[0] > 1. - 1e-12 ? 6 : 0, normal);
       ++n_rows[projections.back().fixed().components()];
       gaps.push_back(.1 * value(x, 1));
@@ -98,9 +137,9 @@ TEST(PartlyFixed, TransformedProblemIsTheSameProblem)
   EXPECT_GT(n_rows[1], 0u);
   EXPECT_GT(n_rows[6], 0u);
 
-  const LinearSystem   system   = assemble_elasticity(bodies, space, loads, dirichlet, coupling, projections);
+  const LinearSystem   system = assemble_elasticity(bodies, space, loads, dirichlet, expansion, projections);
   const NodePartition &unknowns = system.matrix.partition();
-  const BasisTransformation transformation(space, partition, dirichlet, coupling, projections);
+  const BasisTransformation transformation(space, partition, dirichlet, coupling, expansion, projections);
   Vector                    v, product, back;
   for (Vector *vector : {&v, &product, &back})
     unknowns.reinit(*vector);
@@ -135,3 +174,5 @@ TEST(PartlyFixed, TransformedProblemIsTheSameProblem)
                   projections[p].share() * (bounds[p] - projections[p].direction() * here), 1e-13);
     }
 }
+
+INSTANTIATE_TEST_SUITE_P(WithoutAndWithChain, PartlyFixed, testing::Bool());

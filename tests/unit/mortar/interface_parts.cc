@@ -275,7 +275,8 @@ namespace
           moments[p] = halo.add_ghosts(compute_face_moments(interface.non, *mortars[p], own, {}, comm));
         }
       for (unsigned int p = 0; p < 2; ++p)
-        pairs.push_back({{interface.non, *mortars[p], halo}, moments[p], false, p == 1 && is_tied, p * body});
+        pairs.push_back(
+            {{interface.non, *mortars[p], halo}, moments[p], false, p == 1 && is_tied, 2, p * body});
       dealii::IndexSet owned(5000);
       owned.add_range(rank * 5000 / n_ranks, (rank + 1) * 5000 / n_ranks);
       return join_couplings(couple_pairs(pairs, comm), {}, NodePartition(owned, owned, comm));

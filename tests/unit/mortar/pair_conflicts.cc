@@ -28,6 +28,13 @@ namespace
     }
   };
 
+  /// Nodes are numbered that way.
+  unsigned int body_of(const ContactSurface &surface)
+  {
+    return static_cast<unsigned int>(surface.vertex_node[0] / 1000);
+  }
+
+  /// @param has_one_body whether all mortar sides belong to one body
   std::vector<PairCoupling> couple_together(const std::vector<Pair> &pairs, const DroppingRule &rule = {},
                                             const SharedRowRule     &shared_rule  = {},
                                             const std::vector<bool> &is_tied      = {},
@@ -42,7 +49,8 @@ namespace
                          pairs[p].moments,
                          false,
                          p < is_tied.size() && is_tied[p],
-                         has_one_body ? 0 : static_cast<unsigned int>(p)});
+                         body_of(pairs[p].non),
+                         has_one_body ? 1 : body_of(pairs[p].mor)});
     return couple_pairs(several, MPI_COMM_SELF, rule, shared_rule);
   }
 
@@ -326,13 +334,14 @@ TEST(PairConflicts, FacesCoveredTwice)
 {
   const auto lower = surface({6, 3, 0., 2.}, 0, true);
   const Pair left(lower, surface({2, 4, 0., 1.}, 1000, false)),
+      other_left(lower, surface({2, 4, 0., 1.}, 2000, false)),
       wide(lower, surface({4, 4, 0., 1.5}, 2000, false));
   const auto n_rows = [](const std::vector<Pair> &pairs, const bool has_one_body) {
     return join_couplings(couple_together(pairs, {}, {}, {}, has_one_body), {}, all_nodes())
         .coupling.n_rows();
   };
   EXPECT_EQ(n_rows({left, left}, true), 0u);
-  EXPECT_EQ(n_rows({left, left}, false), 16u);
+  EXPECT_EQ(n_rows({left, other_left}, false), 16u);
   // Of seven columns four are lost; the next one is the wide pair's, the one after it thinly covered.
   EXPECT_EQ(n_rows({left, wide}, true), 4u);
   EXPECT_EQ(n_rows({left, wide}, false), 20u);
@@ -409,15 +418,80 @@ TEST(PairConflicts, ChainOfBodiesWithoutCommonNodes)
   EXPECT_EQ(join_couplings(couplings, {}, all_nodes()).coupling.n_rows(), 16u + 25u);
 }
 
-// A node that is mortar in another pair loses its multiplier.
+// A chain: a node that is mortar in another pair keeps its multiplier. T = I + S + S² undoes I - S.
 TEST(PairConflicts, MortarElsewhere)
 {
-  const auto lower     = surface({3, 3}, 0, true);
-  const auto upper     = surface({2, 2}, 1000, false);
-  const auto third     = surface({5, 5, .4, 1., .4, 1.}, 2000, false);
-  const auto couplings = couple_together({Pair(lower, upper), Pair(third, lower)});
-  join_couplings(couplings, {"a", "b"}, all_nodes());
-  // 9 of the 16 nodes of `lower` are corners of faces under `third`.
-  EXPECT_EQ(couplings[0].coupling.n_rows(), 7u);
+  const std::vector<Pair> pairs = {
+      Pair(surface({3, 3}, 0, true), surface({2, 2}, 1000, false)),
+      Pair(surface({5, 5, .4, 1., .4, 1.}, 2000, false), surface({3, 3}, 0, true))};
+  const auto couplings = couple_together(pairs, {}, {}, {}, false);
+  const auto joined    = join_couplings(couplings, {"a", "b"}, all_nodes());
+  EXPECT_EQ(couplings[0].coupling.n_rows(), 16u);
   EXPECT_EQ(couplings[1].coupling.n_rows(), 36u);
+  ASSERT_TRUE(joined.chained);
+  EXPECT_EQ(joined.chained->rows, joined.coupling.rows);
+  const auto product = [](const InterfaceCoupling &coupling, const std::map<NodeIndex, double> &v) {
+    std::map<NodeIndex, double> result;
+    for (std::size_t row = 0; row < coupling.n_rows(); ++row)
+      for (const auto *entry = coupling.begin(row); entry != coupling.end(row); ++entry)
+        result[coupling.rows[row]] += entry->weight * v.at(entry->node);
+    return result;
+  };
+  std::map<NodeIndex, double> v;
+  for (const auto &[node, x] : positions(pairs))
+    v[node] = std::sin(static_cast<double>(node)) + x[0];
+  std::map<NodeIndex, double> u = v;
+  for (const auto &[node, value] : product(*joined.chained, v))
+    u[node] += value;
+  std::map<NodeIndex, double> back = u;
+  for (const auto &[node, value] : product(joined.coupling, u))
+    back[node] -= value;
+  double largest_link = 0.;
+  for (const auto &[node, value] : product(*joined.chained, v))
+    largest_link = std::max(largest_link, std::abs(value - product(joined.coupling, v)[node]));
+  EXPECT_GT(largest_link, .1);
+  for (const auto &[node, value] : v)
+    EXPECT_NEAR(back[node], value, 1e-14);
+}
+
+// Where the pairs are a cycle, the node is tied, or has prescribed components, it is a row in none.
+TEST(PairConflicts, MortarElsewhereWithoutChain)
+{
+  // 9 of the 16 nodes of `lower` are corners of faces under `third`.
+  const auto n_rows = [](const ContactSurface &lower, const NodeIndex third, const bool is_tied) {
+    const auto couplings = couple_together({Pair(lower, surface({2, 2}, 1000, false)),
+                                            Pair(surface({5, 5, .4, 1., .4, 1.}, third, false), lower)},
+                                           {}, {}, {is_tied, false}, false);
+    const auto joined    = join_couplings(couplings, {"a", "b"}, all_nodes());
+    EXPECT_EQ(couplings[1].coupling.n_rows(), 36u);
+    return couplings[0].coupling.n_rows();
+  };
+  auto lower = surface({3, 3}, 0, true);
+  EXPECT_EQ(n_rows(lower, 2000, false), 16u);
+  EXPECT_EQ(n_rows(lower, 2000, true), 7u);
+  EXPECT_EQ(n_rows(lower, 1500, false), 7u);
+  fix(
+      lower, [](const Point<3> &x) { return x[0] == 1.; }, FixedMask(1));
+  EXPECT_EQ(n_rows(lower, 2000, false), 13u);
+}
+
+// Chains in such nodes are an error where nobody has looked at all pairs at once.
+TEST(PairConflicts, ChainsInFixedNodesAreAnError)
+{
+  auto lower = surface({3, 3}, 0, true);
+  fix(
+      lower, [](const Point<3> &x) { return x[0] == 1.; }, FixedMask(1));
+  const auto couplings = couple_apart(
+      {Pair(lower, surface({2, 2}, 1000, false)), Pair(surface({5, 5, .4, 1., .4, 1.}, 2000, false), lower)});
+  try
+    {
+      join_couplings(couplings, {"up", "down"}, all_nodes());
+      FAIL();
+    }
+  catch (const InputError &error)
+    {
+      EXPECT_NE(std::string(error.what()).find("a chain in a node with prescribed displacements"),
+                std::string::npos)
+          << error.what();
+    }
 }
