@@ -142,51 +142,74 @@ namespace Signorini
       return result;
     }
 
-    /// Notes of what is left out.
-    /// @param n_faces of each side
-    /// @param why in words
-    void note_left_out(const PairSight &sight, const std::vector<std::size_t> &n_faces,
-                       const std::string &why, Journal &journal)
+    /// What is left out of all pairs, for one note of each reason.
+    class LeftOutFaces
     {
-      for (unsigned int s = 0; s < n_faces.size(); ++s)
-        if (n_faces[s] > 0)
-          journal.note("pair " + sight.pair.definition.name + ": " + std::to_string(n_faces[s]) + " of " +
-                       std::to_string(sight.sides[s].surface.faces.size()) + " faces of \"" +
-                       sight.sides[s].name + "\" lie beyond sharp edges and " + why + ": they are left out.");
-    }
+    public:
+      void add_blind(const PairSight &sight)
+      {
+        std::vector<std::size_t> n_blind;
+        for (const FacingParts &parts : sight.parts)
+          n_blind.push_back(parts.n_blind());
+        add(blind, sight, n_blind);
+      }
 
-    void note_blind(const PairSight &sight, Journal &journal)
-    {
-      std::vector<std::size_t> n_blind;
-      for (const FacingParts &parts : sight.parts)
-        n_blind.push_back(parts.n_blind());
-      note_left_out(sight, n_blind, "face nothing of the other side", journal);
-    }
+      void add_nearer(const PairSight &sight)
+      {
+        add(nearer, sight, sight.n_left);
+      }
 
-    void take_facing_parts(PairSight &sight, Journal &journal)
+      void note(Journal &journal) const
+      {
+        const auto write = [&](const std::vector<std::string> &list, const std::string &which) {
+          if (!list.empty())
+            journal.note("faces beyond sharp edges that " + which +
+                         " are left out: " + Patterns::Tools::to_string(list) + ".");
+        };
+        write(blind, "face nothing of the other side");
+        write(nearer, "lie nearer to the other side of another pair");
+      }
+
+    private:
+      /// @param n_faces of each side
+      static void add(std::vector<std::string> &list, const PairSight &sight,
+                      const std::vector<std::size_t> &n_faces)
+      {
+        std::string numbers;
+        for (unsigned int s = 0; s < n_faces.size(); ++s)
+          numbers += (s == 0 ? " " : " and ") + std::to_string(n_faces[s]) + " of " +
+                     std::to_string(sight.sides[s].surface.faces.size());
+        if (std::any_of(n_faces.begin(), n_faces.end(), [](const std::size_t n) { return n > 0; }))
+          list.push_back("pair " + sight.pair.definition.name + numbers);
+      }
+
+      std::vector<std::string> blind, nearer;
+    };
+
+    void take_facing_parts(PairSight &sight, LeftOutFaces &left_out)
     {
-      note_blind(sight, journal);
+      left_out.add_blind(sight);
       sight.sides = facing_parts(sight);
     }
 
     /// Collective. Takes what is left of a pair that leaves parts to others; all of it, if the rest does not
     /// face each other.
-    void take_rest(PairSight &sight, const MPI_Comm communicator, Journal &journal)
+    void take_rest(PairSight &sight, const MPI_Comm communicator, LeftOutFaces &left_out)
     {
       std::vector<ContactSide> rest = facing_parts(sight);
       PairSight                again(sight.pair, rest);
       again.look(communicator);
       if (again.sees_anything())
         {
-          note_blind(sight, journal);
-          note_left_out(sight, sight.n_left, "nearer to the other side of another pair", journal);
-          take_facing_parts(again, journal);
+          left_out.add_blind(sight);
+          left_out.add_nearer(sight);
+          take_facing_parts(again, left_out);
           sight.sides = std::move(rest);
           return;
         }
       PairSight whole(sight.pair, sight.sides);
       whole.look(communicator);
-      take_facing_parts(whole, journal);
+      take_facing_parts(whole, left_out);
     }
   } // namespace
 
@@ -208,11 +231,13 @@ namespace Signorini
       sight.look(communicator);
     if (sights.size() > 1)
       leave_parts_to_nearer_pairs(sights);
+    LeftOutFaces left_out;
     for (PairSight &sight : sights)
       if (sight.leaves_parts())
-        take_rest(sight, communicator, journal);
+        take_rest(sight, communicator, left_out);
       else if (sight.has_sharp_edges())
-        take_facing_parts(sight, journal);
+        take_facing_parts(sight, left_out);
+    left_out.note(journal);
   }
 
 

@@ -1,6 +1,7 @@
 signorini_add_layer(solvers
   active_set_amg.cc
   active_set_solver.cc
+  block_cholesky.cc
   coarse_cholesky.cc
   contact_state.cc
   contact_subspace.cc

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
-#include "single_threaded.h"
+#include "block_cholesky.h"
 
 #include <signorini/algebra/rank_colour.h>
 #include <signorini/algebra/replicated_data.h>
@@ -9,9 +9,6 @@
 #include <signorini/solvers/sweep_rate.h>
 
 #include <deal.II/base/mpi.h>
-
-#include <Eigen/CholmodSupport>
-#include <Eigen/Dense>
 
 namespace Signorini
 {
@@ -35,8 +32,6 @@ namespace Signorini
       std::size_t piece_of_volume = 200;
       /// Strong couplings of a node in its block, on the mean: a node of a plane has 8.
       double planar = 9.;
-      /// Up to so many nodes factors are dense.
-      std::size_t largest_dense = 24;
       /// Nodes of a patch. Two slabs of aspect ratio 50, 22,000 unknowns of stretched tetrahedra: 290
       /// iterations by node, 23 with patches of 24 that overlap, 179 where they do not; a random pair of
       /// 12,510 unknowns 216, 37, 86. Neighbours alone: 242 and 71.
@@ -71,8 +66,7 @@ namespace Signorini
     /// Damping of its rows, relative to their diagonal blocks; empty if nothing clashes.
     std::vector<double> shift;
 
-    Eigen::LLT<Eigen::MatrixXd>                                               dense;
-    std::unique_ptr<Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>>> sparse;
+    BlockCholesky cholesky;
   };
 
 
@@ -381,12 +375,7 @@ namespace Signorini
 
   void StrongBlocks::factorize(Block &block, const ContactState &contact)
   {
-    const auto                          size     = static_cast<Eigen::Index>(dim * block.rows.size());
-    const bool                          is_dense = block.rows.size() <= blocks_rule.largest_dense;
-    Eigen::MatrixXd                     full;
-    std::vector<Eigen::Triplet<double>> entries;
-    if (is_dense)
-      full = Eigen::MatrixXd::Zero(size, size);
+    BlockCholesky::Matrix restricted_matrix(block.rows.size());
     for (std::size_t i = 0; i < block.rows.size(); ++i)
       place_in_block[block.rows[i]] = static_cast<int>(i);
     for (std::size_t i = 0; i < block.rows.size(); ++i)
@@ -404,36 +393,13 @@ namespace Signorini
               restrict_to_planes(entry.block(), row_normal, contact.plane(column), row == column);
           if (row == column && !block.shift.empty())
             restricted *= 1. + block.shift[i];
-          for (unsigned int c = 0; c < dim; ++c)
-            for (unsigned int d = 0; d < dim; ++d)
-              if (is_dense)
-                full(dim * i + c, dim * j + d) = restricted[c][d];
-              else if (j < i || d <= c)
-                entries.emplace_back(dim * i + c, dim * j + d, restricted[c][d]);
+          restricted_matrix.set(i, j, restricted);
         });
       }
     for (const unsigned int row : block.rows)
       place_in_block[row] = -1;
-    if (is_dense)
-      {
-        block.dense.compute(full);
-        block.is_definite = block.dense.info() == Eigen::Success;
-      }
-    else
-      {
-        Eigen::SparseMatrix<double> sparse(size, size);
-        sparse.setFromTriplets(entries.begin(), entries.end());
-        if (!block.sparse)
-          {
-            block.sparse = std::make_unique<Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>>>();
-            block.sparse->cholmod().print = 0;
-            block.sparse->analyzePattern(sparse);
-          }
-        const SingleThreaded single_threaded;
-        block.sparse->factorize(sparse);
-        block.is_definite = block.sparse->info() == Eigen::Success;
-      }
-    block.is_current = true;
+    block.is_definite = block.cholesky.factorize(restricted_matrix);
+    block.is_current  = true;
   }
 
 
@@ -469,8 +435,7 @@ namespace Signorini
         for (unsigned int c = 0; c < dim; ++c)
           residual[dim * i + c] = s[c];
       }
-    const Eigen::VectorXd step = block.sparse ? Eigen::VectorXd(block.sparse->solve(residual))
-                                              : Eigen::VectorXd(block.dense.solve(residual));
+    const Eigen::VectorXd step = block.cholesky.solve(residual);
 
     const HalfSpaces &half_spaces = contact.half_spaces();
     double            length      = 1.;
