@@ -150,19 +150,22 @@ namespace Signorini
         moments.area += area;
       }
 
-      /// Whether the triangles of a cell turn away from each other, so that nothing touches there, and are
-      /// farther apart than the face is wide. Where most of a face is covered by such cells it counts as
-      /// uncovered: gaps grow like 1/cos there, and the mapping may be turned, so that nodes would have to
-      /// move by multiples of the bodies. (At the crease of a roof in its groove planes that turn away from
-      /// each other are near.)
+      /// Whether the triangles of a cell turn away from each other, or the image lies beside the triangle
+      /// rather than before it, so that nothing touches there, and they are farther apart than the face is
+      /// wide. Where most of a face is covered by such cells it counts as uncovered: gaps grow like 1/cos
+      /// there, and the mapping may be turned, so that nodes would have to move by multiples of the bodies.
+      /// (At the crease of a roof in its groove planes that turn away from each other are near.)
       bool is_out_of_reach(const OverlayTriangle &cell) const
       {
         constexpr std::array<double, 3> centre = {{1. / 3., 1. / 3., 1. / 3.}};
         const Point<3> x = evaluate(nonmortar.mesh, cell.nonmortar_triangle, compose(cell.nonmortar, centre)),
                        y = evaluate(mortar.mesh, cell.mortar_triangle, compose(cell.mortar, centre));
-        return !prescribed_gap && x.distance_square(y) > moments.area &&
-               !may_touch(unit_normal(nonmortar, cell.nonmortar_triangle),
-                          unit_normal(mortar, cell.mortar_triangle));
+        if (prescribed_gap || x.distance_square(y) <= moments.area)
+          return false;
+        constexpr double least_cosine = .5;
+        const Vector3    n            = unit_normal(nonmortar, cell.nonmortar_triangle);
+        return !may_touch(n, unit_normal(mortar, cell.mortar_triangle)) ||
+               std::abs(n * (y - x)) < least_cosine * x.distance(y);
       }
 
       void add_overlay_triangle(const OverlayTriangle &cell)

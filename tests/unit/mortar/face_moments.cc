@@ -166,6 +166,36 @@ TEST(FaceMoments, Areas)
   EXPECT_NEAR(sum, .7, 1e-14);
 }
 
+// Faces whose images lie beside them rather than before them, farther away than they are wide, are uncovered;
+// so are those that the other side turns away from.
+TEST(FaceMoments, ImagesFarAway)
+{
+  const unsigned int n   = 4;
+  const auto         non = make_surface({n, n}), mor = make_surface(mortar_grid({n, n}));
+  const auto         overlay = make_overlay(non, mor);
+  const auto         covered = [&](const Vector3 &shift, const bool is_turned) {
+    ContactSurface other = mor;
+    for (Point<3> &x : other.mesh.vertices)
+      x += shift;
+    if (is_turned)
+      for (auto &t : other.mesh.triangles)
+        std::swap(t[0], t[1]);
+    double sum = 0.;
+    for (const FaceMoments &m : compute_face_moments(non, other, overlay, {}, MPI_COMM_SELF))
+      sum += m.covered;
+    return sum;
+  };
+  const double whole = covered(Vector3(), false);
+  EXPECT_NEAR(whole, 1., 1e-12);
+  // Within the width of a face, 0.25, anything goes.
+  EXPECT_EQ(covered(Point<3>(.2, 0., .01), false), whole);
+  EXPECT_EQ(covered(Point<3>(0., 0., 3.), false), whole);
+  EXPECT_EQ(covered(Point<3>(3., 0., -2.), false), whole);
+  EXPECT_EQ(covered(Point<3>(3., 0., 1.5), false), 0.);
+  EXPECT_EQ(covered(Point<3>(3., 0., -1.5), false), 0.);
+  EXPECT_EQ(covered(Point<3>(0., 0., 3.), true), 0.);
+}
+
 // Identical warped surfaces: Phi is the identity, S too, and there is no gap.
 TEST(FaceMoments, IdenticalWarpedSurfaces)
 {
