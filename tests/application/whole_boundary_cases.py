@@ -109,7 +109,7 @@ def block_on_slotted_plate(p):
                 s = p.solve(path, f'Pair seat/Nonmortar={side}')
                 left_out = [note for note in s['notes'] if 'face nothing of the other side' in note]
                 check(s['converged'] and s['certificate']['contact_conditions_hold'], f'walls {walls}, {side}: {s["certificate"]}')
-                check(len(left_out) == 2 * walls, f'walls {walls}, {side}: {s["notes"]}')
+                check(len(left_out) == walls and all("512 of 756 and 1102 of 1776" in note for note in left_out), f'walls {walls}, {side}: {s["notes"]}')
                 results[walls, side] = s
                 print(f'walls {walls}, {side}: area {s["pairs"][0]["contact_area"]}, displacement {s["bodies"][0]["largest_displacement"]}')
         known = results[0, 'second']
