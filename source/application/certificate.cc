@@ -111,7 +111,8 @@ namespace Signorini
       return is_first ? 0. : box.get_boundary_points().first.distance(box.get_boundary_points().second);
     }
 
-    /// Whether a mortar edge without an image is less than two faces away from an active node of this rank.
+    /// Whether a mortar edge without an image is less than two faces, or what the node couples, away from an
+    /// active node of this rank.
     bool has_lost_edges_near(const ContactPair &pair, const PairCoupling &coupling,
                              const std::vector<unsigned char> &active)
     {

@@ -187,7 +187,7 @@ namespace Signorini
     result.coverage      = coupling.area > 0. ? coupling.covered_area / coupling.area : 0.;
     result.lost_area     = coupling.lost_area;
     const MPI_Comm comm  = d.nodal().communicator();
-    result.dropped_nodes = Utilities::MPI::sum(coupling.dropped.size(), comm);
+    result.dropped_nodes = Utilities::MPI::sum(coupling.nodes_without_multiplier().size(), comm);
     find_extrema(result, coupling, stress, comm);
     const std::vector<bool> is_active = sum_active(result, pair, coupling, stress, comm);
     const ContactForces     forces =

@@ -140,13 +140,8 @@ namespace Signorini
       for (unsigned int p = 0; p < coupled.pairs.size(); ++p)
         {
           std::vector<unsigned int> counts(DroppedNode::n_reasons, 0);
-          const PairCoupling       &coupling = coupled.couplings[p];
-          std::set<NodeIndex>       elsewhere;
-          for (const PairCoupling::CededNode &node : coupling.ceded)
-            elsewhere.insert(node.node);
-          for (const DroppedNode &node : coupling.dropped)
-            if (elsewhere.count(node.node) == 0)
-              ++counts[node.reason];
+          for (const DroppedNode &node : coupled.couplings[p].nodes_without_multiplier())
+            ++counts[node.reason];
           Utilities::MPI::sum(counts, coupled.model.communicator(), counts);
           for (unsigned int reason = 0; reason < counts.size(); ++reason)
             if (counts[reason] > 0)

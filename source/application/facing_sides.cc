@@ -146,11 +146,12 @@ namespace Signorini
     class LeftOutFaces
     {
     public:
-      void add_blind(const PairSight &sight)
+      /// @param rest what of it is left, with what is left out then, or null
+      void add_blind(const PairSight &sight, const PairSight *const rest = nullptr)
       {
         std::vector<std::size_t> n_blind;
-        for (const FacingParts &parts : sight.parts)
-          n_blind.push_back(parts.n_blind());
+        for (unsigned int s = 0; s < sight.parts.size(); ++s)
+          n_blind.push_back(sight.parts[s].n_blind() + (rest != nullptr ? rest->parts[s].n_blind() : 0));
         add(blind, sight, n_blind);
       }
 
@@ -201,10 +202,9 @@ namespace Signorini
       again.look(communicator);
       if (again.sees_anything())
         {
-          left_out.add_blind(sight);
+          left_out.add_blind(sight, &again);
           left_out.add_nearer(sight);
-          take_facing_parts(again, left_out);
-          sight.sides = std::move(rest);
+          sight.sides = facing_parts(again);
           return;
         }
       PairSight whole(sight.pair, sight.sides);

@@ -36,7 +36,7 @@ namespace Signorini
       Point<3>     position;
     };
 
-    /// S + S² + ..., power by power.
+    /// S + S² + ..., power by power. Without chains nothing is copied.
     class Chains
     {
     public:
@@ -46,47 +46,40 @@ namespace Signorini
         , names(names)
         , partition(partition)
       {
-        for (std::size_t row = 0; row < joined.coupling.n_rows(); ++row)
-          power.emplace_back(as_map(joined.coupling, row));
-        sums = power;
-        links.resize(power.size());
       }
 
       /// Collective. Goes on to the next power of S, adds it, and returns whether it has entries on any rank.
       bool follow()
       {
         std::vector<NodeIndex> columns;
-        for (const auto &row : power)
-          for (const auto &entry : row)
-            columns.push_back(entry.first);
-        const NodeRequest           request(partition, sorted_nodes(std::move(columns)));
-        const InterfaceCoupling     others = import_rows(joined.coupling, request);
-        const std::vector<RowThere> there  = import_row_values(joined.coupling, rows_here(), request);
-        bool                        any    = false;
-        for (std::size_t row = 0; row < power.size(); ++row)
-          {
-            Entries next;
-            for (const auto &[node, weight] : power[row])
-              if (const std::ptrdiff_t other = others.find(node); other >= 0)
-                {
-                  for (const auto *entry = others.begin(other); entry != others.end(other); ++entry)
-                    next[entry->node] += weight * entry->weight;
-                  if (!links[row] || there[other].is_fixed)
-                    links[row] = {node, there[other]};
-                }
-            for (const auto &[node, weight] : next)
-              sums[row][node] += weight;
-            any        = any || !next.empty();
-            power[row] = std::move(next);
-          }
-        return Utilities::MPI::max(static_cast<int>(any), partition.communicator()) != 0;
+        visit([&](const std::size_t, const NodeIndex node, const double) { columns.push_back(node); });
+        const NodeRequest              request(partition, sorted_nodes(std::move(columns)));
+        const InterfaceCoupling        others = import_rows(joined.coupling, request);
+        const std::vector<RowThere>    there  = import_row_values(joined.coupling, rows_here(), request);
+        std::map<std::size_t, Entries> next;
+        visit([&](const std::size_t row, const NodeIndex node, const double weight) {
+          const std::ptrdiff_t other = others.find(node);
+          if (other < 0 || others.begin(other) == others.end(other))
+            return;
+          for (const auto *entry = others.begin(other); entry != others.end(other); ++entry)
+            next[row][entry->node] += weight * entry->weight;
+          if (const auto [link, is_new] = links.insert({row, {node, there[other]}});
+              !is_new && there[other].is_fixed)
+            link->second = {node, there[other]};
+        });
+        power    = std::move(next);
+        is_first = false;
+        for (const auto &[row, entries] : power)
+          for (const auto &[node, weight] : entries)
+            sums[row][node] += weight;
+        return Utilities::MPI::max(static_cast<int>(!power.empty()), partition.communicator()) != 0;
       }
 
       /// The message that a column is a row with prescribed components, if this rank knows one.
       std::string describe_fixed_link() const
       {
-        for (std::size_t row = 0; row < links.size(); ++row)
-          if (links[row] && links[row]->second.is_fixed)
+        for (const auto &[row, link] : links)
+          if (link.second.is_fixed)
             return describe_link(row, "chain in a node with prescribed displacements");
         return "";
       }
@@ -94,21 +87,28 @@ namespace Signorini
       /// The message that a power that should be zero is not, if this rank knows a row of it.
       std::string describe_cycle() const
       {
-        for (std::size_t row = 0; row < links.size(); ++row)
-          if (links[row] && !power[row].empty())
-            return describe_link(row, "cycle");
-        return "";
+        return power.empty() ? "" : describe_link(power.begin()->first, "cycle");
       }
 
+      /// S and what was added.
       InterfaceCoupling sum() const
       {
-        InterfaceCoupling result;
-        result.rows   = joined.coupling.rows;
-        result.weight = joined.coupling.weight;
-        for (const Entries &row : sums)
+        const InterfaceCoupling &coupling = joined.coupling;
+        InterfaceCoupling        result;
+        result.rows   = coupling.rows;
+        result.weight = coupling.weight;
+        for (std::size_t row = 0; row < coupling.n_rows(); ++row)
           {
-            for (const auto &[node, weight] : row)
-              result.entries.push_back({node, weight});
+            if (const auto added = sums.find(row); added == sums.end())
+              result.entries.insert(result.entries.end(), coupling.begin(row), coupling.end(row));
+            else
+              {
+                Entries entries = added->second;
+                for (const auto *entry = coupling.begin(row); entry != coupling.end(row); ++entry)
+                  entries[entry->node] += entry->weight;
+                for (const auto &[node, weight] : entries)
+                  result.entries.push_back({node, weight});
+              }
             result.row_start.push_back(result.entries.size());
           }
         return result;
@@ -117,12 +117,18 @@ namespace Signorini
     private:
       using Entries = std::map<NodeIndex, double>;
 
-      static Entries as_map(const InterfaceCoupling &coupling, const std::size_t row)
+      /// Calls f(row, column, weight) for the entries of the power at hand.
+      template <typename F>
+      void visit(const F &f) const
       {
-        Entries result;
-        for (const auto *entry = coupling.begin(row); entry != coupling.end(row); ++entry)
-          result[entry->node] = entry->weight;
-        return result;
+        const InterfaceCoupling &coupling = joined.coupling;
+        if (is_first)
+          for (std::size_t row = 0; row < coupling.n_rows(); ++row)
+            for (const auto *entry = coupling.begin(row); entry != coupling.end(row); ++entry)
+              f(row, entry->node, entry->weight);
+        for (const auto &[row, entries] : power)
+          for (const auto &[node, weight] : entries)
+            f(row, node, weight);
       }
 
       std::vector<RowThere> rows_here() const
@@ -135,7 +141,7 @@ namespace Signorini
 
       std::string describe_link(const std::size_t row, const std::string &what) const
       {
-        const auto &[node, there] = *links[row];
+        const auto &[node, there] = links.at(row);
         const std::string here = pair_name(names, joined.pairs[row]), other = pair_name(names, there.pair);
         return "Contact pairs " + here + " and " + other + " form a " + what + ": " +
                describe(node, there.position) + " carries a contact stress in " + other +
@@ -146,10 +152,11 @@ namespace Signorini
       const JoinedCouplings          &joined;
       const std::vector<std::string> &names;
       const NodePartition            &partition;
-      /// By row.
-      std::vector<Entries> power, sums;
+      bool                            is_first = true;
+      /// By row, of those that have any: the power at hand, but for the first one; the sum of these.
+      std::map<std::size_t, Entries> power, sums;
       /// By row: one of its columns that is a row itself, rather one with prescribed components.
-      std::vector<std::optional<std::pair<NodeIndex, RowThere>>> links;
+      std::map<std::size_t, std::pair<NodeIndex, RowThere>> links;
     };
 
     /// Collective. JoinedCouplings::chained.

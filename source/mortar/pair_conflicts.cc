@@ -77,19 +77,21 @@ namespace Signorini
     /// Bodies from which pairs lead back to themselves, from the nonmortar to the mortar side.
     std::set<unsigned int> bodies_in_cycles(const std::vector<PairToCouple> &pairs)
     {
-      std::set<unsigned int> result;
+      std::map<unsigned int, std::set<unsigned int>> next;
       for (const PairToCouple &pair : pairs)
+        next[pair.nonmortar_body].insert(pair.mortar_body);
+      std::set<unsigned int> result;
+      for (const auto &[body, others] : next)
         {
-          std::set<unsigned int> reached = {pair.mortar_body};
-          for (std::size_t n = 0; n < reached.size();)
-            {
-              n = reached.size();
-              for (const PairToCouple &other : pairs)
-                if (reached.count(other.nonmortar_body) > 0)
-                  reached.insert(other.mortar_body);
-            }
-          if (reached.count(pair.nonmortar_body) > 0)
-            result.insert(pair.nonmortar_body);
+          std::vector<unsigned int> reached(others.begin(), others.end());
+          std::set<unsigned int>    known = others;
+          for (std::size_t k = 0; k < reached.size(); ++k)
+            if (const auto more = next.find(reached[k]); more != next.end())
+              for (const unsigned int other : more->second)
+                if (known.insert(other).second)
+                  reached.push_back(other);
+          if (known.count(body) > 0)
+            result.insert(body);
         }
       return result;
     }
@@ -183,7 +185,7 @@ namespace Signorini
       bool is_ceded_by_any(const std::vector<Touch> &touches) const
       {
         return std::any_of(touches.begin(), touches.end(),
-                           [&](const Touch &touch) { return is_ceded_by(touch.pair); });
+                           [&](const Touch &touch) { return !touch.is_mortar && is_ceded_by(touch.pair); });
       }
 
       /// What has become of it does not work: something else. Pairs that share the row keep it, then it is
@@ -411,8 +413,8 @@ namespace Signorini
           for (const Touch &touch : touches.at(node))
             {
               const NodeOfSeveralPairs &some = nodes.at(node);
-              sent[touch.sender].push_back(
-                  {node, touch.pair, some.is_excluded(), some.is_ceded_by(touch.pair), some.is_kept});
+              sent[touch.sender].push_back({node, touch.pair, some.is_excluded(),
+                                            !touch.is_mortar && some.is_ceded_by(touch.pair), some.is_kept});
             }
         for (const auto &[sender, list] : send_lists(sent, comm))
           for (const Decision &decision : list)

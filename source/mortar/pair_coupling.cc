@@ -326,6 +326,19 @@ namespace Signorini
 
 
 
+  std::vector<DroppedNode> PairCoupling::nodes_without_multiplier() const
+  {
+    std::set<NodeIndex> elsewhere;
+    for (const CededNode &node : ceded)
+      elsewhere.insert(node.node);
+    std::vector<DroppedNode> result;
+    std::copy_if(dropped.begin(), dropped.end(), std::back_inserter(result),
+                 [&](const DroppedNode &node) { return elsewhere.count(node.node) == 0; });
+    return result;
+  }
+
+
+
   std::size_t PairCoupling::memory_consumption() const
   {
     return list_bytes(coupling.rows) + list_bytes(coupling.row_start) + list_bytes(coupling.entries) +

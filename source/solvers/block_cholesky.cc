@@ -20,6 +20,9 @@ namespace Signorini
     if (n_nodes <= largest_dense)
       full = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(dim * n_nodes),
                                    static_cast<Eigen::Index>(dim * n_nodes));
+    else
+      // A node of a plane, with half of its neighbours.
+      entries.reserve(5 * dim * dim * n_nodes);
   }
 
 

@@ -12,8 +12,8 @@
 namespace Signorini
 {
   /// How the displacement of a mesh vertex depends on the unknowns û: hanging nodes are resolved, u = T û
-  /// with T = I + A S is applied at nonmortar nodes (doc/algorithm.md, (25)), and nodes of rigid faces follow
-  /// their carriers.
+  /// with T = I + A S (with the links of chains) is applied at nonmortar nodes (doc/algorithm.md, (25)), and
+  /// nodes of rigid faces follow their carriers.
   class VertexExpansion
   {
   public:

@@ -39,12 +39,11 @@ namespace Signorini
   /// Collective. couple() of several pairs, so that join_couplings() cannot fail. A node that is mortar in
   /// one pair is a row in another one (a chain) unless it is tied there, has prescribed components, or its
   /// body is nonmortar and mortar in a cycle of pairs: then it is a row in none. So is one that is nonmortar
-  /// in several if they do not look the same way there
-  /// (SharedRowRule), are not all tied or all in contact, are tied to different bodies, or cover a face twice
-  /// with one body. Else it belongs to the pairs with the mortar body that covers most around it (the
-  /// first of equal ones): they share the row. If one of them has it, all do, however thinly they cover it.
-  /// The others cede the node; the weight of the row has what they cover. It is a row in none if that does
-  /// not work out (hanging vertices beside ceded nodes).
+  /// in several if they do not look the same way there (SharedRowRule), are not all tied or all in contact,
+  /// are tied to different bodies, or cover a face twice with one body. Else it belongs to the pairs with the
+  /// mortar body that covers most around it (the first of equal ones): they share the row. If one of them has
+  /// it, all do, however thinly they cover it. The others cede the node; the weight of the row has what they
+  /// cover. It is a row in none if that does not work out (hanging vertices beside ceded nodes).
   std::vector<PairCoupling> couple_pairs(const std::vector<PairToCouple> &pairs, const MPI_Comm communicator,
                                          const DroppingRule  &rule        = {},
                                          const SharedRowRule &shared_rule = {});
@@ -61,7 +60,7 @@ namespace Signorini
     /// S and D of all pairs. A row that pairs a, b, ... share (doc/algorithm.md, (16a)):
     /// D = D_a + D_b + ..., S = (D_a S_a + D_b S_b + ...) / D.
     InterfaceCoupling coupling;
-    /// S + S² + ... if columns are rows on any rank: u = v + A (S + S² + ...) v.
+    /// S + S² + ... if S² has entries on any rank: u = v + A (S + S² + ...) v.
     std::optional<InterfaceCoupling> chained;
     /// By row: the (first) pair it comes from, and as in PairCoupling; means with the weights D if shared.
     std::vector<unsigned int>     pairs;

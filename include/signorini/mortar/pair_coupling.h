@@ -94,6 +94,9 @@ namespace Signorini
       return areas[row] > .1 * weight ? value * weight / areas[row] : value;
     }
 
+    /// Of the dropped nodes those that are no row of another pair either.
+    std::vector<DroppedNode> nodes_without_multiplier() const;
+
     /// Bytes.
     std::size_t memory_consumption() const;
 

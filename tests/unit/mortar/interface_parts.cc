@@ -242,7 +242,7 @@ TEST(InterfaceParts, RowsAreThoseOfTheWhole)
 
 namespace
 {
-  /// One random surface under two others, each pair with its own overlay.
+  /// One random surface under two others, each pair with its own overlay, and a third one that follows it.
   struct RandomPairs
   {
     explicit RandomPairs(const unsigned int seed)
@@ -253,7 +253,10 @@ namespace
       g.first_node = 3000;
       g.faces_up   = false;
       other        = make_surface(g);
-      overlays     = {interface.overlay, make_overlay(interface.non, other)};
+      g.first_node = 4000;
+      follower     = make_surface(g);
+      overlays     = {interface.overlay, make_overlay(interface.non, other),
+                      make_overlay(follower, interface.non)};
       body         = interface.number(0, 1);
       is_tied      = interface.number(0, 5) == 0;
     }
@@ -262,39 +265,43 @@ namespace
     JoinedCouplings join(const MPI_Comm comm) const
     {
       const unsigned int          rank = this_mpi_process(comm), n_ranks = n_mpi_processes(comm);
-      const SurfaceHalo           halo(interface.non, comm);
-      const ContactSurface *const mortars[2] = {&interface.mor, &other};
-      std::vector<FaceMoments>    moments[2];
+      const SurfaceHalo           halo(interface.non, comm), halo_of_follower(follower, comm);
+      const SurfaceHalo *const    halos[3]      = {&halo, &halo, &halo_of_follower};
+      const ContactSurface *const nonmortars[3] = {&interface.non, &interface.non, &follower};
+      const ContactSurface *const mortars[3]    = {&interface.mor, &other, &interface.non};
+      std::vector<FaceMoments>    moments[3];
       std::vector<PairToCouple>   pairs;
-      for (unsigned int p = 0; p < 2; ++p)
+      for (unsigned int p = 0; p < 3; ++p)
         {
+          const ContactSurface        &non = *nonmortars[p];
           std::vector<OverlayTriangle> own;
           for (const OverlayTriangle &cell : overlays[p])
-            if (interface.non.faces[interface.non.triangle_face[cell.nonmortar_triangle]].worker == rank)
+            if (non.faces[non.triangle_face[cell.nonmortar_triangle]].worker == rank)
               own.push_back(cell);
-          moments[p] = halo.add_ghosts(compute_face_moments(interface.non, *mortars[p], own, {}, comm));
+          moments[p] = halos[p]->add_ghosts(compute_face_moments(non, *mortars[p], own, {}, comm));
         }
       for (unsigned int p = 0; p < 2; ++p)
         pairs.push_back(
             {{interface.non, *mortars[p], halo}, moments[p], false, p == 1 && is_tied, 2, p * body});
+      pairs.push_back({{follower, interface.non, halo_of_follower}, moments[2], false, false, 3, 2});
       dealii::IndexSet owned(5000);
       owned.add_range(rank * 5000 / n_ranks, (rank + 1) * 5000 / n_ranks);
       return join_couplings(couple_pairs(pairs, comm), {}, NodePartition(owned, owned, comm));
     }
 
     RandomInterface                           interface;
-    ContactSurface                            other;
+    ContactSurface                            other, follower;
     std::vector<std::vector<OverlayTriangle>> overlays;
     unsigned int                              body;
     bool                                      is_tied;
   };
 } // namespace
 
-// Nodes of two pairs: decided on some rank, the same on any number of them. No row is a column.
+// Nodes of two pairs: decided on some rank, the same on any number of them; so are the links of chains.
 TEST(InterfaceParts, SharedRowsAreThoseOfTheWhole)
 {
   const MPI_Comm comm   = MPI_COMM_WORLD;
-  std::size_t    n_rows = 0;
+  std::size_t    n_rows = 0, n_added = 0;
   for (unsigned int seed = 0; seed < 100; ++seed)
     {
       SCOPED_TRACE("interface " + std::to_string(seed));
@@ -324,8 +331,23 @@ TEST(InterfaceParts, SharedRowsAreThoseOfTheWhole)
           EXPECT_NEAR(sum, 1., 1e-11);
         }
       n_rows += whole.coupling.n_rows();
+      ASSERT_EQ(static_cast<bool>(part.chained), static_cast<bool>(whole.chained));
+      if (!whole.chained)
+        continue;
+      for (std::size_t i = 0; i < part.chained->n_rows(); ++i)
+        {
+          const std::ptrdiff_t j = whole.chained->find(part.chained->rows[i]);
+          ASSERT_GE(j, 0);
+          ASSERT_EQ(part.chained->end(i) - part.chained->begin(i),
+                    whole.chained->end(j) - whole.chained->begin(j));
+          for (auto *x = part.chained->begin(i), *y = whole.chained->begin(j); x != part.chained->end(i);
+               ++x, ++y)
+            EXPECT_TRUE(x->node == y->node && x->weight == y->weight);
+        }
+      n_added += whole.chained->entries.size() - whole.coupling.entries.size();
     }
   EXPECT_GT(n_rows, 2000u);
+  EXPECT_GT(n_added, 1000u);
 }
 
 

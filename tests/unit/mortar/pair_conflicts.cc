@@ -404,6 +404,7 @@ TEST(PairConflicts, CyclesAreAnError)
   catch (const InputError &error)
     {
       const std::string text = error.what();
+      EXPECT_NE(text.find("form a cycle"), std::string::npos) << text;
       EXPECT_NE(text.find("\"up\""), std::string::npos) << text;
       EXPECT_NE(text.find("\"down\""), std::string::npos) << text;
     }
@@ -452,6 +453,45 @@ TEST(PairConflicts, MortarElsewhere)
   EXPECT_GT(largest_link, .1);
   for (const auto &[node, value] : v)
     EXPECT_NEAR(back[node], value, 1e-14);
+}
+
+// What a pair drops for a reason of its own is no node of another pair for that.
+TEST(PairConflicts, ReasonsInChains)
+{
+  // The last column of `lower` but one is thinly covered.
+  const auto lower     = surface({4, 4}, 0, true);
+  const auto couplings = couple_together({Pair(lower, surface({2, 2, 0., .53}, 1000, false)),
+                                          Pair(surface({5, 5, .4, 1., .4, 1.}, 2000, false), lower)},
+                                         {}, {}, {}, false);
+  EXPECT_EQ(couplings[0].dropped.size(), 5u);
+  for (const DroppedNode &node : couplings[0].dropped)
+    EXPECT_NE(node.reason, DroppedNode::other_pair);
+}
+
+// Three links: T = I + S + S² + S³.
+TEST(PairConflicts, LongChains)
+{
+  const auto              first = surface({3, 3}, 1000, true), second = surface({4, 4}, 2000, true);
+  const std::vector<Pair> pairs  = {Pair(first, surface({2, 2}, 0, false)), Pair(second, first),
+                                    Pair(surface({5, 5}, 3000, false), second)};
+  const auto              joined = join_couplings(couple_together(pairs, {}, {}, {}, false), {}, all_nodes());
+  ASSERT_TRUE(joined.chained);
+  EXPECT_EQ(joined.coupling.n_rows(), 16u + 25u + 36u);
+  // All lead to the columns that are no rows, with what reproduces linear functions.
+  const auto x = positions(pairs);
+  for (std::size_t row = 0; row < joined.chained->n_rows(); ++row)
+    {
+      double  sum  = 0.;
+      Vector3 rest = x.at(joined.chained->rows[row]) - Point<3>();
+      for (const auto *entry = joined.chained->begin(row); entry != joined.chained->end(row); ++entry)
+        if (entry->node < 1000)
+          {
+            sum += entry->weight;
+            rest -= entry->weight * (x.at(entry->node) - Point<3>());
+          }
+      EXPECT_NEAR(sum, 1., 1e-12);
+      EXPECT_LT(rest.norm(), 1e-12);
+    }
 }
 
 // Where the pairs are a cycle, the node is tied, or has prescribed components, it is a row in none.
