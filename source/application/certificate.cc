@@ -7,8 +7,6 @@
 #include <signorini/output/final_words.h>
 #include <signorini/surface/mapping_quality.h>
 
-#include <deal.II/base/bounding_box.h>
-
 #include <iomanip>
 #include <map>
 #include <sstream>
@@ -92,48 +90,38 @@ namespace Signorini
       c.moment_balance = std::max(c.moment_balance, pair.moment_balance);
     }
 
-    /// How wide that is what a row couples on the mortar side (length).
-    double width_of_columns(const InterfaceCoupling &coupling, const std::size_t row,
-                            const std::map<NodeIndex, Point<3>> &positions)
-    {
-      BoundingBox<3> box;
-      bool           is_first = true;
-      for (const auto *entry = coupling.begin(row); entry != coupling.end(row); ++entry)
-        if (const auto position = positions.find(entry->node); position != positions.end())
-          {
-            const BoundingBox<3> point({position->second, position->second});
-            if (is_first)
-              box = point;
-            else
-              box.merge_with(point);
-            is_first = false;
-          }
-      return is_first ? 0. : box.get_boundary_points().first.distance(box.get_boundary_points().second);
-    }
+  } // namespace
 
-    /// Whether a mortar edge without an image is less than two faces, or what the node couples, away from an
-    /// active node of this rank.
-    bool has_lost_edges_near(const ContactPair &pair, const PairCoupling &coupling,
-                             const std::vector<unsigned char> &active)
-    {
-      if (pair.lost_edges.empty())
-        return false;
-      const ContactSurface         &mortar = pair.mortar.surface;
-      std::map<NodeIndex, Point<3>> positions;
-      for (unsigned int v = 0; v < mortar.vertex_node.size(); ++v)
-        positions[mortar.vertex_node[v]] = mortar.mesh.vertices[v];
-      for (std::size_t row = 0; row < active.size(); ++row)
-        if (active[row])
-          {
-            const double reach = std::max(2. * std::sqrt(coupling.areas[row]),
-                                          width_of_columns(coupling.coupling, row, positions));
-            for (const ContactPair::LostEdge &edge : pair.lost_edges)
-              if (edge.middle.distance(coupling.positions[row]) < .5 * edge.length + reach)
-                return true;
-          }
+
+
+  bool has_lost_edges_near(const ContactPair &pair, const PairCoupling &coupling,
+                           const std::vector<unsigned char> &active)
+  {
+    if (pair.lost_edges.empty())
       return false;
-    }
+    const ContactSurface         &mortar = pair.mortar.surface;
+    std::map<NodeIndex, Point<3>> positions;
+    for (unsigned int v = 0; v < mortar.vertex_node.size(); ++v)
+      positions[mortar.vertex_node[v]] = mortar.mesh.vertices[v];
+    for (std::size_t row = 0; row < active.size(); ++row)
+      if (active[row])
+        {
+          const Point<3> &here  = coupling.positions[row];
+          double          reach = 2. * std::sqrt(coupling.areas[row]);
+          for (const auto *entry = coupling.coupling.begin(row); entry != coupling.coupling.end(row); ++entry)
+            if (const auto column = positions.find(entry->node); column != positions.end())
+              reach = std::max(reach, here.distance(column->second));
+          for (const ContactPair::LostEdge &edge : pair.lost_edges)
+            if (edge.middle.distance(here) < .5 * edge.length + reach)
+              return true;
+        }
+    return false;
+  }
 
+
+
+  namespace
+  {
     /// Errors of the mapping at faces in contact or up to two faces away, in words; elsewhere a note must do.
     std::string errors_in_contact(const Discretization &d, const ContactStress &stress, const unsigned int p)
     {

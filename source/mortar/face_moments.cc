@@ -162,10 +162,10 @@ namespace Signorini
                        y = evaluate(mortar.mesh, cell.mortar_triangle, compose(cell.mortar, centre));
         if (prescribed_gap || x.distance_square(y) <= moments.area)
           return false;
-        constexpr double least_cosine = .5;
-        const Vector3    n            = unit_normal(nonmortar, cell.nonmortar_triangle);
+        const Vector3 n   = unit_normal(nonmortar, cell.nonmortar_triangle);
+        const Vector3 way = (y - x) / x.distance(y);
         return !may_touch(n, unit_normal(mortar, cell.mortar_triangle)) ||
-               std::abs(n * (y - x)) < least_cosine * x.distance(y);
+               !(may_touch(n, way) || may_touch(n, -way));
       }
 
       void add_overlay_triangle(const OverlayTriangle &cell)

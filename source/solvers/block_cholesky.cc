@@ -4,6 +4,8 @@
 #include "block_cholesky.h"
 #include "single_threaded.h"
 
+#include <deal.II/base/exceptions.h>
+
 namespace Signorini
 {
   namespace
@@ -29,8 +31,7 @@ namespace Signorini
 
   void BlockCholesky::Matrix::set(const std::size_t row, const std::size_t column, const Block &block)
   {
-    if (column > row)
-      return;
+    Assert(column <= row, dealii::ExcInternalError());
     for (unsigned int c = 0; c < dim; ++c)
       for (unsigned int d = 0; d < dim; ++d)
         if (n_nodes <= largest_dense)

@@ -24,7 +24,7 @@ namespace Signorini
     public:
       explicit Matrix(const std::size_t n_nodes);
 
-      /// Sets a block; of a diagonal one the lower half counts. Blocks of the upper half are left out.
+      /// Sets a block of the lower half; of a diagonal one the lower half counts.
       void set(const std::size_t row, const std::size_t column, const Block &block);
 
     private:

@@ -296,14 +296,12 @@ namespace Signorini
         space.numbering.find(partition.to_global(i), node, index);
         if (!index)
           continue;
-        const unsigned int row = finest.matrix.partition().to_local(contact_nodes[*index]);
-        if (const int p = contact.at(row); p >= 0)
-          {
-            const HalfSpaces &half_spaces = contact.half_spaces();
-            state.normal                  = half_spaces.normals[p];
-            state.room      = std::max(0., half_spaces.bounds[p] - half_spaces.normal_part(p, v));
-            state.is_active = contact.active()[p];
-          }
+        const unsigned int row         = finest.matrix.partition().to_local(contact_nodes[*index]);
+        const int          p           = contact.at(row);
+        const HalfSpaces  &half_spaces = contact.half_spaces();
+        state.normal                   = half_spaces.normals[p];
+        state.room                     = std::max(0., half_spaces.bounds[p] - half_spaces.normal_part(p, v));
+        state.is_active                = contact.active()[p];
       }
     return states;
   }
@@ -333,8 +331,7 @@ namespace Signorini
         if (!index)
           continue;
         const unsigned int row = finest.matrix.partition().to_local(contact_nodes[*index]);
-        if (const int p = contact.at(row); p >= 0)
-          contact.set_active(p, steps[i].is_active != 0.);
+        contact.set_active(contact.at(row), steps[i].is_active != 0.);
       }
     for (std::size_t k = spaces.size(); k-- > 0;)
       spaces[k].to_finer.prolongate(k > 0 ? spaces[k - 1].values : step, spaces[k].values);

@@ -8,6 +8,12 @@
 
 namespace Signorini
 {
+  /// Whether a mortar edge without an image is nearer to an active node of this rank than two of its faces,
+  /// or than the farthest mortar node that it couples.
+  /// @param active by row of the coupling
+  bool has_lost_edges_near(const ContactPair &pair, const PairCoupling &coupling,
+                           const std::vector<unsigned char> &active);
+
   /// Collective. Whether the contact conditions hold, of the solver and of the true bodies.
   /// @param tolerance of the solver: what a user asked for is enough
   /// @param has_converged on all meshes

@@ -3,6 +3,7 @@
 
 // What a rank keeps of a contact pair: right pieces of the whole, of the size of its share.
 
+#include <signorini/application/certificate.h>
 #include <signorini/application/journal.h>
 #include <signorini/application/pair_pieces.h>
 
@@ -130,4 +131,30 @@ TEST(PairPieces, HaveTheShareOfTheRank)
                 1.2 * per_face * static_cast<double>(non.faces.size() + mor.faces.size()));
       EXPECT_EQ(dealii::Utilities::MPI::sum(n_worked, comm), n * n);
     }
+}
+
+// Lost edges count near what the nodes in contact couple, however long they are.
+TEST(LostEdges, AreSeenNearTheContact)
+{
+  const Paired               paired(plates(8), MPI_COMM_WORLD);
+  const PairCoupling        &coupling = paired.discretization->couplings[0];
+  const ContactPair         &whole    = paired.discretization->pairs[0];
+  std::vector<unsigned char> active;
+  const Point<3>             place(.5, .5, 0.);
+  for (const Point<3> &x : coupling.positions)
+    active.push_back(x.distance(place) < 1e-6);
+  EXPECT_EQ(dealii::Utilities::MPI::sum(std::count(active.begin(), active.end(), 1), MPI_COMM_WORLD), 1);
+  const auto sees = [&](const double x, const double length) {
+    ContactPair pair;
+    pair.mortar     = whole.mortar;
+    pair.lost_edges = {{Point<3>(x, .5, 0.), length}};
+    const bool here = has_lost_edges_near(pair, coupling, active);
+    return dealii::Utilities::MPI::max(static_cast<int>(here), MPI_COMM_WORLD) == 1;
+  };
+  // Faces of 1/8 and 1/7.
+  EXPECT_TRUE(sees(.5, .14));
+  EXPECT_TRUE(sees(.8, .14));
+  EXPECT_FALSE(sees(.95, .14));
+  EXPECT_FALSE(sees(1.5, 1.));
+  EXPECT_TRUE(sees(1.2, 1.));
 }
