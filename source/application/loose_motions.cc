@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/algebra/dense_matrix.h>
 #include <signorini/algebra/gathered_lists.h>
 #include <signorini/application/free_bodies.h>
 #include <signorini/application/journal.h>
@@ -8,7 +9,7 @@
 #include <signorini/application/nodal_sums.h>
 #include <signorini/discretization/motion_description.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
 
 namespace Signorini
 {
@@ -67,15 +68,15 @@ namespace Signorini
   LooseMotions find_loose_motions(const std::vector<FreeMotion> &motions, const std::vector<Vector> &fields,
                                   const HalfSpaces &spaces, const std::vector<unsigned char> &active)
   {
-    const MotionsAtContact                               sums = at_contact(fields, spaces, active);
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(sums.normal);
-    const double                                         scale = sums.whole.diagonal().maxCoeff();
-    const LooseMotionRule                                rule;
-    LooseMotions                                         result;
-    for (Eigen::Index k = 0; k < eigen.eigenvalues().size(); ++k)
+    const MotionsAtContact sums  = at_contact(fields, spaces, active);
+    const SymmetricEigen   eigen = symmetric_eigen(sums.normal);
+    const double           scale = sums.whole.diagonal().maxCoeff();
+    const LooseMotionRule  rule;
+    LooseMotions           result;
+    for (Eigen::Index k = 0; k < eigen.values.size(); ++k)
       {
-        const double              opposed = eigen.eigenvalues()[k];
-        const Eigen::VectorXd     column  = eigen.eigenvectors().col(k);
+        const double              opposed = eigen.values[k];
+        const Eigen::VectorXd     column  = eigen.vectors.col(k);
         const std::vector<double> motion(column.begin(), column.end());
         if (opposed <= rule.not_opposed * scale)
           result.undetermined.push_back(motion);
@@ -117,7 +118,7 @@ namespace Signorini
               moved.transpose() * Eigen::Map<const Eigen::Vector3d>(v.begin() + dim * spaces.nodes[p]);
         }
       sum_over_ranks(sums, v.get_mpi_communicator());
-      const Eigen::VectorXd share   = sums.leftCols(n).completeOrthogonalDecomposition().solve(sums.col(n));
+      const Eigen::VectorXd share   = least_squares(sums.leftCols(n), sums.col(n));
       double                largest = 0.;
       for (std::size_t p = 0; p < spaces.size(); ++p)
         largest = std::max(largest, (at(p) * share).norm());
@@ -156,13 +157,13 @@ namespace Signorini
     std::vector<std::vector<double>> result;
     for (const auto &[part, own] : parts)
       {
-        const Eigen::MatrixXd                                whole = sums.whole(own, own);
-        const double                                         nodes = sums.nodes(own[0], own[0]);
-        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(sums.normal(own, own));
-        for (Eigen::Index k = 0; k < eigen.eigenvalues().size(); ++k)
+        const Eigen::MatrixXd whole = sums.whole(own, own);
+        const double          nodes = sums.nodes(own[0], own[0]);
+        const SymmetricEigen  eigen = symmetric_eigen(sums.normal(own, own));
+        for (Eigen::Index k = 0; k < eigen.values.size(); ++k)
           {
-            const double          opposed  = eigen.eigenvalues()[k];
-            const Eigen::VectorXd x        = eigen.eigenvectors().col(k);
+            const double          opposed  = eigen.values[k];
+            const Eigen::VectorXd x        = eigen.vectors.col(k);
             Vector3               rotation = {};
             std::vector<double>   motion(motions.size(), 0.);
             for (std::size_t i = 0; i < own.size(); ++i)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/algebra/dense_matrix.h>
 #include <signorini/algebra/gathered_lists.h>
 #include <signorini/algebra/input_error.h>
 #include <signorini/application/contact_evaluation.h>
@@ -10,8 +11,6 @@
 #include <signorini/application/nodal_sums.h>
 #include <signorini/application/point_holds.h>
 #include <signorini/discretization/motion_description.h>
-
-#include <Eigen/QR>
 
 #include <iomanip>
 #include <sstream>
@@ -171,9 +170,7 @@ namespace Signorini
     /// The motions among those of a basis that a row leaves.
     Eigen::MatrixXd without(const Eigen::MatrixXd &basis, const Eigen::VectorXd &row)
     {
-      const Eigen::HouseholderQR<Eigen::MatrixXd> qr(row);
-      const Eigen::MatrixXd q = qr.householderQ() * Eigen::MatrixXd::Identity(row.size(), row.size());
-      return basis * q.rightCols(row.size() - 1);
+      return basis * orthonormal_columns(row, row.size()).rightCols(row.size() - 1);
     }
 
     /// An orthonormal basis of motions, by column.
@@ -182,8 +179,7 @@ namespace Signorini
       Eigen::MatrixXd columns(motions[0].size(), motions.size());
       for (std::size_t k = 0; k < motions.size(); ++k)
         columns.col(k) = Eigen::Map<const Eigen::VectorXd>(motions[k].data(), columns.rows());
-      const Eigen::HouseholderQR<Eigen::MatrixXd> qr(columns);
-      return qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), columns.cols());
+      return orthonormal_columns(columns, columns.cols());
     }
   } // namespace
 

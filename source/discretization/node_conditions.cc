@@ -3,7 +3,7 @@
 
 #include "node_conditions.h"
 
-#include <Eigen/LU>
+#include <signorini/algebra/dense_matrix.h>
 
 namespace Signorini
 {
@@ -36,10 +36,10 @@ namespace Signorini
       for (Eigen::Index k = 0; k < n; ++k)
         for (Eigen::Index l = 0; l < n; ++l)
           gram(k, l) = node.holds[k].direction * node.holds[l].direction;
-      const Eigen::MatrixXd inverse = gram.inverse();
+      const Eigen::MatrixXd duals = inverse(gram);
       for (Eigen::Index k = 0; k < n; ++k)
         for (Eigen::Index l = 0; l < n; ++l)
-          node.holds[k].dual += inverse(k, l) * node.holds[l].direction;
+          node.holds[k].dual += duals(k, l) * node.holds[l].direction;
     }
   } // namespace
 

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/algebra/dense_matrix.h>
 #include <signorini/algebra/input_error.h>
 #include <signorini/discretization/boundary_conditions.h>
 #include <signorini/discretization/element.h>
 #include <signorini/discretization/rigid_faces.h>
 
 #include <deal.II/base/mpi.h>
-
-#include <Eigen/Eigenvalues>
 
 namespace Signorini
 {
@@ -118,17 +117,17 @@ namespace Signorini
     /// Splits the motions into free ones and the least one that does what the conditions want.
     void solve(RigidFace &face, const Conditions &conditions, const std::string &where)
     {
-      constexpr RigidFaceRule                      rule;
-      const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(conditions.matrix);
-      const double                                 largest = eigen.eigenvalues()[5];
-      Matrix6                                      free    = Matrix6::Identity();
-      Vector6                                      lift    = Vector6::Zero();
+      constexpr RigidFaceRule rule;
+      const SymmetricEigen    eigen   = symmetric_eigen(conditions.matrix);
+      const double            largest = eigen.values[5];
+      Matrix6                 free    = Matrix6::Identity();
+      Vector6                 lift    = Vector6::Zero();
       for (unsigned int m = 0; m < 6; ++m)
-        if (largest > 0. && eigen.eigenvalues()[m] > rule.free * largest)
+        if (largest > 0. && eigen.values[m] > rule.free * largest)
           {
-            const Vector6 v = eigen.eigenvectors().col(m);
+            const Vector6 v = eigen.vectors.col(m);
             free -= v * v.transpose();
-            lift += (v.dot(conditions.rhs) / eigen.eigenvalues()[m]) * v;
+            lift += (v.dot(conditions.rhs) / eigen.values[m]) * v;
           }
       const double left = conditions.square - lift.dot(conditions.rhs);
       if (left > rule.contradiction * conditions.square)

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/algebra/dense_matrix.h>
 #include <signorini/algebra/input_error.h>
 #include <signorini/discretization/rigid_support.h>
 
 #include <deal.II/base/mpi.h>
-
-#include <Eigen/Dense>
 
 namespace Signorini
 {
@@ -144,16 +143,16 @@ namespace Signorini
     std::vector<FreeMotion> result;
     for (unsigned int b = 0; b < frames.size(); ++b)
       {
-        const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(Eigen::Map<Matrix6>(sums.data() + 36 * b));
-        const double scale = std::max(eigen.eigenvalues()[5], std::numeric_limits<double>::min());
+        const SymmetricEigen eigen = symmetric_eigen(Eigen::Map<Matrix6>(sums.data() + 36 * b));
+        const double         scale = std::max(eigen.values[5], std::numeric_limits<double>::min());
         for (unsigned int m = 0; m < 6; ++m)
-          if (eigen.eigenvalues()[m] <= 1e-10 * scale)
+          if (eigen.values[m] <= 1e-10 * scale)
             {
               FreeMotion motion = frames[b];
               for (unsigned int c = 0; c < dim; ++c)
                 {
-                  motion.translation[c] = eigen.eigenvectors()(c, m);
-                  motion.rotation[c]    = eigen.eigenvectors()(3 + c, m);
+                  motion.translation[c] = eigen.vectors(c, m);
+                  motion.rotation[c]    = eigen.vectors(3 + c, m);
                 }
               result.push_back(motion);
             }
@@ -232,7 +231,7 @@ namespace Signorini
               Eigen::MatrixXd part(a.rows(), set.size());
               for (std::size_t i = 0; i < set.size(); ++i)
                 part.col(i) = a.col(set[i]);
-              const Eigen::VectorXd y     = part.completeOrthogonalDecomposition().solve(b);
+              const Eigen::VectorXd y     = least_squares(part, b);
               double                limit = 1.;
               for (std::size_t i = 0; i < set.size(); ++i)
                 if (y[i] <= 0.)
@@ -290,8 +289,7 @@ namespace Signorini
         bounds[i]   = gaps[holding[i]];
       }
     if (!holding.empty())
-      Eigen::Map<Eigen::VectorXd>(result.settling.data(), n) =
-          rows.completeOrthogonalDecomposition().solve(bounds);
+      Eigen::Map<Eigen::VectorXd>(result.settling.data(), n) = least_squares(rows, bounds);
     return result;
   }
 
@@ -330,12 +328,12 @@ namespace Signorini
       const Eigen::Index n = columns.cols();
       if (n == 0)
         return columns;
-      const Eigen::MatrixXd                                values = functions * columns;
-      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(values.transpose() * values);
-      Eigen::Index                                         n_kernel = 0;
-      while (n_kernel < n && eigen.eigenvalues()[n_kernel] <= 1e-12)
+      const Eigen::MatrixXd values   = functions * columns;
+      const SymmetricEigen  eigen    = symmetric_eigen(values.transpose() * values);
+      Eigen::Index          n_kernel = 0;
+      while (n_kernel < n && eigen.values[n_kernel] <= 1e-12)
         ++n_kernel;
-      const Eigen::MatrixXd turned = columns * eigen.eigenvectors();
+      const Eigen::MatrixXd turned = columns * eigen.vectors;
       columns                      = turned.rightCols(n - n_kernel);
       return turned.leftCols(n_kernel);
     }

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/algebra/dense_matrix.h>
 #include <signorini/solvers/free_motion_correction.h>
 #include <signorini/solvers/smoother.h>
 
 #include <deal.II/base/mpi.h>
-
-#include <Eigen/Dense>
 
 #include <limits>
 #include <numeric>
@@ -93,13 +92,13 @@ namespace Signorini
         for (Eigen::Index j = 0; j <= i; ++j)
           energies(i, j) = energies(j, i) = row[j];
       }
-    const double                                         opposed = largest_opposition(spaces);
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(energies);
-    Eigen::MatrixXd inverse_energies = Eigen::MatrixXd::Zero(n, n), idle = inverse_energies;
+    const double         opposed          = largest_opposition(spaces);
+    const SymmetricEigen eigen            = symmetric_eigen(energies);
+    Eigen::MatrixXd      inverse_energies = Eigen::MatrixXd::Zero(n, n), idle = inverse_energies;
     for (Eigen::Index k = 0; k < n; ++k)
       {
-        const double          energy = eigen.eigenvalues()[k];
-        const Eigen::MatrixXd part   = eigen.eigenvectors().col(k) * eigen.eigenvectors().col(k).transpose();
+        const double          energy = eigen.values[k];
+        const Eigen::MatrixXd part   = eigen.vectors.col(k) * eigen.vectors.col(k).transpose();
         if (energy <= Rule().costs_nothing * opposed)
           idle += part;
         else

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/algebra/dense_matrix.h>
 #include <signorini/solvers/level_zero_solver.h>
-
-#include <Eigen/Dense>
 
 namespace Signorini
 {
@@ -110,21 +109,21 @@ namespace Signorini
 
   void LevelZeroSolver::find_kernel(const NodeBlockMatrix &singular)
   {
-    const std::vector<Vector>                           &motions = level_zero.free_motions;
-    const auto                                           n       = static_cast<Eigen::Index>(motions.size());
-    const double                                         scale   = diagonal_scale(singular);
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(energies_of(motions, singular));
-    Eigen::Index                                         n_kernel = 0;
-    while (n_kernel < n && eigen.eigenvalues()[n_kernel] <= level_zero_rule.costs_nothing * scale)
+    const std::vector<Vector> &motions  = level_zero.free_motions;
+    const auto                 n        = static_cast<Eigen::Index>(motions.size());
+    const double               scale    = diagonal_scale(singular);
+    const SymmetricEigen       eigen    = symmetric_eigen(energies_of(motions, singular));
+    Eigen::Index               n_kernel = 0;
+    while (n_kernel < n && eigen.values[n_kernel] <= level_zero_rule.costs_nothing * scale)
       ++n_kernel;
-    const Eigen::MatrixXd basis = eigen.eigenvectors().leftCols(n_kernel);
+    const Eigen::MatrixXd basis = eigen.vectors.leftCols(n_kernel);
     Eigen::MatrixXd       weights(n, n);
     for (Eigen::Index i = 0; i < n; ++i)
       for (Eigen::Index j = 0; j < n; ++j)
         weights(i, j) = motions[i] * level_zero.motion_weights[j];
     const Eigen::MatrixXd gram = basis.transpose() * weights * basis;
     kernel                     = combine(motions, basis, singular.partition());
-    kernel_weights = combine(level_zero.motion_weights, basis * gram.inverse(), singular.partition());
+    kernel_weights = combine(level_zero.motion_weights, basis * inverse(gram), singular.partition());
   }
 
 

@@ -171,3 +171,5 @@ include(application/broken.cmake)
 
 # A browser is not everywhere: these tests say so and are skipped.
 set_tests_properties(application/report_hertz.np1 application/report_kinds.np1 application/verify_report.np1 PROPERTIES SKIP_REGULAR_EXPRESSION "SKIPPED: chromium")
+# They have two programs, or two ranks, at work at a time.
+set_tests_properties(application/killed_and_resumed.np1 application/stopped_and_resumed.np1 application/random_pairs.np1 PROPERTIES PROCESSORS 2)
