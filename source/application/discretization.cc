@@ -134,6 +134,18 @@ namespace Signorini
             "as nonmortar side, helps.");
     }
 
+    void note_images_behind(const std::vector<ContactPair> &pairs, const unsigned int cycle, Journal &journal)
+    {
+      NotedPairs noted;
+      for (const ContactPair &pair : pairs)
+        if (pair.n_images_behind > 0)
+          noted.add(pair.name, std::to_string(pair.n_images_behind));
+      if (!noted.names.empty())
+        journal.note(noted.in_cycle(cycle) + Patterns::Tools::to_string(noted.values) +
+                     " nonmortar faces are left out because the other side lies only behind their own body, "
+                     "seen along their normals.");
+    }
+
     void note_dropped_nodes(const CoupledPairs &coupled, const unsigned int cycle, Journal &journal)
     {
       std::vector<NotedPairs> noted(DroppedNode::n_reasons);
@@ -199,6 +211,7 @@ namespace Signorini
     refuse_lost_contact(coupled);
     refuse_dense_coupling(coupled);
     note_mapping_errors(pairs, cycle, model.communicator(), journal);
+    note_images_behind(coupled.pairs, cycle, journal);
     note_dropped_nodes(coupled, cycle, journal);
     for (unsigned int p = 0; p < pairs.size(); ++p)
       {

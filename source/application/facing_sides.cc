@@ -336,6 +336,7 @@ namespace Signorini
     ImagesBehind images(pair);
     if (const std::vector<bool> faces = images.faces(communicator); !faces.empty())
       {
+        pair.n_images_behind = std::count(faces.begin(), faces.end(), true);
         leave_out(pair.nonmortar, faces);
         mapping      = map();
         pair.mapping = mapping;

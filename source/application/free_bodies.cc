@@ -55,8 +55,9 @@ namespace Signorini
     std::set<std::string> names;
     for (const FreeMotion &motion : motions)
       names.insert(model.bodies().part_name(motion.part));
-    for (const std::string &name : names)
-      journal.note(name + ": its Dirichlet conditions do not hold it, contact must.");
+    if (!names.empty())
+      journal.note("contact must hold " + Patterns::Tools::to_string(names) +
+                   ": Dirichlet conditions alone do not.");
   }
 
 

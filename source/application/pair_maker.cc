@@ -78,7 +78,7 @@ namespace Signorini
     }
 
     unsigned int choose_nonmortar(const PairDefinition &pair, const std::vector<ContactSide> &sides,
-                                  const bool is_turned, const Bodies &bodies, Journal &journal)
+                                  const bool is_turned)
     {
       const double young[2] = {sides[0].material.young, sides[1].material.young};
       unsigned int softer   = 0;
@@ -90,11 +90,7 @@ namespace Signorini
       if (is_turned)
         return 1 - softer;
       if (pair.nonmortar == NonmortarChoice::automatic)
-        {
-          journal.note("pair " + pair.name + ": \"" + bodies.body_name(sides[softer].body) +
-                       "\" is the nonmortar side (the softer body, then the finer mesh).");
-          return softer;
-        }
+        return softer;
       return pair.nonmortar == NonmortarChoice::first ? 0 : 1;
     }
 
@@ -160,12 +156,11 @@ namespace Signorini
   {
     const PairDefinition &definition = model.pairs()[p].definition;
     ContactPair           pair;
-    pair.name           = definition.name;
-    pair.is_tied        = model.pairs()[p].is_tied();
-    pair.prescribed_gap = definition.prescribed_gap;
-    pair.obstacle       = definition.obstacle;
-    const unsigned int non =
-        pair.obstacle ? 0 : choose_nonmortar(definition, sides[p], is_turned, model.bodies(), journal);
+    pair.name              = definition.name;
+    pair.is_tied           = model.pairs()[p].is_tied();
+    pair.prescribed_gap    = definition.prescribed_gap;
+    pair.obstacle          = definition.obstacle;
+    const unsigned int non = pair.obstacle ? 0 : choose_nonmortar(definition, sides[p], is_turned);
     // Whole surfaces are large.
     const auto take = [&](const unsigned int s) { return is_open(p) ? sides[p][s] : std::move(sides[p][s]); };
     pair.nonmortar  = take(non);

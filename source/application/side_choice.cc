@@ -96,12 +96,19 @@ namespace Signorini
     , others(model.pairs().size())
   {
     turned.resize(model.pairs().size(), false);
+    std::vector<std::string> chosen;
     for (unsigned int p = 0; p < turned.size(); ++p)
       {
         pairs.push_back(maker.make(p, turned[p]));
         if (!turned[p] && maker.is_open(p))
+          chosen.push_back("\"" + model.bodies().body_name(pairs[p].nonmortar.body) + "\" of pair " +
+                           pairs[p].name);
+        if (!turned[p] && maker.is_open(p))
           turn_for_mapping(p);
       }
+    if (!chosen.empty())
+      journal.note("nonmortar side (the softer body, then the finer mesh): " +
+                   Patterns::Tools::to_string(chosen) + ".");
     const auto time = journal.measure(Phase::mortar);
     if (pairs.size() > 1)
       for (const ContactPair &pair : pairs)

@@ -161,6 +161,16 @@ def ball_joint(p):
                 near(s['pairs'][0]['max_recovered_pressure'], upright['pairs'][0]['max_recovered_pressure'], .05, 'largest pressure')
         text = refused(p, path, 'Body ball/Rigid=end: force (3000, 0, -10000)')
         check('The loads move body ball, rotation about the axis' in text and 'Prescribe a displacement' in text, text)
+        # A second joint that nothing loads: its points carry rounding alone.
+        idle = ''.join(line for line in JOINT.splitlines(True)[2:])
+        for name, other in (('ball', 'idle ball'), ('socket', 'seat'), ('joint', 'rest')):
+            idle = idle.replace(f'Body {name}', f'Body {other}').replace(f' {name}:', f' {other}:').replace(f'Pair {name}', f'Pair {other}')
+        with open(path, 'w') as f:
+            f.write(JOINT.replace('ball, socket', 'ball, socket, idle ball, seat').replace('= joint\n', '= joint, rest\n', 1) + idle)
+        s = p.solve(path, 'Body ball/Rigid=end: force (0, 0, -10000)', codes=(0, 3))
+        check(s['converged'] and max(held_points(s), default=0.) <= .02 and any('nothing presses body idle ball against' in note for note in s['notes']),
+              f'idle: {s["notes"]}')
+        near(max(abs(pair['force'][2]) for pair in s['pairs']), 1e4, 1e-9, 'force beside an idle joint')
 
 
 def shaft_in_vee(p):

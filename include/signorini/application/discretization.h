@@ -53,6 +53,9 @@ namespace Signorini
     bool is_tied = false;
     /// The side that carries the multipliers, and its partner.
     ContactSide nonmortar, mortar;
+    /// How many faces of the nonmortar side, on all ranks, were left out because their images lie behind its
+    /// body.
+    std::size_t n_images_behind = 0;
     /// In place of the mortar side.
     std::optional<RigidObstacle> obstacle;
     /// Null with an obstacle.
