@@ -252,6 +252,7 @@ def chain_links(p):
             near(abs(pair['force'][0]), 2000., 1e-6, 'force')
             near(pair['max_recovered_pressure'], largest, .04, 'largest pressure')
             check(not any('penetrate' in text or 'mapping' in text for text in s['certificate']['objections']), s['certificate']['objections'])
+            check(any('behind their own body' in note for note in s['notes']), f'notes: {s["notes"]}')
 
 
 def roller_between_plates(p):
