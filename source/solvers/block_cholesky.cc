@@ -37,7 +37,8 @@ namespace Signorini
         if (n_nodes <= largest_dense)
           full(dim * row + c, dim * column + d) = block[c][d];
         else if (column < row || d <= c)
-          entries.emplace_back(dim * row + c, dim * column + d, block[c][d]);
+          // CHOLMOD reorders and transposes the lower half one more time.
+          entries.emplace_back(dim * column + d, dim * row + c, block[c][d]);
   }
 
 
@@ -47,16 +48,16 @@ namespace Signorini
     if (matrix.n_nodes <= largest_dense)
       return dense.compute(matrix.full).info() == Eigen::Success;
     const auto                  size = static_cast<Eigen::Index>(dim * matrix.n_nodes);
-    Eigen::SparseMatrix<double> lower(size, size);
-    lower.setFromTriplets(matrix.entries.begin(), matrix.entries.end());
+    Eigen::SparseMatrix<double> upper(size, size);
+    upper.setFromTriplets(matrix.entries.begin(), matrix.entries.end());
     if (!sparse)
       {
-        sparse = std::make_unique<Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>>>();
+        sparse                  = std::make_unique<Sparse>();
         sparse->cholmod().print = 0;
-        sparse->analyzePattern(lower);
+        sparse->analyzePattern(upper);
       }
     const SingleThreaded single_threaded;
-    sparse->factorize(lower);
+    sparse->factorize(upper);
     return sparse->info() == Eigen::Success;
   }
 

@@ -42,8 +42,10 @@ namespace Signorini
     Eigen::VectorXd solve(const Eigen::VectorXd &b) const;
 
   private:
-    Eigen::LLT<Eigen::MatrixXd>                                               dense;
-    std::unique_ptr<Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>>> sparse;
+    using Sparse = Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>, Eigen::Upper>;
+
+    Eigen::LLT<Eigen::MatrixXd> dense;
+    std::unique_ptr<Sparse>     sparse;
   };
 } // namespace Signorini
 

@@ -18,27 +18,29 @@ namespace Signorini
   {
     using Matrix = Eigen::SparseMatrix<double>;
 
-    Eigen::SimplicialLDLT<Matrix>                        simplicial;
-    std::unique_ptr<Eigen::CholmodSupernodalLLT<Matrix>> supernodal;
-    bool                                                 analyzed = false;
-    std::size_t                                          n_blocks = 0;
-    MPI_Comm                                             communicator;
+    using Supernodal = Eigen::CholmodSupernodalLLT<Matrix, Eigen::Upper>;
+
+    Eigen::SimplicialLDLT<Matrix, Eigen::Upper> simplicial;
+    std::unique_ptr<Supernodal>                 supernodal;
+    bool                                        analyzed = false;
+    std::size_t                                 n_blocks = 0;
+    MPI_Comm                                    communicator;
 
     template <typename Solver>
-    bool factorize(Solver &solver, const Matrix &lower, const std::size_t n)
+    bool factorize(Solver &solver, const Matrix &upper, const std::size_t n)
     {
       if (!analyzed || n_blocks != n)
-        solver.analyzePattern(lower);
+        solver.analyzePattern(upper);
       analyzed = true;
       n_blocks = n;
-      solver.factorize(lower);
+      solver.factorize(upper);
       return solver.info() == Eigen::Success;
     }
 
-    bool factorize(const Matrix &lower, const std::size_t n)
+    bool factorize(const Matrix &upper, const std::size_t n)
     {
       const SingleThreaded single_threaded;
-      return supernodal ? factorize(*supernodal, lower, n) : factorize(simplicial, lower, n);
+      return supernodal ? factorize(*supernodal, upper, n) : factorize(simplicial, upper, n);
     }
 
     Eigen::VectorXd solve(const Eigen::Map<const Eigen::VectorXd> &b) const
@@ -84,7 +86,7 @@ namespace Signorini
   {
     if (kind == Kind::supernodal)
       {
-        factorization->supernodal = std::make_unique<Eigen::CholmodSupernodalLLT<Factorization::Matrix>>();
+        factorization->supernodal                  = std::make_unique<Factorization::Supernodal>();
         factorization->supernodal->cholmod().print = 0;
       }
   }
@@ -108,13 +110,13 @@ namespace Signorini
     blocks.gather(pack(matrix), matrix.partition().n_global(), comm);
     if (Utilities::MPI::this_mpi_process(comm) == 0)
       {
-        GatheredBlocks::LowerHalf lower = blocks.lower_structure();
-        blocks.fill_lower(lower, [](const std::size_t, const std::size_t, const double *const block) {
+        GatheredBlocks::UpperHalf upper = blocks.upper_structure();
+        blocks.fill_upper(upper, [](const std::size_t, const std::size_t, const double *const block) {
           return read_block(block);
         });
         if (is_nearly_singular)
-          make_definite(lower);
-        ok = factorization->factorize(lower, blocks.n_blocks());
+          make_definite(upper);
+        ok = factorization->factorize(upper, blocks.n_blocks());
       }
     AssertThrow(Utilities::MPI::min(static_cast<int>(ok), comm) == 1,
                 ExcMessage("The sparse factorization failed: the matrix is singular."));

@@ -58,29 +58,27 @@ namespace Signorini
 
 
 
-  GatheredBlocks::LowerHalf GatheredBlocks::lower_structure() const
+  GatheredBlocks::UpperHalf GatheredBlocks::upper_structure() const
   {
     const auto n = static_cast<Eigen::Index>(dim * n_rows());
     checked_count(dim * dim * columns.size(), "numbers of a matrix that is factorized");
-    LowerHalf  lower(n, n);
-    int *const outer = lower.outerIndexPtr();
+    UpperHalf  upper(n, n);
+    int *const outer = upper.outerIndexPtr();
     outer[0]         = 0;
     for (std::size_t row = 0; row < n_rows(); ++row)
       {
-        const auto first =
-            std::lower_bound(columns.begin() + start[row], columns.begin() + start[row + 1], row);
-        const auto length = static_cast<int>(dim * (columns.begin() + start[row + 1] - first));
+        const auto first    = columns.begin() + start[row];
+        const auto n_before = std::lower_bound(first, columns.begin() + start[row + 1], row) - first;
         for (unsigned int c = 0; c < dim; ++c)
-          outer[dim * row + c + 1] = outer[dim * row + c] + length - static_cast<int>(c);
+          outer[dim * row + c + 1] = outer[dim * row + c] + static_cast<int>(dim * n_before + c + 1);
       }
-    lower.resizeNonZeros(outer[n]);
-    int *next = lower.innerIndexPtr();
+    upper.resizeNonZeros(outer[n]);
+    int *next = upper.innerIndexPtr();
     for (std::size_t row = 0; row < n_rows(); ++row)
       for (unsigned int c = 0; c < dim; ++c)
-        for (std::size_t k = start[row]; k < start[row + 1]; ++k)
-          if (columns[k] >= row)
-            for (unsigned int d = columns[k] == row ? c : 0; d < dim; ++d)
-              *next++ = static_cast<int>(dim * columns[k] + d);
-    return lower;
+        for (std::size_t k = start[row]; k < start[row + 1] && columns[k] <= row; ++k)
+          for (unsigned int d = 0; d < (columns[k] == row ? c + 1 : dim); ++d)
+            *next++ = static_cast<int>(dim * columns[k] + d);
+    return upper;
   }
 } // namespace Signorini

@@ -14,7 +14,8 @@ namespace Signorini
   class GatheredBlocks
   {
   public:
-    using LowerHalf = Eigen::SparseMatrix<double>;
+    /// CHOLMOD reorders and transposes the other half one more time.
+    using UpperHalf = Eigen::SparseMatrix<double>;
     using Blocks    = GatheredObstacleProblem::Blocks;
 
     /// Collective.
@@ -42,13 +43,13 @@ namespace Signorini
     /// A x.
     Eigen::VectorXd operator*(const Eigen::VectorXd &x) const;
 
-    /// Rows and columns of what is on and below the diagonal, without values.
-    LowerHalf lower_structure() const;
+    /// Rows and columns of what is on and above the diagonal, without values.
+    UpperHalf upper_structure() const;
 
     /// Its values.
-    /// @param block (row, column, nine numbers of the matrix) -> Block, for row <= column
+    /// @param block (row, column, nine numbers of the matrix) -> Block, for column <= row
     template <typename BlockOf>
-    void fill_lower(LowerHalf &lower, const BlockOf &block) const;
+    void fill_upper(UpperHalf &upper, const BlockOf &block) const;
 
   private:
     /// By rows, columns ascending.
@@ -59,22 +60,21 @@ namespace Signorini
 
 
   template <typename BlockOf>
-  void GatheredBlocks::fill_lower(LowerHalf &lower, const BlockOf &block_of) const
+  void GatheredBlocks::fill_upper(UpperHalf &upper, const BlockOf &block_of) const
   {
     for (std::size_t row = 0; row < n_rows(); ++row)
       {
-        // A row right of the diagonal is a column below it.
+        // A row left of the diagonal is a column above it.
         std::array<double *, dim> next;
         for (unsigned int c = 0; c < dim; ++c)
-          next[c] = lower.valuePtr() + lower.outerIndexPtr()[dim * row + c];
-        for (std::size_t k = start[row]; k < start[row + 1]; ++k)
-          if (columns[k] >= row)
-            {
-              const Block block = block_of(row, columns[k], values.data() + dim * dim * k);
-              for (unsigned int c = 0; c < dim; ++c)
-                for (unsigned int d = columns[k] == row ? c : 0; d < dim; ++d)
-                  *next[c]++ = block[c][d];
-            }
+          next[c] = upper.valuePtr() + upper.outerIndexPtr()[dim * row + c];
+        for (std::size_t k = start[row]; k < start[row + 1] && columns[k] <= row; ++k)
+          {
+            const Block block = block_of(row, columns[k], values.data() + dim * dim * k);
+            for (unsigned int c = 0; c < dim; ++c)
+              for (unsigned int d = 0; d < (columns[k] == row ? c + 1 : dim); ++d)
+                *next[c]++ = block[c][d];
+          }
       }
   }
 } // namespace Signorini

@@ -39,7 +39,7 @@ namespace Signorini
   struct GatheredObstacleProblem::Factors
   {
     GatheredBlocks            matrix;
-    GatheredBlocks::LowerHalf truncated;
+    GatheredBlocks::UpperHalf truncated;
     InteriorPoint::Cholesky   cholesky;
     /// The active set of the last result.
     Flags last;
@@ -96,7 +96,7 @@ namespace Signorini
     has_factors = false;
     if (truncated.rows() != 0)
       return;
-    truncated = matrix.lower_structure();
+    truncated = matrix.upper_structure();
     cholesky.analyzePattern(truncated);
   }
 
@@ -108,7 +108,7 @@ namespace Signorini
     const auto   plane_of = [&](const std::size_t node) {
       return factorized[node] ? states[node].normal : Vector3();
     };
-    matrix.fill_lower(
+    matrix.fill_upper(
         truncated, [&](const std::size_t row, const std::size_t column, const double *const block) {
           const Block result =
               restrict_to_planes(read_block(block), plane_of(row), plane_of(column), row == column);

@@ -15,10 +15,10 @@ namespace Signorini
 
 
   InteriorPoint::InteriorPoint(const GatheredBlocks &matrix, const std::vector<NodeState> &states,
-                               GatheredBlocks::LowerHalf &lower, Cholesky &cholesky)
+                               GatheredBlocks::UpperHalf &upper, Cholesky &cholesky)
     : matrix(matrix)
     , states(states)
-    , lower(lower)
+    , upper(upper)
     , cholesky(cholesky)
     , place(states.size(), none)
     , load(residual_of(states))
@@ -57,7 +57,7 @@ namespace Signorini
   {
     for (; regularization <= Rule().most_regularization; regularization *= Rule().growth)
       {
-        matrix.fill_lower(lower,
+        matrix.fill_upper(upper,
                           [&](const std::size_t row, const std::size_t column, const double *const block) {
                             Block result = read_block(block);
                             if (row != column)
@@ -68,7 +68,7 @@ namespace Signorini
                             return result;
                           });
         const SingleThreaded single_threaded;
-        cholesky.factorize(lower);
+        cholesky.factorize(upper);
         if (cholesky.info() == Eigen::Success)
           return true;
       }

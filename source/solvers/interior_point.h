@@ -16,7 +16,7 @@ namespace Signorini
   class InteriorPoint
   {
   public:
-    using Cholesky = Eigen::CholmodSupernodalLLT<GatheredBlocks::LowerHalf>;
+    using Cholesky = Eigen::CholmodSupernodalLLT<GatheredBlocks::UpperHalf, Eigen::Upper>;
 
     struct Rule
     {
@@ -37,9 +37,9 @@ namespace Signorini
     };
 
     /// All must outlive the object.
-    /// @param lower structure of the lower half, which `cholesky` has analyzed; values are overwritten
+    /// @param upper structure of the upper half, which `cholesky` has analyzed; values are overwritten
     InteriorPoint(const GatheredBlocks &matrix, const std::vector<NodeState> &states,
-                  GatheredBlocks::LowerHalf &lower, Cholesky &cholesky);
+                  GatheredBlocks::UpperHalf &upper, Cholesky &cholesky);
 
     /// Whether it has come to the minimizer; then active() is its active set.
     bool run();
@@ -69,7 +69,7 @@ namespace Signorini
 
     const GatheredBlocks         &matrix;
     const std::vector<NodeState> &states;
-    GatheredBlocks::LowerHalf    &lower;
+    GatheredBlocks::UpperHalf    &upper;
     Cholesky                     &cholesky;
     /// Nodes with a half-space; for each node its place there.
     std::vector<std::size_t> constrained, place;
