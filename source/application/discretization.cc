@@ -211,7 +211,7 @@ namespace Signorini
     refuse_lost_contact(coupled);
     refuse_dense_coupling(coupled);
     note_mapping_errors(pairs, cycle, model.communicator(), journal);
-    note_images_behind(coupled.pairs, cycle, journal);
+    note_images_behind(pairs, cycle, journal);
     note_dropped_nodes(coupled, cycle, journal);
     for (unsigned int p = 0; p < pairs.size(); ++p)
       {

@@ -8,9 +8,10 @@
 
 namespace Signorini
 {
-  /// What small dense matrices are asked for. Eigen's factorizations are compiled here once: each further
-  /// source that instantiates one takes up to ten seconds.
+  // Eigen's factorizations are compiled here once: each further source that instantiates one takes up to ten
+  // seconds.
 
+  /// What a small dense symmetric matrix (n x n) consists of.
   struct SymmetricEigen
   {
     /// Eigenvalues, ascending.
