@@ -195,7 +195,7 @@ class Case:
         if ranks not in self.references:
             out = os.path.join(self.folder, f'{self.name} {ranks}')
             begin = time.time()
-            run = Program(self.program, ranks).call(*self.arguments(out))
+            run = Program(self.program, ranks, served=False).call(*self.arguments(out))
             self.times[ranks] = time.time() - begin
             if run.returncode != 0:
                 raise SystemExit(f'{self.name}, {ranks} ranks: exit code {run.returncode}: {run.stdout} {run.stderr}')

@@ -11,6 +11,7 @@ import tempfile
 TOP = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 sys.path.append(os.path.join(TOP, 'tests'))
 from run_environment import run_environment  # noqa: E402
+from served.served import server_of  # noqa: E402
 
 FAILURES = []
 
@@ -25,18 +26,22 @@ def near(value, expected, tolerance, text):
 
 
 class Program:
-    def __init__(self, program, ranks):
+    def __init__(self, program, ranks, served=True):
+        """served: where calls need not start the program as users do, down to its loading."""
         self.command = [program] if ranks == 1 else ['mpirun', '-np', str(ranks), program]
+        self.served = served
 
     @property
     def environment(self):
         """For one run."""
         return run_environment()
 
-    def call(self, *arguments):
+    def call(self, *arguments, cwd=None):
         # Where one rank ends with an error all do: mpirun would give the others a second.
-        return subprocess.run(self.command + list(arguments), env=dict(self.environment, OMPI_MCA_odls_base_sigkill_timeout='0'), stdout=subprocess.PIPE,
-                              stderr=subprocess.PIPE, universal_newlines=True, timeout=500)
+        environment = dict(self.environment, OMPI_MCA_odls_base_sigkill_timeout='0')
+        program, variables = server_of(self.command[-1]).start(environment) if self.served else (self.command[-1], {})
+        return subprocess.run(self.command[:-1] + [program, *arguments], env=dict(environment, **variables), cwd=cwd, stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE, universal_newlines=True, errors='replace', timeout=500)
 
     def solve(self, prm, *settings, keep=None, codes=(0,)):
         with tempfile.TemporaryDirectory() as folder:

@@ -13,7 +13,7 @@ import time
 import xml.etree.ElementTree
 import zlib
 
-from harness import TOP, check, near
+from harness import TOP, check, near, server_of
 
 PATCH_TEST = os.path.join(TOP, 'prm', 'patch_test', 'patch_test.prm')
 CUBES = os.path.join(TOP, 'prm', 'cubes', 'cubes.prm')
@@ -87,6 +87,40 @@ def signals(p):
             check(len(left) == 1 and '.part-' in left[0], f'after SIGKILL: {left}')
             p.call(PATCH_TEST, '--output', os.path.join(folder, 'out'), '--set', 'Refinement/Global cycles=0')
             check(os.listdir(folder) == ['out'], f'not cleaned up: {os.listdir(folder)}')
+
+
+def children(process):
+    with open(f'/proc/{process}/task/{process}/children') as f:
+        return [int(child) for child in f.read().split()]
+
+
+def served(p):
+    """Runs that tests start without loading the program end as the program does, by its own will or not, and with whom they stand for."""
+    server = server_of(p.command[-1])
+    check(server.usable, 'the server of the program is missing or older than the program')
+    program, variables = server.start(p.environment)
+    check(program != p.command[-1], 'the program itself is started')
+    with tempfile.TemporaryDirectory() as folder:
+        def start(*options):
+            return subprocess.Popen([program, os.path.relpath(CUBES, folder), '--output', 'out', *options], env=dict(p.environment, **variables), cwd=folder,
+                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
+
+        def running():
+            """The process that computes: the server's child waits for it."""
+            return [child for waiting in children(server.process.pid) for child in children(waiting)]
+
+        for option, code in ((['--set', 'Refinement/Global cycles=0'], 0), (['--set', 'Solver/Method=none'], 1)):
+            run = start(*option)
+            out, err = run.communicate(timeout=60)
+            check(run.returncode == code and ('results in ' + os.path.realpath(folder) in out, 'error: ' in err)[code], f'{option}: {run.returncode} {out} {err}')
+        long = ['--set', 'Refinement/Global cycles=5', '--set', 'Output/Checkpoint=never', '--output', 'long']
+        for who, number in (('program', signal.SIGSEGV), ('program', signal.SIGKILL), ('client', signal.SIGKILL), ('client', signal.SIGTERM)):
+            run = start(*long)
+            check(wait_until(lambda: any(f'long.part-{process}' in os.listdir(folder) for process in running())), 'the run does not begin')
+            os.kill(running()[0] if who == 'program' else run.pid, number)
+            run.communicate(timeout=60)
+            check(run.returncode == -number, f'{who} ended by {number}: exit code {run.returncode}')
+            check(wait_until(lambda: not running()), f'{who} ended by {number}: it goes on')
 
 
 def grouped_files(p):

@@ -5,6 +5,7 @@
 and calls the installed programs. Archives that are meant to stand alone have all that they use.
 
 usage: run_install.py BUILD WORK    WORK is emptied"""
+import concurrent.futures
 import json
 import os
 import shlex
@@ -37,16 +38,16 @@ def check_view(build, prefix):
         sys.exit(f'FAILED: {build} looks for headers in {sorted(seen)}')
 
 
-def build_outside(source, work, prefix):
-    """A copy of a project, configured with the installed folder and built. Returns its build folder."""
+def run_outside(source, work, prefix):
+    """A copy of a project, configured with the installed folder, built and run. Returns what it prints."""
     name = os.path.basename(source)
     copy, build = os.path.join(work, name), os.path.join(work, name, 'build')
     shutil.copytree(source, copy)
     call('cmake', '-G', 'Ninja', '-S', copy, '-B', build, f'-DCMAKE_PREFIX_PATH={prefix}', '-DCMAKE_EXPORT_COMPILE_COMMANDS=ON',
          '-DCMAKE_BUILD_TYPE=Release')
     check_view(build, prefix)
-    call('cmake', '--build', build, '-j', '2')
-    return build
+    call('cmake', '--build', build)
+    return call(os.path.join(build, name), cwd=build)
 
 
 def check_closed(folder, *names):
@@ -90,11 +91,10 @@ def main():
     steps = sorted(name for name in os.listdir(tutorials) if name.startswith('step-'))
     if not steps:
         sys.exit('FAILED: no tutorial was installed.')
-    for name in steps:
-        build = build_outside(os.path.join(tutorials, name), work, prefix)
-        done(f'{name} built')
-        print(call(os.path.join(build, name), cwd=build))
-        done(f'{name} run')
+    with concurrent.futures.ThreadPoolExecutor(max_workers=2) as pool:
+        for said in pool.map(lambda name: run_outside(os.path.join(tutorials, name), work, prefix), steps):
+            print(said)
+    done('tutorials built and run')
     lib = next(folder for folder, _, names in os.walk(prefix) if 'libsignorini.a' in names)
     check_closed(lib, 'surface')
     check_closed(lib, 'solvers')

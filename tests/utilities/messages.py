@@ -22,7 +22,6 @@ import glob
 import os
 import re
 import shlex
-import subprocess
 import sys
 import tempfile
 
@@ -113,7 +112,6 @@ def set_up(folder, problem, lines, commands):
 def provoke(programs, problem, code, lines):
     """What a run says, and complaints about how it ends."""
     program = programs['map' if problem == 'map' else 'run']
-    environment = Program(program, 1).environment
     with tempfile.TemporaryDirectory() as folder:
         commands = []
         try:
@@ -121,12 +119,12 @@ def provoke(programs, problem, code, lines):
         except ValueError as error:
             return '', [str(error)]
         for command in commands + [arguments]:
-            run = subprocess.run([program] + command, cwd=folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=300)
-        said = run.stdout.decode(errors='replace') + run.stderr.decode(errors='replace')
+            run = Program(program, 1).call(*command, cwd=folder)
+        said = run.stdout + run.stderr
         complaints = []
         if run.returncode != code:
             complaints.append(f'exit code {run.returncode}, not {code}')
-        if code == 1 and run.stderr.count(b'error:') != 1:
+        if code == 1 and run.stderr.count('error:') != 1:
             complaints.append('not one message')
         if code == 1 and 'results in' not in said and not commands and os.path.isdir(os.path.join(folder, 'out')):
             complaints.append('results are left')

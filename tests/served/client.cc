@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+// Stands for the program where tests start it: the server (server.cc) that listens at SIGNORINI_SERVER runs
+// it with our arguments, environment, working directory and files; we end as it ends.
+
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+namespace
+{
+  bool send_files(const int connection)
+  {
+    const int             files[3]                           = {0, 1, 2};
+    alignas(cmsghdr) char control[CMSG_SPACE(sizeof(files))] = {};
+    char                  byte                               = 0;
+    iovec                 data                               = {&byte, 1};
+    msghdr                message                            = {};
+    message.msg_iov                                          = &data;
+    message.msg_iovlen                                       = 1;
+    message.msg_control                                      = control;
+    message.msg_controllen                                   = sizeof(control);
+    cmsghdr *head                                            = CMSG_FIRSTHDR(&message);
+    head->cmsg_level                                         = SOL_SOCKET;
+    head->cmsg_type                                          = SCM_RIGHTS;
+    head->cmsg_len                                           = CMSG_LEN(sizeof(files));
+    std::memcpy(CMSG_DATA(head), files, sizeof(files));
+    return sendmsg(connection, &message, MSG_NOSIGNAL) == 1;
+  }
+} // namespace
+
+
+
+int
+main()
+{
+  const char *const place   = std::getenv("SIGNORINI_SERVER");
+  sockaddr_un       address = {};
+  address.sun_family        = AF_UNIX;
+  if (!place || std::strlen(place) >= sizeof(address.sun_path))
+    {
+      std::fprintf(stderr, "signorini_client: SIGNORINI_SERVER should be the socket of signorini_server.\n");
+      return 125;
+    }
+  std::strcpy(address.sun_path, place);
+  const int connection = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  int       status;
+  if (connect(connection, reinterpret_cast<const sockaddr *>(&address), sizeof(address)) != 0 ||
+      !send_files(connection) || read(connection, &status, sizeof(status)) != sizeof(status))
+    {
+      std::perror("signorini_client: no answer of the server");
+      return 125;
+    }
+  if (WIFEXITED(status))
+    return WEXITSTATUS(status);
+  const rlimit no_core = {0, 0};
+  setrlimit(RLIMIT_CORE, &no_core);
+  std::signal(WTERMSIG(status), SIG_DFL);
+  std::raise(WTERMSIG(status));
+  return 125;
+}
