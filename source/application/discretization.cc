@@ -21,11 +21,12 @@ namespace Signorini
 
   Discretization::Discretization(std::shared_ptr<const ConstrainedSpace> space,
                                  std::vector<ContactPair>                some_pairs,
-                                 std::vector<PairCoupling> some_couplings, std::vector<bool> turned)
+                                 std::vector<PairCoupling>               some_couplings,
+                                 std::vector<NonmortarSide>              some_sides)
     : constrained(std::move(space))
     , pairs(std::move(some_pairs))
     , couplings(std::move(some_couplings))
-    , turned(std::move(turned))
+    , sides(std::move(some_sides))
   {
     std::vector<std::string> names;
     for (const ContactPair &pair : pairs)
@@ -79,7 +80,7 @@ namespace Signorini
 
 
   Discretization::Discretization(const Discretization &other, std::shared_ptr<const ConstrainedSpace> space)
-    : Discretization(std::move(space), other.pairs, other.couplings, other.turned)
+    : Discretization(std::move(space), other.pairs, other.couplings, other.sides)
   {
   }
 
@@ -199,10 +200,10 @@ namespace Signorini
 
   std::unique_ptr<const Discretization> discretize(const ContactModel                     &model,
                                                    std::shared_ptr<const ConstrainedSpace> constrained,
-                                                   const std::vector<bool>                &turned_before,
+                                                   const std::vector<NonmortarSide>       &before,
                                                    const unsigned int cycle, Journal &journal)
   {
-    SideChoice choice(model, *constrained, turned_before, journal);
+    SideChoice choice(model, *constrained, before, journal);
     choice.improve();
     const auto                 time      = journal.measure(Phase::mortar);
     std::vector<ContactPair>  &pairs     = choice.pairs;
@@ -223,6 +224,6 @@ namespace Signorini
     for (unsigned int p = 0; p < pairs.size(); ++p)
       keep_piece(pairs[p], couplings[p], model.communicator());
     return std::make_unique<const Discretization>(constrained, std::move(pairs), std::move(couplings),
-                                                  std::move(choice.turned));
+                                                  choice.sides());
   }
 } // namespace Signorini

@@ -170,8 +170,8 @@ namespace Signorini
           journal.print("cycle " + std::to_string(cycle) + ": " + std::to_string(result.cells) + " cells, " +
                         std::to_string(result.dofs) + " unknowns");
         journal.show("contact mapping and mortar integrals");
-        last.discretization     = discretize(model, space, turned, cycle, journal);
-        turned                  = last.discretization->turned;
+        last.discretization     = discretize(model, space, sides, cycle, journal);
+        sides                   = last.discretization->sides;
         SolveParameters how_to  = parameters.solve;
         how_to.measure_sweeps   = how_to.measure_sweeps && cycle == refinement.n_cycles();
         const NestedStart *from = cycle > 0 ? &start : nullptr;
@@ -250,7 +250,7 @@ namespace Signorini
         NestedState         &state     = checkpoints->state().nested;
         state.cycle                    = cycle;
         state.trace                    = order.trace();
-        state.turned                   = turned;
+        state.sides                    = sides;
         state.bolts                    = save_bolts(model.loads().pretensions);
         state.holds                    = model.point_holds();
         state.cycles                   = last.results.cycles;
@@ -329,7 +329,7 @@ namespace Signorini
         const CurveOrder   order(space->nodal());
         for (const std::string &note : saved.notes)
           journal.note(note);
-        turned                 = state.turned;
+        sides                  = state.sides;
         last.results.cycles    = state.cycles;
         last.results.converged = state.converged;
         last.solution          = state.solution;
@@ -351,7 +351,7 @@ namespace Signorini
       void restore_solution()
       {
         const NestedState &state = checkpoints->state().nested;
-        last.discretization      = discretize(model, space, turned, state.cycle, journal);
+        last.discretization      = discretize(model, space, sides, state.cycle, journal);
         last.solution.stress =
             restore_stress(state.contact, *last.discretization, CurveOrder(space->nodal()));
         journal.take_times();
@@ -436,7 +436,7 @@ namespace Signorini
       std::shared_ptr<const ConstrainedSpace> space;
       CoarserSpaces                           coarser;
       NestedStart                             start;
-      std::vector<bool>                       turned;
+      std::vector<NonmortarSide>              sides;
       std::vector<double>                     indicator;
       /// Those of the cycles before, on the current mesh, if they are to be compared.
       std::vector<Vector> earlier_displacements;

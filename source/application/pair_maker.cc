@@ -12,6 +12,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <set>
+
 namespace Signorini
 {
   using namespace dealii;
@@ -77,23 +79,6 @@ namespace Signorini
       return result;
     }
 
-    unsigned int choose_nonmortar(const PairDefinition &pair, const std::vector<ContactSide> &sides,
-                                  const bool is_turned)
-    {
-      const double young[2] = {sides[0].material.young, sides[1].material.young};
-      unsigned int softer   = 0;
-      if (std::abs(young[0] - young[1]) > 1e-6 * std::max(young[0], young[1]))
-        softer = young[0] < young[1] ? 0 : 1;
-      else
-        softer =
-            average_face_area(sides[0].surface) <= average_face_area(sides[1].surface) * (1. + 1e-9) ? 0 : 1;
-      if (is_turned)
-        return 1 - softer;
-      if (pair.nonmortar == NonmortarChoice::automatic)
-        return softer;
-      return pair.nonmortar == NonmortarChoice::first ? 0 : 1;
-    }
-
     std::shared_ptr<ContactMapping> map_surfaces(ContactPair &pair, const MPI_Comm comm, Journal &journal)
     {
       const unsigned int    rank      = Utilities::MPI::this_mpi_process(comm);
@@ -152,7 +137,20 @@ namespace Signorini
 
 
 
-  ContactPair PairMaker::make(const unsigned int p, const bool is_turned)
+  bool PairMaker::prefers_second(const unsigned int p) const
+  {
+    if (!is_open(p))
+      return !model.pairs()[p].definition.obstacle &&
+             model.pairs()[p].definition.nonmortar == NonmortarChoice::second;
+    const double young[2] = {sides[p][0].material.young, sides[p][1].material.young};
+    if (std::abs(young[0] - young[1]) > 1e-6 * std::max(young[0], young[1]))
+      return young[1] < young[0];
+    return average_face_area(sides[p][0].surface) > average_face_area(sides[p][1].surface) * (1. + 1e-9);
+  }
+
+
+
+  ContactPair PairMaker::make(const unsigned int p, const bool second_is_nonmortar)
   {
     const PairDefinition &definition = model.pairs()[p].definition;
     ContactPair           pair;
@@ -160,7 +158,7 @@ namespace Signorini
     pair.is_tied           = model.pairs()[p].is_tied();
     pair.prescribed_gap    = definition.prescribed_gap;
     pair.obstacle          = definition.obstacle;
-    const unsigned int non = pair.obstacle ? 0 : choose_nonmortar(definition, sides[p], is_turned);
+    const unsigned int non = second_is_nonmortar ? 1 : 0;
     // Whole surfaces are large.
     const auto take = [&](const unsigned int s) { return is_open(p) ? sides[p][s] : std::move(sides[p][s]); };
     pair.nonmortar  = take(non);
@@ -188,9 +186,26 @@ namespace Signorini
 
 
 
-  std::string PairMaker::mapping_errors(const ContactPair &pair) const
+  bool PairMaker::has_mapping_errors(const ContactPair &pair) const
   {
-    return describe_errors(sum_reports(pair.mapping->report(), model.communicator()));
+    return !describe_errors(sum_reports(pair.mapping->report(), model.communicator())).empty();
+  }
+
+
+
+  double PairMaker::wrong_share(const ContactPair &pair) const
+  {
+    const MappingReport    report   = sum_reports(pair.mapping->report(), model.communicator());
+    const SurfaceTopology &topology = pair.mapping->nonmortar_topology();
+    std::set<unsigned int> wrong(report.wrong_triangles.begin(), report.wrong_triangles.end());
+    for (const unsigned int e : report.torn_edges)
+      for (const unsigned int t : topology.edge_triangles[e])
+        if (t != SurfaceTopology::none)
+          wrong.insert(t);
+    double area = 0.;
+    for (const unsigned int t : wrong)
+      area += triangle_area(pair.nonmortar.surface.mesh, t);
+    return area / report.area_covered;
   }
 
 

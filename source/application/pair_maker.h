@@ -18,8 +18,12 @@ namespace Signorini
     /// Collective. Moments are those of all that the pair covers. Only pairs whose nonmortar side is open can
     /// be made again.
     /// @param pair its number
-    /// @param is_turned whether the automatic choice of the nonmortar side is turned round
-    ContactPair make(const unsigned int pair, const bool is_turned);
+    /// @param second_is_nonmortar as prefers_second() has it unless the nonmortar side is open
+    ContactPair make(const unsigned int pair, const bool second_is_nonmortar);
+
+    /// Whether the nonmortar side of a pair is its second one: as it is given, or else the softer one, then
+    /// the finer one on this mesh. Before make().
+    bool prefers_second(const unsigned int pair) const;
 
     /// Whether the nonmortar side of a pair is chosen automatically.
     bool is_open(const unsigned int pair) const
@@ -28,8 +32,11 @@ namespace Signorini
       return !definition.obstacle && definition.nonmortar == NonmortarChoice::automatic;
     }
 
-    /// Collective. Of all ranks, in words; empty if there are none.
-    std::string mapping_errors(const ContactPair &pair) const;
+    /// Collective. Whether the mapping has errors, on any rank.
+    bool has_mapping_errors(const ContactPair &pair) const;
+
+    /// Collective. Of what the mapping covers, the area of the nonmortar triangles with errors of it.
+    double wrong_share(const ContactPair &pair) const;
 
   private:
     void share(ContactPair &pair) const;

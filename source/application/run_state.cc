@@ -105,6 +105,12 @@ namespace Signorini
   }
 
   template <typename Archive>
+  void transfer(Archive &a, NonmortarSide &s)
+  {
+    a(s.is_second, s.is_turned);
+  }
+
+  template <typename Archive>
   void transfer(Archive &a, SavedBolt &r)
   {
     a(r.strain, r.reached, r.slopes);
@@ -124,7 +130,7 @@ namespace Signorini
     {
       auto n_marked  = static_cast<std::uint64_t>(s.marked.size());
       auto n_earlier = static_cast<std::uint64_t>(s.earlier.size());
-      a(s.cycle, n_marked, s.trace, s.turned, s.bolts, s.holds, s.cycles, s.converged, n_earlier,
+      a(s.cycle, n_marked, s.trace, s.sides, s.bolts, s.holds, s.cycles, s.converged, n_earlier,
         s.has_indicator);
       a(s.solution.report, s.solution.pretensions, s.solution.n_active, s.solution.n_levels);
       s.marked.resize(n_marked);

@@ -49,7 +49,8 @@ namespace Signorini
     {
       /// Of what a pair covers: less than this is no reason to swap sides, which then are so on all finer
       /// meshes. A plate under two blocks beside each other loses 5 % of one of them, and the pressure is
-      /// wrong there by a fifth.
+      /// wrong there by a fifth. Two torn edges at the rim of a hole are less, too: a bolted joint whose
+      /// sides were swapped for them presses on the rim, verdict NO.
       double least_share = .02;
       /// Of the loss of the pairs that are swapped, what that has to save.
       double least_gain = .1;
@@ -86,29 +87,25 @@ namespace Signorini
 
 
   SideChoice::SideChoice(const ContactModel &model, const ConstrainedSpace &constrained,
-                         const std::vector<bool> &turned_before, Journal &journal)
-    : turned(turned_before)
-    , model(model)
+                         const std::vector<NonmortarSide> &before, Journal &journal)
+    : model(model)
     , maker(model, constrained, journal)
     , journal(journal)
-    , is_first(turned_before.empty())
+    , is_first(before.empty())
     , is_for_mapping(model.pairs().size(), false)
     , others(model.pairs().size())
   {
-    turned.resize(model.pairs().size(), false);
-    std::vector<std::string> chosen;
-    for (unsigned int p = 0; p < turned.size(); ++p)
+    for (unsigned int p = 0; p < model.pairs().size(); ++p)
       {
-        pairs.push_back(maker.make(p, turned[p]));
-        if (!turned[p] && maker.is_open(p))
-          chosen.push_back("\"" + model.bodies().body_name(pairs[p].nonmortar.body) + "\" of pair " +
-                           pairs[p].name);
+        turned.push_back(!is_first && before[p].is_turned);
+        prefers_second.push_back(is_first ? maker.prefers_second(p)
+                                          : before[p].is_second != before[p].is_turned);
+        pairs.push_back(make(p, turned[p]));
         if (!turned[p] && maker.is_open(p))
           turn_for_mapping(p);
       }
-    if (!chosen.empty())
-      journal.note("nonmortar side (the softer body, then the finer mesh): " +
-                   Patterns::Tools::to_string(chosen) + ".");
+    if (is_first)
+      note_chosen();
     const auto time = journal.measure(Phase::mortar);
     if (pairs.size() > 1)
       for (const ContactPair &pair : pairs)
@@ -118,12 +115,43 @@ namespace Signorini
 
 
 
+  ContactPair SideChoice::make(const unsigned int p, const bool is_turned)
+  {
+    return maker.make(p, prefers_second[p] != is_turned);
+  }
+
+
+
+  std::vector<NonmortarSide> SideChoice::sides() const
+  {
+    std::vector<NonmortarSide> result;
+    for (unsigned int p = 0; p < pairs.size(); ++p)
+      result.push_back({prefers_second[p] != turned[p], turned[p]});
+    return result;
+  }
+
+
+
+  void SideChoice::note_chosen() const
+  {
+    std::vector<std::string> chosen;
+    for (unsigned int p = 0; p < pairs.size(); ++p)
+      if (!turned[p] && maker.is_open(p))
+        chosen.push_back("\"" + model.bodies().body_name(pairs[p].nonmortar.body) + "\" of pair " +
+                         pairs[p].name);
+    if (!chosen.empty())
+      journal.note("nonmortar side (the softer body, then the finer mesh): " +
+                   Patterns::Tools::to_string(chosen) + ".");
+  }
+
+
+
   void SideChoice::turn_for_mapping(const unsigned int p)
   {
-    if (maker.mapping_errors(pairs[p]).empty() || !has_sharp_edges(pairs[p]))
+    if (!(maker.wrong_share(pairs[p]) > SideRule().least_share) || !has_sharp_edges(pairs[p]))
       return;
-    ContactPair other = maker.make(p, true);
-    if (!maker.mapping_errors(other).empty())
+    ContactPair other = make(p, true);
+    if (maker.has_mapping_errors(other))
       return;
     pairs[p]          = std::move(other);
     turned[p]         = true;
@@ -150,7 +178,7 @@ namespace Signorini
       if (choice[p] != turned[p])
         {
           if (!others[p])
-            others[p] = maker.make(p, choice[p]);
+            others[p] = make(p, choice[p]);
           std::swap(pairs[p], *others[p]);
           // Those of a pair that is not in use are of all that it covers.
           if (!covered.empty())

@@ -22,20 +22,22 @@ namespace Signorini
   public:
     /// Collective. Couples the pairs with the choice of another mesh, or the default one. All must outlive
     /// the object.
-    /// @param turned_before the choice of a coarser mesh; empty on the first one
+    /// @param before the choice of a coarser mesh; empty on the first one
     SideChoice(const ContactModel &model, const ConstrainedSpace &constrained,
-               const std::vector<bool> &turned_before, Journal &journal);
+               const std::vector<NonmortarSide> &before, Journal &journal);
 
     /// Collective. Turns what is better turned: descends in what is lost. On the first mesh; on others only
     /// if the choice would be refused.
     void improve();
 
-    /// By pair, and whether the automatic choice is turned round.
-    std::vector<ContactPair>  pairs;
-    std::vector<PairCoupling> couplings;
-    std::vector<bool>         turned;
+    /// By pair.
+    std::vector<NonmortarSide> sides() const;
+    std::vector<ContactPair>   pairs;
+    std::vector<PairCoupling>  couplings;
 
   private:
+    ContactPair make(const unsigned int p, const bool is_turned);
+    void        note_chosen() const;
     /// Turns it if the mapping has errors one way and none the other way, as it may have where a rim of one
     /// part lies over that of another one. Elsewhere errors are where surfaces turn away from each other, and
     /// the choice matters for other pairs.
@@ -55,6 +57,8 @@ namespace Signorini
     PairMaker           maker;
     Journal            &journal;
     const bool          is_first;
+    /// By pair: whether the second side is the nonmortar one unless it is turned, and whether it is.
+    std::vector<bool> prefers_second, turned;
     /// By pair: whether it was turned because of its mapping, on this mesh.
     std::vector<bool> is_for_mapping;
     /// What has been tried.

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/algebra/disjoint_sets.h>
 #include <signorini/mesh/surface_normals.h>
+
+#include <map>
 
 namespace Signorini
 {
@@ -48,12 +51,85 @@ namespace Signorini
       std::vector<Known>    known;
     };
 
-    void normalize(std::vector<Vector3> &normals)
+    Vector3 unit(const Vector3 &v)
     {
-      for (Vector3 &normal : normals)
-        if (const double length = normal.norm(); length > 0.)
-          normal /= length;
+      const double length = v.norm();
+      return length > 0. ? v / length : v;
     }
+
+    /// Pure numbers.
+    struct CreaseRule
+    {
+      /// Faces around a vertex whose normals differ by less than 40 degrees, or are linked by such ones, are
+      /// one side of it.
+      double same_side = .766;
+    };
+
+    /// The mean of the unit normals of the sides of a vertex, each of which has the mean of its faces: where
+    /// the sides were weighted by their areas the normals along a crease would turn from vertex to vertex.
+    /// @param faces normals around the vertex, weighted
+    Vector3 mean_of_sides(const std::vector<Vector3> &faces)
+    {
+      DisjointSets sets(faces.size());
+      for (unsigned int i = 0; i < faces.size(); ++i)
+        for (unsigned int j = 0; j < i; ++j)
+          if (faces[i] * faces[j] >= CreaseRule().same_side * faces[i].norm() * faces[j].norm())
+            sets.unite(i, j);
+      std::map<std::size_t, Vector3> sides;
+      for (unsigned int i = 0; i < faces.size(); ++i)
+        sides[sets.find(i)] += faces[i];
+      Vector3 mean;
+      for (const auto &[set, side] : sides)
+        mean += unit(side);
+      return mean;
+    }
+
+    /// What faces give to the normals of their vertices.
+    class VertexNormals
+    {
+    public:
+      explicit VertexNormals(const std::size_t n_vertices)
+        : sums(n_vertices)
+        , first(n_vertices)
+      {
+      }
+
+      void add(const unsigned int vertex, const Vector3 &weighted)
+      {
+        if (first[vertex].norm() == 0.)
+          first[vertex] = unit(weighted);
+        else if (weighted * first[vertex] < CreaseRule().same_side * weighted.norm())
+          creased[vertex];
+        sums[vertex] += weighted;
+      }
+
+      /// Those on creases want to see each face again.
+      void add_again(const unsigned int vertex, const Vector3 &weighted)
+      {
+        if (const auto it = creased.find(vertex); it != creased.end() && weighted.norm() > 0.)
+          it->second.push_back(weighted);
+      }
+
+      bool has_creases() const
+      {
+        return !creased.empty();
+      }
+
+      /// Unit normals; zero at vertices without faces.
+      std::vector<Vector3> finish() const
+      {
+        std::vector<Vector3> normals = sums;
+        for (const auto &[vertex, faces] : creased)
+          normals[vertex] = mean_of_sides(faces);
+        for (Vector3 &normal : normals)
+          normal = unit(normal);
+        return normals;
+      }
+
+    private:
+      std::vector<Vector3>                         sums, first;
+      std::map<unsigned int, std::vector<Vector3>> creased;
+    };
 
     /// Hanging vertices get the mean of their parents; vertices without faces take after the hanging ones
     /// that depend on them.
@@ -130,32 +206,32 @@ namespace Signorini
   void set_normals(ContactSurface &surface, const SurfaceShapes &shapes,
                    const std::function<bool(unsigned int face, unsigned int vertex)> &counts)
   {
-    const auto       &x       = surface.mesh.vertices;
-    auto             &normals = surface.mesh.vertex_normals;
     ShapeNormals      shape_normals(surface, shapes);
-    std::vector<bool> has_shape(x.size(), false);
-    normals.assign(x.size(), Vector3());
-    for (unsigned int f = 0; f < surface.faces.size(); ++f)
-      {
-        const ContactSurface::Face &face   = surface.faces[f];
-        const Vector3               area   = area_vector(surface, face);
-        const double                weight = area.norm();
-        const BoundaryShape *const  shape  = shape_normals.shape_of(face);
-        for (unsigned int i = 0; i < face.n_corners; ++i)
-          {
-            const unsigned int v = face.corners[i];
-            if (counts && !counts(f, v))
-              continue;
-            if (shape != nullptr && weight > 0.)
-              {
-                normals[v] += weight * shape_normals(*shape, v, area / weight);
-                has_shape[v] = true;
-              }
-            else
-              normals[v] += area;
-          }
-      }
-    normalize(normals);
-    complete_normals(surface, normals, has_shape);
+    std::vector<bool> has_shape(surface.mesh.vertices.size(), false);
+    const auto        for_corners = [&](const auto &add) {
+      for (unsigned int f = 0; f < surface.faces.size(); ++f)
+        {
+          const ContactSurface::Face &face   = surface.faces[f];
+          const Vector3               area   = area_vector(surface, face);
+          const double                weight = area.norm();
+          const BoundaryShape *const  shape  = shape_normals.shape_of(face);
+          for (unsigned int i = 0; i < face.n_corners; ++i)
+            {
+              const unsigned int v = face.corners[i];
+              if (counts && !counts(f, v))
+                continue;
+              has_shape[v] = has_shape[v] || (shape != nullptr && weight > 0.);
+              add(v,
+                  shape != nullptr && weight > 0. ? weight * shape_normals(*shape, v, area / weight) : area);
+            }
+        }
+    };
+    VertexNormals normals(surface.mesh.vertices.size());
+    for_corners([&](const unsigned int vertex, const Vector3 &weighted) { normals.add(vertex, weighted); });
+    if (normals.has_creases())
+      for_corners(
+          [&](const unsigned int vertex, const Vector3 &weighted) { normals.add_again(vertex, weighted); });
+    surface.mesh.vertex_normals = normals.finish();
+    complete_normals(surface, surface.mesh.vertex_normals, has_shape);
   }
 } // namespace Signorini

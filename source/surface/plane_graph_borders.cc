@@ -117,7 +117,7 @@ namespace Signorini
                 Walk walk{f, direction, mortar_vertex_node[direction > 0 ? q : p]};
                 walk.position = walk.forward(s[i].position);
                 if (walk_to_end(walk, go_to_vertex(walk, ends[i], s[i].position)) == State::lost)
-                  lost_edges.push_back(f);
+                  note_lost(walk, SurfacePoint::at_vertex(ends[i]));
               }
           return;
         }
@@ -144,6 +144,6 @@ namespace Signorini
     walk.entry       = nonmortar.local_edge(t, e);
     walk.entry_sides = {{s[only], s[1 - only]}};
     if (walk_to_end(walk, add_crossing(walk, e, s[0], s[1])) == State::lost)
-      lost_edges.push_back(f);
+      note_lost(walk, SurfacePoint::on_edge(e, at_e));
   }
 } // namespace Signorini

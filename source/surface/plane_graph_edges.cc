@@ -229,11 +229,29 @@ namespace Signorini
     Walk again{edge, direction, target};
     take_back(again, n_nodes);
     const State second = trace_by_roots(again, place);
+    if (second == State::lost && state == State::lost)
+      note_lost(walk, place);
     if (second == State::reached || state == State::lost)
       return second;
     take_back(again, n_nodes);
     Walk as_before{edge, direction, target};
     return walk_to_end(as_before, leave_node(as_before, place));
+  }
+
+
+
+  // Outside the region vertices have not been moved to all edges that they lie on: ways end there that go on.
+  void PlaneGraph::note_lost(const Walk &walk, const SurfacePoint &start)
+  {
+    std::vector<unsigned int> place;
+    if (walk.vertex != none)
+      place = {walk.vertex};
+    else if (walk.triangle != none)
+      place.assign(nonmortar.triangles[walk.triangle].begin(), nonmortar.triangles[walk.triangle].end());
+    else if (start.on == On::edge)
+      place.assign(nonmortar.edges[start.index].begin(), nonmortar.edges[start.index].end());
+    if (std::all_of(place.begin(), place.end(), [&](const unsigned int v) { return region.contains(v); }))
+      lost_edges.push_back(walk.edge);
   }
 
 
@@ -393,8 +411,6 @@ namespace Signorini
             state = trace_from_node(f, 1, p, q);
           if (q != none && state == State::left)
             state = trace_from_node(f, -1, q, none);
-          if (state == State::lost)
-            lost_edges.push_back(f);
           if (state == State::left)
             unfinished.push_back(f);
         }

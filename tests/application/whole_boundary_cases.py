@@ -321,6 +321,50 @@ def key_joint(p):
         near(abs(moments['seat']), abs(moments['way']), 1e-6, 'moments on both halves of the key')
 
 
+THREAD = """set Bodies        = bolt, nut
+set Contact pairs = thread
+subsection Body bolt
+  set Mesh          = thread.msh
+  set Volumes       = bolt
+  set Young modulus = 210e3
+  set Poisson ratio = 0.3
+  set Dirichlet     = bolt x: (0, *, *); bolt y: (*, 0, *)
+  set Forces        = pulled: (0, 0, -2500)
+end
+subsection Body nut
+  set Mesh          = thread.msh
+  set Volumes       = nut
+  set Young modulus = 210e3
+  set Poisson ratio = 0.3
+  set Dirichlet     = seat: (0, 0, 0); nut x: (0, *, *); nut y: (*, 0, *)
+end
+subsection Pair thread
+  set First  = bolt: bolt thread
+  set Second = nut: nut thread
+end
+"""
+
+
+def thread(p):
+    """Crests and roots that are narrower than the faces of the mesh: normals on their edges, with the weights of areas, turned from vertex to vertex,
+    and the paths of the mapping crossed. A quarter; the flanks carry the force, at 30 degrees."""
+    with tempfile.TemporaryDirectory() as folder:
+        make_mesh(os.path.join(GEOMETRIES, 'thread.geo'), os.path.join(folder, 'thread.msh'))
+        path = os.path.join(folder, 'thread.prm')
+        with open(path, 'w') as f:
+            f.write(THREAD)
+        # The verdict is no on these meshes: the facets of the flanks.
+        for settings in (['Refinement/Adaptive cycles=1'], ['Refinement/Global cycles=1'], ['Pair thread/Surface=smooth']):
+            s = p.solve(path, *settings, codes=(0, 3))
+            pair = s['pairs'][0]
+            print(f'{settings}: {s["cycles"][-1]["nonlinear"]["iterations"]} iterations, force {pair["force"]}, errors {[m["errors"] for m in s["mappings"]]}')
+            check(s['converged'] and pair['nonmortar'] == 'nut: nut thread', f'{settings}: nonmortar {pair["nonmortar"]}')
+            check(not any('mapping has errors' in note or 'initial penetration' in note for note in s['notes']), f'{settings}: {s["notes"]}')
+            near(pair['force'][2], -2500., 1e-8, f'{settings}: axial force')
+            for k in (0, 1):
+                near(pair['force'][k], 2500. * math.tan(math.radians(30.)) * 2. / math.pi, .02, f'{settings}: force of the flanks')
+
+
 GEARS = """set Bodies        = pinion, gear
 set Contact pairs = teeth
 subsection Body pinion

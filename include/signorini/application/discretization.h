@@ -81,12 +81,20 @@ namespace Signorini
     GapFunction prescribed_gap;
   };
 
+  /// Which of the sides of a pair, in the order of its definition, is the nonmortar one.
+  struct NonmortarSide
+  {
+    bool is_second = false;
+    /// Whether that is not the automatic choice, because less of the contact is lost this way round.
+    bool is_turned = false;
+  };
+
   /// The discrete contact problem on one mesh. Constant.
   struct Discretization
   {
     /// Collective. Joins the couplings of the pairs. Errors: those of join_couplings().
     Discretization(std::shared_ptr<const ConstrainedSpace> constrained, std::vector<ContactPair> pairs,
-                   std::vector<PairCoupling> couplings, std::vector<bool> turned);
+                   std::vector<PairCoupling> couplings, std::vector<NonmortarSide> sides);
     /// Collective. The same surfaces and couplings on the same space with other values of its conditions.
     Discretization(const Discretization &other, std::shared_ptr<const ConstrainedSpace> constrained);
     Discretization(const Discretization &) = delete;
@@ -141,9 +149,8 @@ namespace Signorini
     /// By pair: its surfaces, its own coupling.
     std::vector<ContactPair>  pairs;
     std::vector<PairCoupling> couplings;
-    /// Per pair: whether an automatic choice of the nonmortar side was turned round, because the other side
-    /// left contact without multipliers. What the next mesh begins with.
-    std::vector<bool> turned;
+    /// By pair. The next mesh begins with it: what is finer there does not count any more.
+    std::vector<NonmortarSide> sides;
 
     /// Of all pairs, joined: rows by contact node, sorted, of the nodes that are relevant to this rank.
     InterfaceCoupling coupling;
@@ -164,13 +171,13 @@ namespace Signorini
   };
 
   /// Collective. Maps and couples all pairs of a model on its mesh.
-  /// @param turned Discretization::turned of the mesh before; empty on the first one
+  /// @param sides Discretization::sides of the mesh before; empty on the first one
   /// @param cycle number of the mesh, for notes; on the first one initial overlaps are noted
   /// Errors: InputError for pairs that cannot do what they are there for (contact_checks.h).
   std::unique_ptr<const Discretization> discretize(const ContactModel                     &model,
                                                    std::shared_ptr<const ConstrainedSpace> constrained,
-                                                   const std::vector<bool> &turned, const unsigned int cycle,
-                                                   Journal &journal);
+                                                   const std::vector<NonmortarSide>       &sides,
+                                                   const unsigned int cycle, Journal &journal);
 } // namespace Signorini
 
 #endif

@@ -22,7 +22,8 @@ namespace Signorini
 
   /// Sets the vertex normals of a contact surface. The one rule: every face gives its normal at each of its
   /// corners, that of its shape where there is one (a curved patch of the start mesh is a shape), else its
-  /// own; they are added with the areas of the faces. Hanging vertices without a shape have the mean of their
+  /// own; they are added with the areas of the faces, and at creases the sides count alike, whatever their
+  /// areas. Hanging vertices without a shape have the mean of their
   /// parents. In the end normals are projected onto the free directions of the vertex.
   /// @param counts whether a face counts at a vertex of it; all of them if empty
   void set_normals(ContactSurface &surface, const SurfaceShapes &shapes,

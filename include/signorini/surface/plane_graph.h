@@ -67,7 +67,8 @@ namespace Signorini
 
     /// Mortar vertices without an image, of this part's share: each vertex belongs to the share of one part.
     std::vector<std::pair<unsigned int, Unmapped>> unmapped;
-    /// Mortar edges whose image could not be followed from end to end although both ends have one.
+    /// Mortar edges whose image could not be followed from end to end although both ends have one, lost in
+    /// the region.
     std::vector<unsigned int> lost_edges;
 
   private:
@@ -120,6 +121,7 @@ namespace Signorini
     bool  find_next_crossing(unsigned int &edge, Incidence::Crossing &next, const Walk &walk,
                              const Front &front) const;
     void  take_back(const Walk &walk, const std::size_t n_nodes);
+    void  note_lost(const Walk &walk, const SurfacePoint &start);
     bool  is_reached(const Walk &walk, const unsigned int triangle) const;
 
     void enter_at_borders();
