@@ -15,7 +15,7 @@ function(signorini_add_dealii_target flavour)
                                                          ${DEAL_II_USER_DEFINITIONS_${flavour}})
   target_link_libraries(Signorini::dealii INTERFACE ${DEAL_II_TARGET_${flavour}})
   # deal.II's own linker, where it is installed: with two hundred shared libraries gold takes two seconds, ld half a minute.
-  if(DEAL_II_LINKER_FLAGS MATCHES "-fuse-ld=([a-z]+)")
+  if(NOT CMAKE_LINKER_TYPE AND NOT "${CMAKE_EXE_LINKER_FLAGS}" MATCHES "-fuse-ld" AND DEAL_II_LINKER_FLAGS MATCHES "-fuse-ld=([a-z]+)")
     find_program(SIGNORINI_LINKER ld.${CMAKE_MATCH_1})
     mark_as_advanced(SIGNORINI_LINKER)
     if(SIGNORINI_LINKER)

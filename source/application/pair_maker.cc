@@ -12,6 +12,7 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
 #include <set>
 
 namespace Signorini
@@ -195,7 +196,9 @@ namespace Signorini
 
   double PairMaker::wrong_share(const ContactPair &pair) const
   {
-    const MappingReport    report   = sum_reports(pair.mapping->report(), model.communicator());
+    const MappingReport report = sum_reports(pair.mapping->report(), model.communicator());
+    if (covers_twice(report))
+      return 1.;
     const SurfaceTopology &topology = pair.mapping->nonmortar_topology();
     std::set<unsigned int> wrong(report.wrong_triangles.begin(), report.wrong_triangles.end());
     for (const unsigned int e : report.torn_edges)
@@ -205,7 +208,8 @@ namespace Signorini
     double area = 0.;
     for (const unsigned int t : wrong)
       area += triangle_area(pair.nonmortar.surface.mesh, t);
-    return area / report.area_covered;
+    // What is turned counts with a negative area in what is covered.
+    return area > 0. ? area / std::max(area, report.area_covered) : 0.;
   }
 
 

@@ -95,6 +95,8 @@ namespace Signorini
     , is_for_mapping(model.pairs().size(), false)
     , others(model.pairs().size())
   {
+    Assert(is_first || before.size() == model.pairs().size(),
+           ExcDimensionMismatch(before.size(), model.pairs().size()));
     for (unsigned int p = 0; p < model.pairs().size(); ++p)
       {
         turned.push_back(!is_first && before[p].is_turned);
@@ -156,8 +158,10 @@ namespace Signorini
     pairs[p]          = std::move(other);
     turned[p]         = true;
     is_for_mapping[p] = true;
-    journal.note("pair " + pairs[p].name +
-                 ": its sides are swapped, because the mapping has errors the other way round.");
+    journal.note(
+        "pair " + pairs[p].name +
+        ": its sides are swapped, because the mapping has errors the other way round; nonmortar is \"" +
+        model.bodies().body_name(pairs[p].nonmortar.body) + "\".");
   }
 
 
@@ -270,7 +274,8 @@ namespace Signorini
           break;
         for (unsigned int p = 0; p < pairs.size(); ++p)
           if (best[p] != before[p])
-            journal.note("pair " + pairs[p].name + ": its sides are swapped, because " + now[p].reason + ".");
+            journal.note("pair " + pairs[p].name + ": its sides are swapped, because " + now[p].reason +
+                         "; nonmortar is \"" + model.bodies().body_name(pairs[p].nonmortar.body) + "\".");
       }
     others.clear();
     for (const ContactPair &pair : pairs)

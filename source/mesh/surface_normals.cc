@@ -63,6 +63,8 @@ namespace Signorini
       /// Faces around a vertex whose normals differ by less than 40 degrees, or are linked by such ones, are
       /// one side of it.
       double same_side = .766;
+      /// Sides whose unit normals add up to less than this are opposite, and have no mean.
+      double smallest_mean = .1;
     };
 
     /// The mean of the unit normals of the sides of a vertex, each of which has the mean of its faces: where
@@ -78,10 +80,13 @@ namespace Signorini
       std::map<std::size_t, Vector3> sides;
       for (unsigned int i = 0; i < faces.size(); ++i)
         sides[sets.find(i)] += faces[i];
-      Vector3 mean;
+      Vector3 mean, sum;
       for (const auto &[set, side] : sides)
-        mean += unit(side);
-      return mean;
+        {
+          mean += unit(side);
+          sum += side;
+        }
+      return mean.norm() > CreaseRule().smallest_mean ? mean : sum;
     }
 
     /// What faces give to the normals of their vertices.

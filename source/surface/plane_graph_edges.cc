@@ -234,8 +234,11 @@ namespace Signorini
     if (second == State::reached || state == State::lost)
       return second;
     take_back(again, n_nodes);
-    Walk as_before{edge, direction, target};
-    return walk_to_end(as_before, leave_node(as_before, place));
+    Walk        as_before{edge, direction, target};
+    const State third = walk_to_end(as_before, leave_node(as_before, place));
+    if (third == State::lost)
+      note_lost(as_before, place);
+    return third;
   }
 
 
@@ -243,14 +246,20 @@ namespace Signorini
   // Outside the region vertices have not been moved to all edges that they lie on: ways end there that go on.
   void PlaneGraph::note_lost(const Walk &walk, const SurfacePoint &start)
   {
-    std::vector<unsigned int> place;
+    bool       is_known    = true;
+    const auto look_around = [&](const unsigned int triangle) {
+      for (const unsigned int v : nonmortar.triangles[triangle])
+        is_known = is_known && region.contains(v);
+    };
     if (walk.vertex != none)
-      place = {walk.vertex};
+      for (unsigned int k = nonmortar.fan_start[walk.vertex]; k < nonmortar.fan_start[walk.vertex + 1]; ++k)
+        look_around(nonmortar.fan[k]);
     else if (walk.triangle != none)
-      place.assign(nonmortar.triangles[walk.triangle].begin(), nonmortar.triangles[walk.triangle].end());
+      look_around(walk.triangle);
     else if (start.on == On::edge)
-      place.assign(nonmortar.edges[start.index].begin(), nonmortar.edges[start.index].end());
-    if (std::all_of(place.begin(), place.end(), [&](const unsigned int v) { return region.contains(v); }))
+      for (const unsigned int v : nonmortar.edges[start.index])
+        is_known = is_known && region.contains(v);
+    if (is_known)
       lost_edges.push_back(walk.edge);
   }
 

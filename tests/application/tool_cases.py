@@ -90,8 +90,11 @@ def signals(p):
 
 
 def children(process):
-    with open(f'/proc/{process}/task/{process}/children') as f:
-        return [int(child) for child in f.read().split()]
+    try:
+        with open(f'/proc/{process}/task/{process}/children') as f:
+            return [int(child) for child in f.read().split()]
+    except (FileNotFoundError, ProcessLookupError):
+        return []
 
 
 def served(p):
@@ -116,8 +119,11 @@ def served(p):
         long = ['--set', 'Refinement/Global cycles=5', '--set', 'Output/Checkpoint=never', '--output', 'long']
         for who, number in (('program', signal.SIGSEGV), ('program', signal.SIGKILL), ('client', signal.SIGKILL), ('client', signal.SIGTERM)):
             run = start(*long)
-            check(wait_until(lambda: any(f'long.part-{process}' in os.listdir(folder) for process in running())), 'the run does not begin')
-            os.kill(running()[0] if who == 'program' else run.pid, number)
+            begun_ones = []
+            wait_until(lambda: begun_ones.extend(process for process in running() if f'long.part-{process}' in os.listdir(folder)) or begun_ones)
+            if not begun_ones:
+                raise SystemExit('the run does not begin')
+            os.kill(begun_ones[0] if who == 'program' else run.pid, number)
             run.communicate(timeout=60)
             check(run.returncode == -number, f'{who} ended by {number}: exit code {run.returncode}')
             check(wait_until(lambda: not running()), f'{who} ended by {number}: it goes on')

@@ -56,7 +56,7 @@ main()
   if (connect(connection, reinterpret_cast<const sockaddr *>(&address), sizeof(address)) != 0 ||
       !send_files(connection) || read(connection, &status, sizeof(status)) != sizeof(status))
     {
-      std::perror("signorini_client: no answer of the server");
+      std::fprintf(stderr, "signorini_client: no answer of the server\n");
       return 125;
     }
   if (WIFEXITED(status))

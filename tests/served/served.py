@@ -27,7 +27,8 @@ class Server:
             return self.program, {}
         with self.lock:
             if not self.process:
-                folder = tempfile.TemporaryDirectory(prefix='served-')
+                # Names of sockets have to be short.
+                folder = tempfile.TemporaryDirectory(prefix='served-', dir='/tmp')
                 self.place = os.path.join(folder.name, 'socket')
                 self.process = subprocess.Popen([self.server, self.place], env=environment, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
                 atexit.register(self.stop, folder)

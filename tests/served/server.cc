@@ -5,6 +5,8 @@
 // at each start, and tests start it thousands of times. Each client (client.cc) that connects gets a process
 // of its own that is forked here, before MPI begins, with the client's arguments, environment, working
 // directory, files, processor affinity and resource limits, and runs the main function of source/main.cc.
+// What libraries read of the environment as they are loaded (OMP_NUM_THREADS) is that of the server, and so
+// are umask and ignored signals.
 //
 //   usage: signorini_server SOCKET      writes a line when it listens; ends with its standard input
 
@@ -135,6 +137,8 @@ namespace
     if (program == 0)
       run_program(connection);
     const int end = static_cast<int>(syscall(SYS_pidfd_open, program, 0));
+    if (end < 0)
+      kill(program, SIGKILL);
     demand(end >= 0, "pidfd_open");
     // Of the client only its end is to be noticed: what it sends is the program's to read.
     pollfd events[2] = {{end, POLLIN, 0}, {connection, 0, 0}};
@@ -177,7 +181,8 @@ __wrap_main(int argc, char **argv)
       if (connection < 0)
         continue;
       const pid_t child = fork();
-      demand(child >= 0, "fork");
+      if (child < 0)
+        std::perror("fork");
       if (child == 0)
         {
           close(listener);

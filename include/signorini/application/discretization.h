@@ -85,7 +85,8 @@ namespace Signorini
   struct NonmortarSide
   {
     bool is_second = false;
-    /// Whether that is not the automatic choice, because less of the contact is lost this way round.
+    /// Whether that is not the automatic choice, because less of the contact is lost this way round, or the
+    /// mapping has no errors.
     bool is_turned = false;
   };
 

@@ -98,6 +98,37 @@ TEST(SurfaceExtraction, TopOfABlockWithHangingNodes)
 
 // The coarse neighbours of the hanging nodes lie outside of the region: the nodes hang all the same, and
 // their parents are there.
+// At edges and corners the normal is the mean of the sides, whatever their areas.
+TEST(SurfaceExtraction, NormalsOfCreasesAreMeansOfSides)
+{
+  BodyParameters p;
+  p.upper_corner = Point<3>(1., 2., 7.);
+  p.divisions    = {1, 3, 2};
+  Bodies                       bodies(MPI_COMM_WORLD, define_bodies(MPI_COMM_WORLD, {p}, "."));
+  const NodalSpace             space(MPI_COMM_WORLD, bodies.mesh());
+  std::set<types::boundary_id> ids;
+  for (const char *const boundary : {"right", "back", "top"})
+    ids.merge(bodies.boundary_ids(0, boundary));
+  const ContactSurface surface =
+      extract_contact_surface(space, ids, [](const NodeIndex) { return FixedDirections(); }, {});
+  unsigned int n_edges = 0, n_corners = 0;
+  for (unsigned int v = 0; v < surface.mesh.vertices.size(); ++v)
+    {
+      const Point<3> &x = surface.mesh.vertices[v];
+      // On the faces x = 1, y = 2 and z = 7 in turn.
+      const Vector3 sides(
+          {x[0] > 1. - 1e-9 ? 1. : 0., x[1] > 2. - 1e-9 ? 1. : 0., x[2] > 7. - 1e-9 ? 1. : 0.});
+      const double n_sides = sides.norm_square();
+      EXPECT_LT((surface.mesh.vertex_normals[v] - sides / std::sqrt(n_sides)).norm(), 1e-14) << x;
+      n_edges += n_sides == 2.;
+      n_corners += n_sides == 3.;
+    }
+  EXPECT_EQ(n_edges, 6u);
+  EXPECT_EQ(n_corners, 1u);
+}
+
+
+
 TEST(SurfaceExtraction, HangingNodesAtTheBorderOfARegion)
 {
   BodyParameters p;

@@ -93,6 +93,7 @@ TEST(Parts, RanksTogetherMakeTheWhole)
       EXPECT_EQ(differing(whole, part, is_selected), "") << "pair " << seed;
       const MappingReport a = whole.report(), b = sum_reports(part.report(), comm);
       EXPECT_EQ(a.unmapped, b.unmapped) << "pair " << seed;
+      EXPECT_EQ(a.lost_edges, b.lost_edges) << "pair " << seed;
       EXPECT_EQ(a.n_pairs, b.n_pairs) << "pair " << seed;
       EXPECT_EQ(a.n_cells, b.n_cells) << "pair " << seed;
       EXPECT_NEAR(a.area_covered, b.area_covered, 1e-13 * a.area_nonmortar) << "pair " << seed;
