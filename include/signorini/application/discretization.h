@@ -84,6 +84,7 @@ namespace Signorini
   /// Which of the sides of a pair, in the order of its definition, is the nonmortar one.
   struct NonmortarSide
   {
+    /// The second one.
     bool is_second = false;
     /// Whether that is not the automatic choice, because less of the contact is lost this way round, or the
     /// mapping has no errors.
