@@ -84,11 +84,7 @@ namespace Signorini
     /// Whether some of unit normals are not linked with the others by steps that are no sharp edges.
     bool fall_apart(const std::vector<Vector3> &normals)
     {
-      DisjointSets sets(normals.size());
-      for (unsigned int i = 0; i < normals.size(); ++i)
-        for (unsigned int j = 0; j < i; ++j)
-          if (normals[i] * normals[j] >= FacingRule().sharp_cosine)
-            sets.unite(i, j);
+      DisjointSets sets = linked_normals(normals, FacingRule().sharp_cosine);
       for (unsigned int i = 1; i < normals.size(); ++i)
         if (sets.find(i) != sets.find(0))
           return true;

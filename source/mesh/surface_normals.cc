@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
-#include <signorini/algebra/disjoint_sets.h>
 #include <signorini/mesh/surface_normals.h>
 
 #include <map>
@@ -61,7 +60,7 @@ namespace Signorini
     struct CreaseRule
     {
       /// Faces around a vertex whose normals differ by less than 40 degrees, or are linked by such ones, are
-      /// one side of it.
+      /// one side of it. A chamfer (45 degrees) is a side of its own; on round surfaces it does not matter.
       double same_side = .766;
       /// Sides whose unit normals add up to less than this are opposite, and have no mean.
       double smallest_mean = .1;
@@ -72,11 +71,7 @@ namespace Signorini
     /// @param faces normals around the vertex, weighted
     Vector3 mean_of_sides(const std::vector<Vector3> &faces)
     {
-      DisjointSets sets(faces.size());
-      for (unsigned int i = 0; i < faces.size(); ++i)
-        for (unsigned int j = 0; j < i; ++j)
-          if (faces[i] * faces[j] >= CreaseRule().same_side * faces[i].norm() * faces[j].norm())
-            sets.unite(i, j);
+      DisjointSets                   sets = linked_normals(faces, CreaseRule().same_side);
       std::map<std::size_t, Vector3> sides;
       for (unsigned int i = 0; i < faces.size(); ++i)
         sides[sets.find(i)] += faces[i];
@@ -204,6 +199,18 @@ namespace Signorini
     const Point<3> x   = true_point(corner);
     const Vector3 area = cross_product_3d(true_point((corner + 1) % 3) - x, true_point((corner + 2) % 3) - x);
     return area.norm() > 0. ? area / area.norm() : area;
+  }
+
+
+
+  DisjointSets linked_normals(const std::vector<Vector3> &normals, const double cosine)
+  {
+    DisjointSets sets(normals.size());
+    for (unsigned int i = 0; i < normals.size(); ++i)
+      for (unsigned int j = 0; j < i; ++j)
+        if (normals[i] * normals[j] >= cosine * normals[i].norm() * normals[j].norm())
+          sets.unite(i, j);
+    return sets;
   }
 
 

@@ -4,9 +4,9 @@
 // Stands for the program where tests start it: the server (server.cc) that listens at SIGNORINI_SERVER runs
 // it with our arguments, environment, working directory and files; we end as it ends.
 
+#include "connection.h"
+
 #include <sys/resource.h>
-#include <sys/socket.h>
-#include <sys/un.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -19,21 +19,14 @@ namespace
 {
   bool send_files(const int connection)
   {
-    const int             files[3]                           = {0, 1, 2};
-    alignas(cmsghdr) char control[CMSG_SPACE(sizeof(files))] = {};
-    char                  byte                               = 0;
-    iovec                 data                               = {&byte, 1};
-    msghdr                message                            = {};
-    message.msg_iov                                          = &data;
-    message.msg_iovlen                                       = 1;
-    message.msg_control                                      = control;
-    message.msg_controllen                                   = sizeof(control);
-    cmsghdr *head                                            = CMSG_FIRSTHDR(&message);
-    head->cmsg_level                                         = SOL_SOCKET;
-    head->cmsg_type                                          = SCM_RIGHTS;
-    head->cmsg_len                                           = CMSG_LEN(sizeof(files));
+    const int    files[3] = {0, 1, 2};
+    FilesMessage message;
+    cmsghdr     *head = CMSG_FIRSTHDR(&message.head);
+    head->cmsg_level  = SOL_SOCKET;
+    head->cmsg_type   = SCM_RIGHTS;
+    head->cmsg_len    = CMSG_LEN(sizeof(files));
     std::memcpy(CMSG_DATA(head), files, sizeof(files));
-    return sendmsg(connection, &message, MSG_NOSIGNAL) == 1;
+    return sendmsg(connection, &message.head, MSG_NOSIGNAL) == 1;
   }
 } // namespace
 
@@ -42,15 +35,13 @@ namespace
 int
 main()
 {
-  const char *const place   = std::getenv("SIGNORINI_SERVER");
-  sockaddr_un       address = {};
-  address.sun_family        = AF_UNIX;
-  if (!place || std::strlen(place) >= sizeof(address.sun_path))
+  const char *const place = std::getenv("SIGNORINI_SERVER");
+  sockaddr_un       address;
+  if (!place || !set_address(address, place))
     {
       std::fprintf(stderr, "signorini_client: SIGNORINI_SERVER should be the socket of signorini_server.\n");
       return 125;
     }
-  std::strcpy(address.sun_path, place);
   const int connection = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
   int       status;
   if (connect(connection, reinterpret_cast<const sockaddr *>(&address), sizeof(address)) != 0 ||

@@ -10,13 +10,12 @@
 //
 //   usage: signorini_server SOCKET      writes a line when it listens; ends with its standard input
 
-#include <fcntl.h>
+#include "connection.h"
+
 #include <poll.h>
 #include <sched.h>
 #include <sys/resource.h>
-#include <sys/socket.h>
 #include <sys/syscall.h>
-#include <sys/un.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -75,16 +74,9 @@ namespace
   /// Standard input, output and error become those that the client sends.
   void take_files(const int connection)
   {
-    alignas(cmsghdr) char control[CMSG_SPACE(3 * sizeof(int))];
-    char                  byte;
-    iovec                 data    = {&byte, 1};
-    msghdr                message = {};
-    message.msg_iov               = &data;
-    message.msg_iovlen            = 1;
-    message.msg_control           = control;
-    message.msg_controllen        = sizeof(control);
-    demand(recvmsg(connection, &message, 0) == 1, "files of the client");
-    const cmsghdr *head = CMSG_FIRSTHDR(&message);
+    FilesMessage message;
+    demand(recvmsg(connection, &message.head, 0) == 1, "files of the client");
+    const cmsghdr *head = CMSG_FIRSTHDR(&message.head);
     demand(head && head->cmsg_type == SCM_RIGHTS, "files of the client");
     int files[3];
     std::memcpy(files, CMSG_DATA(head), sizeof(files));
@@ -159,14 +151,12 @@ extern "C" int
 __wrap_main(int argc, char **argv)
 {
   std::signal(SIGCHLD, SIG_IGN);
-  sockaddr_un address = {};
-  address.sun_family  = AF_UNIX;
-  if (argc != 2 || std::strlen(argv[1]) >= sizeof(address.sun_path))
+  sockaddr_un address;
+  if (argc != 2 || !set_address(address, argv[1]))
     {
       std::fprintf(stderr, "usage: signorini_server SOCKET\n");
       return 2;
     }
-  std::strcpy(address.sun_path, argv[1]);
   const int listener = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
   demand(bind(listener, reinterpret_cast<const sockaddr *>(&address), sizeof(address)) == 0, argv[1]);
   demand(listen(listener, 64) == 0, argv[1]);

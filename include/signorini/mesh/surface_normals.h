@@ -4,9 +4,11 @@
 #ifndef signorini_mesh_surface_normals_h
 #define signorini_mesh_surface_normals_h
 
+#include <signorini/algebra/disjoint_sets.h>
 #include <signorini/mesh/contact_surface.h>
 
 #include <functional>
+#include <vector>
 
 namespace Signorini
 {
@@ -20,11 +22,14 @@ namespace Signorini
   /// Unit normal of the true surface over a triangle at a corner of it (0, 1 or 2); zero if it has none.
   Vector3 true_normal(const ContactSurface &surface, const unsigned int triangle, const unsigned int corner);
 
+  /// Normals, of any length, that are linked by steps of less than an angle with this cosine.
+  DisjointSets linked_normals(const std::vector<Vector3> &normals, const double cosine);
+
   /// Sets the vertex normals of a contact surface. The one rule: every face gives its normal at each of its
   /// corners, that of its shape where there is one (a curved patch of the start mesh is a shape), else its
   /// own; they are added with the areas of the faces, and at creases the sides count alike, whatever their
-  /// areas. Hanging vertices without a shape have the mean of their
-  /// parents. In the end normals are projected onto the free directions of the vertex.
+  /// areas. Hanging vertices without a shape have the mean of their parents. In the end normals are projected
+  /// onto the free directions of the vertex.
   /// @param counts whether a face counts at a vertex of it; all of them if empty
   void set_normals(ContactSurface &surface, const SurfaceShapes &shapes,
                    const std::function<bool(unsigned int face, unsigned int vertex)> &counts = {});

@@ -96,8 +96,6 @@ TEST(SurfaceExtraction, TopOfABlockWithHangingNodes)
 
 
 
-// The coarse neighbours of the hanging nodes lie outside of the region: the nodes hang all the same, and
-// their parents are there.
 // At edges and corners the normal is the mean of the sides, whatever their areas.
 TEST(SurfaceExtraction, NormalsOfCreasesAreMeansOfSides)
 {
@@ -129,6 +127,8 @@ TEST(SurfaceExtraction, NormalsOfCreasesAreMeansOfSides)
 
 
 
+// The coarse neighbours of the hanging nodes lie outside of the region: the nodes hang all the same, and
+// their parents are there.
 TEST(SurfaceExtraction, HangingNodesAtTheBorderOfARegion)
 {
   BodyParameters p;
