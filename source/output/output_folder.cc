@@ -229,10 +229,13 @@ namespace Signorini
     const std::string process = std::to_string(getpid());
     const std::string start   = in_place ? target + "/.signorini-part-" : target + ".part-";
     fs::create_directories(fs::path(start).parent_path());
+    // No signal may come before the folder is known to be ours.
+    const TerminationWatch::Delay delay;
     // The same process number may be that of another computer.
     for (unsigned int attempt = 0; temporary.empty(); ++attempt)
       if (const std::string name = start + process + std::string(attempt, '+'); fs::create_directory(name))
         temporary = name + "/";
+    TerminationWatch::guard(temporary, last_words(), delay);
     const auto        time = std::chrono::system_clock::now().time_since_epoch().count();
     const std::string id   = this_host() + " " + process + " " + std::to_string(time);
     try
@@ -241,6 +244,7 @@ namespace Signorini
       }
     catch (...)
       {
+        TerminationWatch::release(temporary, delay);
         fs::remove_all(temporary);
         throw;
       }
@@ -271,11 +275,11 @@ namespace Signorini
 
   OutputFolder::~OutputFolder()
   {
-    TerminationWatch::release(temporary);
     // On every rank: after an error that one rank alone has met, the others never come here.
     std::error_code ignored;
     if (!committed)
       fs::remove_all(temporary, ignored);
+    TerminationWatch::release(temporary);
   }
 
 

@@ -105,7 +105,13 @@ namespace Signorini
 
   void TerminationWatch::guard(const std::string &folder, const std::string &message)
   {
-    const Delay delay;
+    guard(folder, message, Delay());
+  }
+
+
+
+  void TerminationWatch::guard(const std::string &folder, const std::string &message, const Delay &)
+  {
     guarded().message_of[folder] = message;
   }
 

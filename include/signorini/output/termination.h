@@ -35,6 +35,9 @@ namespace Signorini
     /// @param message none if empty
     static void guard(const std::string &folder, const std::string &message);
 
+    /// The same for one who has a Delay.
+    static void guard(const std::string &folder, const std::string &message, const Delay &delay);
+
     /// The folder stays from now on.
     static void release(const std::string &folder);
 

@@ -3,17 +3,42 @@
 
 #include <signorini/algebra/input_error.h>
 #include <signorini/output/output_folder.h>
+#include <signorini/output/termination.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <csignal>
 #include <filesystem>
+#include <thread>
 
+#include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 using namespace Signorini;
 namespace fs = std::filesystem;
+
+namespace
+{
+  /// Whether a signal comes as soon as a folder has been made.
+  bool signal_comes = false;
+} // namespace
+
+/// In place of libc's, for libstdc++ too.
+extern "C" int
+mkdir(const char *path, const mode_t mode) noexcept
+{
+  const int result = mkdirat(AT_FDCWD, path, mode);
+  if (result == 0 && signal_comes)
+    {
+      kill(getpid(), SIGTERM);
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+  return result;
+}
 
 namespace
 {
@@ -62,6 +87,23 @@ TEST_F(OutputFolders, NothingIsLeftWithoutCommit)
     OutputFolder folder(base + "/out", MPI_COMM_WORLD);
     EXPECT_EQ(n_entries(), 1u);
   }
+  EXPECT_EQ(n_entries(), 0u);
+}
+
+TEST_F(OutputFolders, NothingIsLeftBySignalAtTheFirstMoment)
+{
+  if (is_root())
+    {
+      const auto begin = [this] {
+        std::signal(SIGTERM, SIG_DFL);
+        TerminationWatch::start();
+        signal_comes = true;
+        const OutputFolder folder(base + "/out", MPI_COMM_SELF);
+        alarm(20);
+        pause();
+      };
+      EXPECT_EXIT(begin(), testing::KilledBySignal(SIGTERM), "no results were written");
+    }
   EXPECT_EQ(n_entries(), 0u);
 }
 
