@@ -379,6 +379,27 @@ namespace Signorini
       std::tie(pair.max_recovered_pressure, pair.max_recovered_pressure_at) = Utilities::MPI::broadcast(
           comm, std::make_tuple(pair.max_recovered_pressure, pair.max_recovered_pressure_at), 0);
     }
+
+    /// PairResult::pressure_scatter. A median: at the edge of a contact and at sharp edges of bodies the
+    /// pressure is far from its mean on any mesh.
+    double scatter(const std::vector<PressureRow> &rows)
+    {
+      std::vector<std::pair<double, double>> difference_and_load;
+      double                                 load = 0.;
+      for (const PressureRow &row : rows)
+        if (row.active && row.recovered_pressure > 0.)
+          {
+            difference_and_load.emplace_back(std::abs(row.pressure / row.recovered_pressure - 1.),
+                                             row.area * row.recovered_pressure);
+            load += difference_and_load.back().second;
+          }
+      std::sort(difference_and_load.begin(), difference_and_load.end());
+      double sum = 0.;
+      for (const auto &[difference, part] : difference_and_load)
+        if ((sum += part) >= .5 * load)
+          return difference;
+      return 0.;
+    }
   } // namespace
 
 
@@ -392,6 +413,8 @@ namespace Signorini
         result.pairs.push_back(evaluate_pair(d, solution, p));
         const auto rows = pressure_rows(model.bodies(), d, solution.stress, p);
         find_largest_recovered(result.pairs.back(), rows, model.communicator());
+        result.pairs.back().pressure_scatter =
+            Utilities::MPI::broadcast(model.communicator(), scatter(rows), 0);
         result.pressure.insert(result.pressure.end(), rows.begin(), rows.end());
         const auto mortar = mortar_pressure_rows(model.bodies(), d, solution.stress, p);
         result.mortar_pressure.insert(result.mortar_pressure.end(), mortar.begin(), mortar.end());

@@ -77,7 +77,8 @@ namespace Signorini
     a(r.max_pressure, r.contact_area, r.coverage, r.min_gap, r.max_penetration, r.initial_penetration);
     a(r.loaded_gap, r.lost_area, r.load, r.approach, r.gap_doubt, r.moment_balance, r.dropped_nodes,
       r.max_pressure_at, r.min_gap_at);
-    a(r.slip, r.slip_in_faces, r.mean_pressure, r.max_recovered_pressure, r.max_recovered_pressure_at);
+    a(r.slip, r.slip_in_faces, r.mean_pressure, r.max_recovered_pressure, r.max_recovered_pressure_at,
+      r.pressure_scatter);
   }
 
   template <typename Archive>

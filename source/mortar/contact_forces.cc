@@ -103,6 +103,19 @@ namespace Signorini
             for (unsigned int b = 0; b < surface.faces[m.face].n_corners; ++b)
               visit(m, a, b);
     }
+
+    /// How much the multiplier of corner b counts in the mean of corner a on the covered part of a face
+    /// (area): ∫φ_a φ_b, or on triangles ∫φ_a times the share of b in the mean over the face.
+    double weight_in_mean(const ContactSurface &surface, const FaceMoments &m, const unsigned int a,
+                          const unsigned int b)
+    {
+      if (surface.faces[m.face].n_corners != 3)
+        return m.mass[4 * a + b];
+      const auto integral = [&m](const unsigned int c) {
+        return m.mass[4 * c] + m.mass[4 * c + 1] + m.mass[4 * c + 2];
+      };
+      return integral(a) * integral(b) / m.covered;
+    }
   } // namespace
 
 
@@ -132,8 +145,11 @@ namespace Signorini
     for_each_corner_pair(nonmortar, moments,
                          [&](const FaceMoments &m, const unsigned int a, const unsigned int b) {
                            const auto &corners = nonmortar.faces[m.face].corners;
-                           if (const double mass = m.mass[4 * a + b]; nodal[corners[b]].has_pressure)
-                             own[corners[a]].add(mass * nodal[corners[b]].value, mass);
+                           if (nodal[corners[b]].has_pressure)
+                             {
+                               const double weight = weight_in_mean(nonmortar, m, a, b);
+                               own[corners[a]].add(weight * nodal[corners[b]].value, weight);
+                             }
                          });
     halo.update(own);
     for_each_corner_pair(nonmortar, moments,

@@ -155,6 +155,7 @@ namespace Signorini
       json.number("mean_pressure", pair.mean_pressure);
       json.number("max_recovered_pressure", pair.max_recovered_pressure);
       json.vector("max_recovered_pressure_at", Vector3(pair.max_recovered_pressure_at));
+      json.number("pressure_scatter", pair.pressure_scatter);
       json.number("contact_area", pair.contact_area);
       json.number("coverage", pair.coverage);
       json.number("min_gap", pair.min_gap);

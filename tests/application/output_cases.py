@@ -72,6 +72,35 @@ def check_bodies(s, data, single):
         near(numpy.linalg.norm(data['displacement'][body == b].astype(float), axis=1).max(), entry['largest_displacement'], 1e-6, 'largest displacement')
 
 
+def check_scatter(pair, rows):
+    """Half of the load is where pressures differ more from the recovered ones."""
+    rows = [r for r in rows if r['active']]
+    load = [r['area'] * r['recovered_pressure'] for r in rows]
+    far = [abs(r['pressure'] - r['recovered_pressure']) / r['recovered_pressure'] for r in rows]
+    for slightly, share in ((1 - 1e-6, 1.), (1 + 1e-6, 0.)):
+        part = sum(w for w, x in zip(load, far) if x > slightly * pair['pressure_scatter']) / sum(load)
+        check(part >= .5 if share else part <= .5, f'scatter {pair["pressure_scatter"]}: {part} of the load beyond it')
+
+
+def check_recovered_on_triangles(p, folder):
+    """The mean of the pressure on each triangle, and of these around a node."""
+    import numpy
+    out, s = run(p, folder, CUBES, *[f'Body {body}/Convert to tetrahedra=true' for body in ('upper', 'lower')], 'Refinement/Global cycles=1',
+                 'Solver/Compare linear multigrid=false', 'Output/Precision=double')
+    check_scatter(s['pairs'][0], read_pressure(os.path.join(out, 'pressure.csv')))
+    data = read_pieces(out, 'contact-interface.pvtu')
+    nodes = data['node'][:, 0]
+    corners = data['connectivity'].reshape(-1, 3)
+    a, b, c = (data['points'][corners[:, k]] for k in range(3))
+    area = numpy.linalg.norm(numpy.cross(b - a, c - a), axis=1) / 2
+    mean = data['pressure'][corners, 0].mean(axis=1)
+    for node in set(nodes.tolist()):
+        around = (nodes[corners] == node).any(axis=1)
+        expected = (area * mean)[around].sum() / area[around].sum()
+        for found in data['recovered pressure'][nodes == node, 0]:
+            check(abs(found - expected) <= 1e-10 * s['pairs'][0]['max_pressure'], f'recovered pressure of node {node}: {found}, {expected}')
+
+
 def check_pressure(s, out):
     """Both sides: forces, areas, the values of the summary, and those of the surfaces at the same nodes."""
     pair = s['pairs'][0]
@@ -92,6 +121,7 @@ def check_pressure(s, out):
     highest = max(rows['nonmortar'], key=lambda r: r['recovered_pressure'])
     near(pair['max_recovered_pressure'], highest['recovered_pressure'], 1e-12, 'largest recovered pressure')
     check([highest[c] for c in 'xyz'] == pair['max_recovered_pressure_at'], 'place of the largest recovered pressure')
+    check_scatter(pair, rows['nonmortar'])
     for side, name in (('nonmortar', 'contact-interface.pvtu'), ('mortar', 'contact-interface-mortar.pvtu')):
         data = read_pieces(out, name)
         at = dict(zip(data['node'][:, 0].tolist(), range(len(data['node']))))
@@ -133,6 +163,7 @@ def output_files(p):
             found[precision] = data
             check_pressure(s, out)
             check_blocks(out)
+        check_recovered_on_triangles(p, folder)
         for key in ('points', 'displacement', 'stress', 'indicator'):
             a, b = found['single'][key], found['double'][key]
             check(abs(a - b).max() <= 1e-6 * abs(b).max() and abs(a - b).max() > 0, f'{key}: single and double')

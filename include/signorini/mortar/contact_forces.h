@@ -51,7 +51,8 @@ namespace Signorini
   };
 
   /// Collective. A smoother contact pressure than the multipliers, by vertex of the nonmortar surface: the
-  /// means int phi_v lambda_h / int phi_v over the covered part, with lambda_h = sum lambda_p phi_p. The
+  /// means int phi_v lambda_h / int phi_v over the covered part (doc/algorithm.md, (66)). On quadrilaterals
+  /// lambda_h = sum lambda_p phi_p; on triangles, where multipliers scatter more, its mean on each face. The
   /// total force and constants stay, what jumps from node to node goes. Vertices without a multiplier do not
   /// count; without any near them the mean is zero. Given at the vertices of this rank and at the corners of
   /// its faces.

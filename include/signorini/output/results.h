@@ -81,6 +81,10 @@ namespace Signorini
     /// (recover_pressure()), and where it is.
     double           mean_pressure = 0., max_recovered_pressure = 0.;
     dealii::Point<3> max_recovered_pressure_at;
+    /// How far nodal pressures are from the recovered ones: half of the load is on nodes whose pressure
+    /// differs by more than this share of the recovered one. Noise of the mesh, or a contact too narrow for
+    /// it.
+    double pressure_scatter = 0.;
     /// How far the surfaces slide on each other where they touch (length), and in multiples of the width of
     /// the faces there.
     double slip = 0., slip_in_faces = 0.;

@@ -62,6 +62,28 @@ TEST(FinalWords, ErrorsThatDoNotMatterAreSaidOnce)
       << text;
 }
 
+TEST(FinalWords, TellScatterOfPressures)
+{
+  const auto words = [](const double scatter) {
+    Results results;
+    results.pairs.emplace_back();
+    PairResult &pair            = results.pairs.back();
+    pair.load                   = 1.;
+    pair.contact_area           = 1.;
+    pair.max_pressure           = 2.;
+    pair.max_recovered_pressure = 1.5;
+    pair.pressure_scatter       = scatter;
+    std::ostringstream out;
+    print_final_words(out, results);
+    return out.str();
+  };
+  EXPECT_EQ(words(.02).find("scatter"), std::string::npos) << words(.02);
+  EXPECT_NE(words(.123).find("smoothed 1.5\n  pressures of nodes scatter: half of the load is on nodes that "
+                             "differ by more than 12 % from the smoothed pressure\n"),
+            std::string::npos)
+      << words(.123);
+}
+
 // Damaged surfaces: what covers a triangle twice or not at all, or a surface more than once, is the last
 // thing that is read, whatever else has been printed.
 TEST(FinalWords, WarnOfMappingErrors)
