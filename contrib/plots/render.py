@@ -6,7 +6,7 @@
   mesh.png                the cells, one colour for each body
   displacement.png        size of the displacement, with isolines, on the deformed bodies
   von-mises.png           von Mises stress on the deformed bodies
-  contact-pressure.png    on the nonmortar surfaces, seen from where they face
+  contact-pressure.png    on the nonmortar surfaces, seen from where they face; the smoothed one where nodes scatter
   gap.png                 what is left of the gap, on the same surfaces
   isosurfaces.png         with --isosurfaces: surfaces of equal stress or displacement inside of the bodies
 """
@@ -449,10 +449,15 @@ def view_of(surfaces):
     return list(total + .7 * (side - (side @ total) * total))
 
 
-def draw_contact(arguments, paths, title):
+def scatters(summary):
+    """Whether nodal pressures are so far from the smoothed ones that the end of the run says so."""
+    return any(pair.get('pressure_scatter', 0.) > .05 for pair in summary.get('pairs', []))
+
+
+def draw_contact(arguments, paths, title, is_smoothed):
     surfaces = [smooth(surface_of(warped(read(path), arguments.deform))) for path in paths]
     view = arguments.pressure_view or view_of(surfaces)
-    for name, field, label, colours in (('contact-pressure', 'pressure', 'contact pressure', HEAT), ('gap', 'gap', 'gap', plt.get_cmap('viridis_r'))):
+    for name, field, label, colours in (('contact-pressure', 'recovered pressure' if is_smoothed else 'pressure', 'contact pressure' + ', smoothed' * is_smoothed, HEAT), ('gap', 'gap', 'gap', plt.get_cmap('viridis_r'))):
         values = numpy.concatenate([values_of(s, field) for s in surfaces])
         low, high = values.min(), values.max()
         if field == 'gap':
@@ -463,9 +468,9 @@ def draw_contact(arguments, paths, title):
         scene = Scene(view, arguments.up)
         for surface in surfaces:
             scene.add(actor(surface, field=field, shown=look), edges_of(surface))
-        of = f'largest {label}: {picture.number(high)}' if field == 'pressure' else f'gap from {picture.number(low)} to {picture.number(high)}'
+        of = f'largest {label}: {picture.number(high)}' if field != 'gap' else f'gap from {picture.number(low)} to {picture.number(high)}'
         if low == high == 0.:
-            of = 'no contact pressure' if field == 'pressure' else 'closed everywhere'
+            of = 'no contact pressure' if field != 'gap' else 'closed everywhere'
         write(arguments.folder, name, scene.image(), f'{title}, nonmortar side\n{of}', look if high > low else None, label)
 
 
@@ -483,7 +488,7 @@ def main(arguments):
         if arguments.isosurfaces:
             draw_isosurfaces(arguments, grid, title)
     if pairs:
-        draw_contact(arguments, pairs, title)
+        draw_contact(arguments, pairs, title, scatters(summary))
 
 
 if __name__ == '__main__':

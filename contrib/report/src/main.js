@@ -2,7 +2,7 @@
 import {Scene, csv, json} from './data.js';
 import {format, h, number, section, select, table} from './dom.js';
 import {chart} from './charts.js';
-import {Store, bodiesSection, contactSection} from './views.js';
+import {Store, bodiesSection, contactSection, scatters} from './views.js';
 import {verificationPage} from './verification.js';
 
 const unitText = unit => (unit ? ` ${unit}` : '');
@@ -34,7 +34,7 @@ function verdict(s, run) {
 function cards(s, {units}) {
   const last = s.cycles.length - 1, cycle = `cycles.${last}`;
   const list = s.pairs.map((pair, p) => pair.load > 0 || Math.hypot(...pair.force) > 0
-    ? card(`${pair.name}: contact force`, [format(Math.hypot(...pair.force)), unitText(units.force)], 'largest pressure ', number(s, `pairs.${p}.max_pressure`), unitText(units.stress), ', area ', number(s, `pairs.${p}.contact_area`), units.length && ` ${units.length}²`)
+    ? card(`${pair.name}: contact force`, [format(Math.hypot(...pair.force)), unitText(units.force)], 'largest pressure ', number(s, `pairs.${p}.max_pressure`), unitText(units.stress), scatters(pair) && [', smoothed ', number(s, `pairs.${p}.max_recovered_pressure`), unitText(units.stress)], ', area ', number(s, `pairs.${p}.contact_area`), units.length && ` ${units.length}²`)
     : card(`${pair.name}: contact force`, '0', 'the surfaces are separated'));
   s.bodies.forEach((body, b) => list.push(card(`${body.name}: largest displacement`, [number(s, `bodies.${b}.largest_displacement`), unitText(units.length)], 'largest von Mises stress ', number(s, `bodies.${b}.largest_von_mises`), unitText(units.stress))));
   list.push(card('Displacements are small', s.displacements_are_small ? 'yes' : 'NO', 'largest rotation ', format((Math.max(0, ...s.bodies.map(b => b.largest_rotation)) * 180) / Math.PI, 2), '°'));
@@ -66,7 +66,7 @@ function forces(s, {units}) {
     s.pairs.length > 0 && h('h3', {}, 'Contact'),
     s.pairs.length > 0 && table(['', ...s.pairs.map(pair => pair.name)], [
       [`force on the nonmortar side${f}`, 'force'], [`force on the mortar side${f}`, 'force_on_mortar'], [`moment about the origin${m}`, 'moment'], [`integral of the pressure${f}`, 'load'],
-      [`centre of pressure${l}`, 'centre_of_pressure'], [`largest pressure${p}`, 'max_pressure'], [`where${l}`, 'max_pressure_at'], [`smallest pressure${p}`, 'min_pressure'], [`contact area${a}`, 'contact_area'],
+      [`centre of pressure${l}`, 'centre_of_pressure'], [`largest pressure${p}`, 'max_pressure'], [`where${l}`, 'max_pressure_at'], [`largest pressure, smoothed${p}`, 'max_recovered_pressure'], ['scatter of nodal pressures', 'pressure_scatter'], [`smallest pressure${p}`, 'min_pressure'], [`contact area${a}`, 'contact_area'],
       [`approach${l}`, 'approach'], [`smallest gap${l}`, 'min_gap'], [`slip${l}`, 'slip'], ['slip in faces', 'slip_in_faces'],
     ].map(([name, key]) => [name, ...s.pairs.map((_, i) => number(s, `pairs.${i}.${key}`))])),
     h('h3', {}, 'Largest values'),

@@ -7,6 +7,11 @@ import {chart} from './charts.js';
 const names = {pressure: 'contact pressure', recovered_pressure: 'contact pressure, smoothed', gap: 'gap', von_Mises: 'von Mises stress', 'displacement length': 'displacement'};
 const contactFields = ['pressure', 'recovered_pressure', 'gap'];
 
+// Whether nodal pressures are so far from the smoothed ones that the end of the run says so.
+export function scatters(pair) {
+  return pair.pressure_scatter > 0.05;
+}
+
 function unitOf(name, units) {
   return name === 'gap' || name === 'displacement length' ? units.length : units.stress;
 }
@@ -331,7 +336,7 @@ function profiles(scene, side, pair, units) {
 
 export function contactSection(scene, context) {
   const {sides} = scene, {pairs, units, store} = context;
-  const panel = new Panel({id: 'contact-panel', scene, surfaces: sides, fields: contactFields, ...context});
+  const panel = new Panel({id: 'contact-panel', scene, surfaces: sides, fields: pairs.some(scatters) ? ['recovered_pressure', 'pressure', 'gap'] : contactFields, ...context});
   const profile = h('div', {});
   let chosen = 0, curve = null;
   const look = isWhole => {
