@@ -222,14 +222,16 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument('folder', metavar='FOLDER', help='of the results')
     parser.add_argument('--pair', metavar='NAME', help='draw this contact pair only (default all)')
-    parser.add_argument('--field', choices=('pressure', 'recovered_pressure'), default='pressure',
-                        help='the multiplier, or its mean around each node, which does not scatter on tetrahedra (default pressure)')
+    parser.add_argument('--field', choices=('pressure', 'recovered_pressure'),
+                        help='the multiplier, or its mean around each node, which scatters less on tetrahedra (default: the mean where the run says that nodes scatter)')
     parser.add_argument('--centre', type=vector, metavar='X,Y,Z', help='of contact: draws the pressure over the distance from there')
     parser.add_argument('--hertz', metavar='FILE', help="JSON file with radius, centre (the origin if it is left out), E1, nu1, E2, nu2 and symmetry (the number "
                         "of copies of the model that make up the whole): draws Hertz' solution for the computed force as well")
     parser.add_argument('--no-unrolled', action='store_true', help='no pictures of cylinders unrolled')
     arguments = parser.parse_args(picture.command_line())
     summary = picture.read_summary(arguments.folder, TOOL)
+    if not arguments.field:
+        arguments.field = 'recovered_pressure' if any(pair.get('scatter_is_told') for pair in summary.get('pairs', [])) else 'pressure'
     table = picture.read_pressure(arguments.folder, TOOL)
     if not table:
         picture.fail(TOOL, 'there are no contact nodes in pressure.csv.')

@@ -449,11 +449,6 @@ def view_of(surfaces):
     return list(total + .7 * (side - (side @ total) * total))
 
 
-def scatters(summary):
-    """Whether nodal pressures are so far from the smoothed ones that the end of the run says so."""
-    return any(pair.get('pressure_scatter', 0.) > .05 for pair in summary.get('pairs', []))
-
-
 def draw_contact(arguments, paths, title, is_smoothed):
     surfaces = [smooth(surface_of(warped(read(path), arguments.deform))) for path in paths]
     view = arguments.pressure_view or view_of(surfaces)
@@ -488,7 +483,8 @@ def main(arguments):
         if arguments.isosurfaces:
             draw_isosurfaces(arguments, grid, title)
     if pairs:
-        draw_contact(arguments, pairs, title, scatters(summary))
+        # All pairs have one scale.
+        draw_contact(arguments, pairs, title, any(pair.get('scatter_is_told') for pair in summary.get('pairs', [])))
 
 
 if __name__ == '__main__':

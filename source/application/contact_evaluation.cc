@@ -15,6 +15,8 @@
 
 #include <deal.II/base/utilities.h>
 
+#include <algorithm>
+
 namespace Signorini
 {
   using namespace dealii;
@@ -387,10 +389,10 @@ namespace Signorini
       std::vector<std::pair<double, double>> difference_and_load;
       double                                 load = 0.;
       for (const PressureRow &row : rows)
-        if (row.active && row.recovered_pressure > 0.)
+        if (row.active && row.pressure > 0. && row.recovered_pressure > 0.)
           {
             difference_and_load.emplace_back(std::abs(row.pressure / row.recovered_pressure - 1.),
-                                             row.area * row.recovered_pressure);
+                                             row.area * row.pressure);
             load += difference_and_load.back().second;
           }
       std::sort(difference_and_load.begin(), difference_and_load.end());
@@ -413,8 +415,10 @@ namespace Signorini
         result.pairs.push_back(evaluate_pair(d, solution, p));
         const auto rows = pressure_rows(model.bodies(), d, solution.stress, p);
         find_largest_recovered(result.pairs.back(), rows, model.communicator());
-        result.pairs.back().pressure_scatter =
-            Utilities::MPI::broadcast(model.communicator(), scatter(rows), 0);
+        // Ties pull and push.
+        if (!d.pairs[p].is_tied)
+          result.pairs.back().pressure_scatter =
+              Utilities::MPI::broadcast(model.communicator(), scatter(rows), 0);
         result.pressure.insert(result.pressure.end(), rows.begin(), rows.end());
         const auto mortar = mortar_pressure_rows(model.bodies(), d, solution.stress, p);
         result.mortar_pressure.insert(result.mortar_pressure.end(), mortar.begin(), mortar.end());

@@ -139,10 +139,17 @@ namespace Signorini
   std::vector<OutputField> mortar_fields(const Discretization &d, const ContactSolution &solution,
                                          const unsigned int p)
   {
-    const ContactSurface &surface = d.pairs[p].mortar.surface;
-    const ContactStress   stress  = stress_of_pair(d, solution.stress, p);
+    const ContactPair        &pair    = d.pairs[p];
+    const ContactSurface     &surface = pair.mortar.surface;
+    const ContactStress       stress  = stress_of_pair(d, solution.stress, p);
+    const std::vector<double> recovered =
+        recover_pressure(pair.nonmortar.surface, *pair.halo, pair.moments, d.couplings[p], stress.pressure);
+    std::vector<double> of_rows;
+    for (const unsigned int vertex : d.couplings[p].vertices)
+      of_rows.push_back(recovered[vertex]);
     return {field_of("displacement", vertex_values(surface, d.partition(), solution.displacement)),
             {"pressure", 1, mortar_means(surface, d.couplings[p], stress.pressure, d.partition())},
+            {"recovered pressure", 1, mortar_means(surface, d.couplings[p], of_rows, d.partition())},
             field_of("traction", mortar_means(surface, d.couplings[p], stress.traction, d.partition())),
             field_of("normal", surface.mesh.vertex_normals)};
   }

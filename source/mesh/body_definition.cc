@@ -38,9 +38,9 @@ namespace Signorini
   {
     if (triangulation.has_hanging_nodes())
       throw InputError("The mesh of a body must not have hanging nodes; refine it as part of the problem.");
-    VolumeMesh                              mesh;
-    std::vector<unsigned int>               number(triangulation.n_vertices(), VolumeMesh::no_vertex);
-    std::map<VolumeMesh::Face, std::string> named;
+    VolumeMesh                mesh;
+    std::vector<unsigned int> number(triangulation.n_vertices(), VolumeMesh::no_vertex);
+    FaceNames                 named;
     for (const auto &cell : triangulation.active_cell_iterators())
       {
         const unsigned int n = cell->n_vertices();
@@ -61,10 +61,10 @@ namespace Signorini
           }
         for (const unsigned int f : cell->face_indices())
           if (cell->face(f)->at_boundary())
-            named[face_vertices(cell->face(f), number)] =
-                name_of(boundary_names, cell->face(f)->boundary_id());
+            named.of_face[face_vertices(cell->face(f), number)] = {
+                index_of(named.names, name_of(boundary_names, cell->face(f)->boundary_id()))};
       }
-    name_faces(mesh, named);
+    name_faces(mesh, find_boundary_faces(mesh), std::move(named));
     return mesh;
   }
 

@@ -183,32 +183,13 @@ namespace Signorini
 
   void name_faces(VolumeMesh &mesh, const BoundaryOfCells &boundary, const NamedFaces &named)
   {
-    mesh.faces.clear();
-    std::map<std::vector<unsigned int>, unsigned int> boundary_of;
-    std::vector<std::vector<unsigned int>>            members(named.size());
-    for (const auto &[face, cell] : boundary)
-      {
-        std::vector<unsigned int> names;
-        for (unsigned int i = 0; i < named.size(); ++i)
-          if (named[i].second.count(face_key(face)) > 0)
-            names.push_back(i);
-        const auto [it, is_new] =
-            boundary_of.insert({names, static_cast<unsigned int>(mesh.boundary_names.size())});
-        if (is_new)
-          {
-            std::string name;
-            for (const unsigned int i : names)
-              {
-                name += (name.empty() ? "" : " & ") + named[i].first;
-                members[i].push_back(it->second);
-              }
-            mesh.boundary_names.push_back(names.empty() ? "unnamed" : name);
-          }
-        mesh.faces.push_back({face, it->second});
-      }
+    FaceNames names;
     for (unsigned int i = 0; i < named.size(); ++i)
-      if (members[i].size() > 1 ||
-          (members[i].size() == 1 && mesh.boundary_names[members[i][0]] != named[i].first))
-        mesh.boundary_groups.emplace_back(named[i].first, members[i]);
+      {
+        names.names.push_back(named[i].first);
+        for (const VolumeMesh::Face &face : named[i].second)
+          names.of_face[face].insert(i);
+      }
+    name_faces(mesh, boundary, std::move(names));
   }
 } // namespace Signorini

@@ -11,6 +11,7 @@
 #include <signorini/mesh/separate_process.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/base/patterns.h>
 
 #include <filesystem>
 #include <map>
@@ -19,17 +20,6 @@
 namespace Signorini
 {
   using namespace dealii;
-
-  unsigned int index_of(std::vector<std::string> &names, const std::string &name)
-  {
-    const auto it = std::find(names.begin(), names.end(), name);
-    if (it != names.end())
-      return static_cast<unsigned int>(it - names.begin());
-    names.push_back(name);
-    return static_cast<unsigned int>(names.size()) - 1;
-  }
-
-
 
   namespace
   {
@@ -56,16 +46,34 @@ namespace Signorini
       return name;
     }
 
-    /// The name of the physical group of an entity, its id as text, or `fallback`.
-    std::string group_name(const int dimension, const int entity, const std::string &fallback)
+    /// The names of the physical groups of an entity, or their ids as texts.
+    std::vector<std::string> group_names(const int dimension, const int entity)
     {
       std::vector<int> groups;
       gmsh::model::getPhysicalGroupsForEntity(dimension, entity, groups);
-      if (groups.empty())
-        return fallback;
-      std::string name;
-      gmsh::model::getPhysicalName(dimension, groups[0], name);
-      return name.empty() ? std::to_string(std::abs(groups[0])) : name;
+      std::vector<std::string> names;
+      for (const int group : groups)
+        {
+          // Negative where the group has the entity turned round, as Boundary{} gives them.
+          const int   id = std::abs(group);
+          std::string name;
+          gmsh::model::getPhysicalName(dimension, id, name);
+          names.push_back(name.empty() ? std::to_string(id) : name);
+        }
+      return names;
+    }
+
+    /// The name of a volume. A note if there are several, for cells have one.
+    std::string volume_name(const int entity, const std::string &file, std::vector<std::string> &notes)
+    {
+      const std::vector<std::string> names = group_names(3, entity);
+      if (names.empty())
+        return "unnamed";
+      if (names.size() > 1)
+        notes.push_back("Mesh file \"" + file + "\": volume " + std::to_string(entity) +
+                        " is in the physical groups " + Patterns::Tools::to_string(names) +
+                        ": only the first of these names counts.");
+      return names[0];
     }
 
     /// Elements of one entity: its number, the vertices of an element, and the node tags.
@@ -184,12 +192,13 @@ namespace Signorini
     }
 
     /// Names the faces of an element with n nodes that are faces of cells.
-    void name_element(std::map<VolumeMesh::Face, std::string> &named, const GmshNodes &gmsh_nodes,
-                      const std::size_t *const tags, const unsigned int n, const std::string &name)
+    /// @param names indices
+    void name_element(FaceNames &named, const GmshNodes &gmsh_nodes, const std::size_t *const tags,
+                      const unsigned int n, const std::set<unsigned int> &names)
     {
       const auto add = [&](const std::size_t *const corners, const unsigned int n_corners) {
         if (const auto face = gmsh_nodes.face(corners, n_corners))
-          named[*face] = name;
+          named.of_face[*face].insert(names.begin(), names.end());
       };
       if (n != 6)
         return add(tags, n);
@@ -209,7 +218,7 @@ namespace Signorini
       std::size_t       n_elements = 0, n_quadratic = 0;
       for (const auto &[entity, n, nodes] : elements(3, cell_types, file))
         {
-          const unsigned int volume = index_of(mesh.volume_names, group_name(3, entity, "unnamed"));
+          const unsigned int volume = index_of(mesh.volume_names, volume_name(entity, file, mesh.notes));
           for (std::size_t k = 0; k + n <= nodes.size(); k += n, ++n_elements)
             if (n == 10)
               {
@@ -233,14 +242,16 @@ namespace Signorini
             " quadratic tetrahedra are cut into eight linear ones each, which are stiffer where "
             "thin parts bend; \"Refinement/Initial global levels = 1\" shows how much.");
 
-      std::map<VolumeMesh::Face, std::string> named;
+      FaceNames named;
       for (const auto &[entity, n, nodes] : elements(2, face_types, file))
         {
-          const std::string name = group_name(2, entity, "unnamed");
-          for (std::size_t k = 0; k + n <= nodes.size(); k += n)
-            name_element(named, gmsh_nodes, nodes.data() + k, n, name);
+          std::set<unsigned int> names;
+          for (const std::string &name : group_names(2, entity))
+            names.insert(index_of(named.names, name));
+          for (std::size_t k = 0; k + n <= nodes.size() && !names.empty(); k += n)
+            name_element(named, gmsh_nodes, nodes.data() + k, n, names);
         }
-      name_faces(mesh, named);
+      name_faces(mesh, find_boundary_faces(mesh), std::move(named));
       return mesh;
     }
 
@@ -251,19 +262,6 @@ namespace Signorini
       return read_in_separate_process<VolumeMesh>(file, "gmsh", [&] { return read_open_file(file, alias); });
     }
   } // namespace
-
-
-
-  void name_faces(VolumeMesh &mesh, const std::map<VolumeMesh::Face, std::string> &named)
-  {
-    mesh.faces.clear();
-    for (const auto &face : find_boundary_faces(mesh))
-      {
-        const auto it = named.find(face_key(face.first));
-        mesh.faces.push_back(
-            {face.first, index_of(mesh.boundary_names, it == named.end() ? "unnamed" : it->second)});
-      }
-  }
 
 
 

@@ -118,10 +118,10 @@ namespace Signorini
 
 
 
-  std::vector<std::pair<VolumeMesh::Face, unsigned int>> find_boundary_faces(const VolumeMesh &mesh)
+  BoundaryOfCells find_boundary_faces(const VolumeMesh &mesh)
   {
-    const std::vector<CellFace>                            faces = sorted_faces(mesh);
-    std::vector<std::pair<VolumeMesh::Face, unsigned int>> boundary;
+    const std::vector<CellFace> faces = sorted_faces(mesh);
+    BoundaryOfCells             boundary;
     for (std::size_t begin = 0, end; begin < faces.size(); begin = end)
       {
         for (end = begin + 1; end < faces.size() && faces[end].key == faces[begin].key;)
@@ -131,6 +131,50 @@ namespace Signorini
           boundary.emplace_back(faces[begin].face, faces[begin].cell);
       }
     return boundary;
+  }
+
+
+
+  unsigned int index_of(std::vector<std::string> &names, const std::string &name)
+  {
+    const auto it = std::find(names.begin(), names.end(), name);
+    if (it != names.end())
+      return static_cast<unsigned int>(it - names.begin());
+    names.push_back(name);
+    return static_cast<unsigned int>(names.size()) - 1;
+  }
+
+
+
+  void name_faces(VolumeMesh &mesh, const BoundaryOfCells &boundary, FaceNames named)
+  {
+    mesh.faces.clear();
+    std::map<std::set<unsigned int>, unsigned int>    boundary_of;
+    std::map<unsigned int, std::vector<unsigned int>> members;
+    for (const auto &[face, cell] : boundary)
+      {
+        std::set<unsigned int> names;
+        if (const auto it = named.of_face.find(face_key(face)); it != named.of_face.end())
+          names = it->second;
+        else
+          names = {index_of(named.names, "unnamed")};
+        const auto [it, is_new] =
+            boundary_of.insert({names, static_cast<unsigned int>(mesh.boundary_names.size())});
+        if (is_new)
+          {
+            std::string name;
+            for (const unsigned int i : names)
+              {
+                name += (name.empty() ? "" : " & ") + named.names[i];
+                members[i].push_back(it->second);
+              }
+            mesh.boundary_names.push_back(name);
+          }
+        mesh.faces.push_back({face, it->second});
+      }
+    for (const auto &[i, boundaries] : members)
+      if (boundaries.size() > 1 || mesh.boundary_names[boundaries[0]] != named.names[i])
+        mesh.boundary_groups.emplace_back(named.names[i], boundaries);
   }
 
 

@@ -111,10 +111,12 @@ namespace Signorini
     {
       if (surface.faces[m.face].n_corners != 3)
         return m.mass[4 * a + b];
-      const auto integral = [&m](const unsigned int c) {
-        return m.mass[4 * c] + m.mass[4 * c + 1] + m.mass[4 * c + 2];
-      };
-      return integral(a) * integral(b) / m.covered;
+      // Turned cells have negative areas, which may cancel others.
+      std::array<double, 3> integrals;
+      for (unsigned int c = 0; c < 3; ++c)
+        integrals[c] = std::max(0., m.mass[4 * c] + m.mass[4 * c + 1] + m.mass[4 * c + 2]);
+      const double sum = integrals[0] + integrals[1] + integrals[2];
+      return sum > 0. ? integrals[a] * integrals[b] / sum : 0.;
     }
   } // namespace
 

@@ -279,6 +279,7 @@ namespace Signorini
     std::error_code ignored;
     if (!committed)
       fs::remove_all(temporary, ignored);
+    // A signal amid the removal finishes it.
     TerminationWatch::release(temporary);
   }
 

@@ -156,6 +156,7 @@ namespace Signorini
       json.number("max_recovered_pressure", pair.max_recovered_pressure);
       json.vector("max_recovered_pressure_at", Vector3(pair.max_recovered_pressure_at));
       json.number("pressure_scatter", pair.pressure_scatter);
+      json.boolean("scatter_is_told", pair.scatter_is_told());
       json.number("contact_area", pair.contact_area);
       json.number("coverage", pair.coverage);
       json.number("min_gap", pair.min_gap);

@@ -14,9 +14,9 @@ Physical Volume("shaft") = {shaft()};
 Physical Volume("hub") = {hub()};
 Physical Volume("key") = {21};
 end() = Surface In BoundingBox{-e, -16, -16, e, 16, 16};
-s() = Boundary{ Volume{shaft()}; };
+s() = Abs(Boundary{ Volume{shaft()}; });
 s() -= end();
-u() = Boundary{ Volume{hub()}; };
+u() = Abs(Boundary{ Volume{hub()}; });
 rim = 0;
 For i In {0 : #u() - 1}
   b() = BoundingBox Surface{u(i)};
@@ -25,7 +25,7 @@ For i In {0 : #u() - 1}
   EndIf
 EndFor
 u() -= {rim};
-k() = Boundary{ Volume{21}; };
+k() = Abs(Boundary{ Volume{21}; });
 Physical Surface("shaft end") = {end()};
 Physical Surface("rim") = {rim};
 Physical Surface("shaft skin") = {s()};

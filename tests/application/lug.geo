@@ -11,12 +11,12 @@ e = 1e-3;
 pull() = Surface In BoundingBox{20 - e, -9, -1, 20 + e, 9, 6};
 ends() = Surface In BoundingBox{-5, -5, -2 - e, 5, 5, -2 + e};
 ends() += Surface In BoundingBox{-5, -5, 7 - e, 5, 5, 7 + e};
-bore() = Boundary{ Volume{lug()}; };
+bore() = Abs(Boundary{ Volume{lug()}; });
 bore() -= pull();
 If (!whole)
   bore() = Surface In BoundingBox{-4 - e, -4 - e, -e, 4 + e, 4 + e, 5 + e};
 EndIf
-side() = Boundary{ Volume{3}; };
+side() = Abs(Boundary{ Volume{3}; });
 side() -= ends();
 Physical Surface("pull") = {pull()};
 Physical Surface("ends") = {ends()};

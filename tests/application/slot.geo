@@ -11,9 +11,9 @@ e = 1e-3;
 head() = Surface In BoundingBox{-5 - e, -5 - e, 5 - e, 5 + e, 5 + e, 5 + e};
 ground() = Surface In BoundingBox{-10, -10, -6 - e, 10, 10, -6 + e};
 If (walls)
-  foot() = Boundary{ Volume{1}; };
+  foot() = Abs(Boundary{ Volume{1}; });
   foot() -= head();
-  top() = Boundary{ Volume{plate()}; };
+  top() = Abs(Boundary{ Volume{plate()}; });
   top() -= ground();
 Else
   foot() = Surface In BoundingBox{-5 - e, -5 - e, -e, 5 + e, 5 + e, e};

@@ -37,7 +37,7 @@ b() = Extrude { {0, 0, 1}, {0, 0, 0}, Pi / 2 } { Surface{1}; };
 m() = Extrude { {0, 0, 1}, {0, 0, 0}, Pi / 2 } { Surface{2}; };
 e = 1e-3;
 Physical Volume("bolt") = {b(1)}; Physical Volume("nut") = {m(1)};
-ub() = Boundary{ Volume{b(1)}; }; un() = Boundary{ Volume{m(1)}; };
+ub() = Abs(Boundary{ Volume{b(1)}; }); un() = Abs(Boundary{ Volume{m(1)}; });
 bx() = {1, b(0)}; nx() = {2, m(0)};
 pull() = Surface In BoundingBox{-e, -e, -3 - e, 7, 7, -3 + e};
 seat() = Surface In BoundingBox{-e, -e, -e, 12, 12, e}; seat() -= ub();

@@ -7,11 +7,6 @@ import {chart} from './charts.js';
 const names = {pressure: 'contact pressure', recovered_pressure: 'contact pressure, smoothed', gap: 'gap', von_Mises: 'von Mises stress', 'displacement length': 'displacement'};
 const contactFields = ['pressure', 'recovered_pressure', 'gap'];
 
-// Whether nodal pressures are so far from the smoothed ones that the end of the run says so.
-export function scatters(pair) {
-  return pair.pressure_scatter > 0.05;
-}
-
 function unitOf(name, units) {
   return name === 'gap' || name === 'displacement length' ? units.length : units.stress;
 }
@@ -336,7 +331,7 @@ function profiles(scene, side, pair, units) {
 
 export function contactSection(scene, context) {
   const {sides} = scene, {pairs, units, store} = context;
-  const panel = new Panel({id: 'contact-panel', scene, surfaces: sides, fields: pairs.some(scatters) ? ['recovered_pressure', 'pressure', 'gap'] : contactFields, ...context});
+  const panel = new Panel({id: 'contact-panel', scene, surfaces: sides, fields: pairs.some(pair => pair.scatter_is_told) ? ['recovered_pressure', 'pressure', 'gap'] : contactFields, ...context});
   const profile = h('div', {});
   let chosen = 0, curve = null;
   const look = isWhole => {

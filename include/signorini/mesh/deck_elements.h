@@ -145,9 +145,6 @@ namespace Signorini
     unsigned int                 present_element = 0, present_volume = 0;
   };
 
-  /// Of find_boundary_faces().
-  using BoundaryOfCells = std::vector<std::pair<VolumeMesh::Face, unsigned int>>;
-
   /// Names and the keys of their faces; faces may have several names.
   using NamedFaces = std::vector<std::pair<std::string, std::set<VolumeMesh::Face>>>;
 
@@ -168,8 +165,7 @@ namespace Signorini
   /// Vertices of the cells that belong to a set of nodes; centres of faces and cells if all their nodes do.
   std::vector<unsigned int> vertices_within(const std::vector<unsigned int> &nodes, const DeckCells &cells);
 
-  /// Makes the boundary faces of a mesh and names them. Faces with the same names have a boundary together;
-  /// a name that stands for several boundaries becomes a group. Without names: "unnamed".
+  /// name_faces() with what decks say.
   void name_faces(VolumeMesh &mesh, const BoundaryOfCells &boundary, const NamedFaces &named);
 } // namespace Signorini
 

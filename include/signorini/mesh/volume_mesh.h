@@ -7,6 +7,8 @@
 #include <deal.II/base/point.h>
 
 #include <array>
+#include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -89,7 +91,26 @@ namespace Signorini
 
   /// Faces that belong to one cell only (hexahedra: vertices in deal.II's face order), and that cell.
   /// Errors: InputError for faces that belong to more than two cells, and for cells that are there twice.
-  std::vector<std::pair<VolumeMesh::Face, unsigned int>> find_boundary_faces(const VolumeMesh &mesh);
+  using BoundaryOfCells = std::vector<std::pair<VolumeMesh::Face, unsigned int>>;
+  BoundaryOfCells find_boundary_faces(const VolumeMesh &mesh);
+
+  /// Names of faces, of which one may have several.
+  struct FaceNames
+  {
+    /// Each once.
+    std::vector<std::string> names;
+    /// By face_key(): indices into the names.
+    std::map<VolumeMesh::Face, std::set<unsigned int>> of_face;
+  };
+
+  /// Makes the boundary faces of a mesh and names them. Faces with the same names have a boundary together,
+  /// "a & b"; a name that stands for several boundaries, or for a part of one, becomes a group. Faces without
+  /// names are "unnamed".
+  /// @param boundary of the cells of the mesh, find_boundary_faces()
+  void name_faces(VolumeMesh &mesh, const BoundaryOfCells &boundary, FaceNames named);
+
+  /// The index of a name, appended if new.
+  unsigned int index_of(std::vector<std::string> &names, const std::string &name);
 
   /// For each cell the number of its connected part: cells that share a vertex are connected. Parts are
   /// numbered in the order of their first cells.

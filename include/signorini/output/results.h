@@ -50,6 +50,14 @@ namespace Signorini
     PhaseTimes                        times;
   };
 
+  /// From where on it is told that pressures of nodes are far from the recovered ones. Pure number.
+  struct ScatterRule
+  {
+    /// Measured (doc/guide/accuracy.md): structured hexahedra .003, unstructured ones .03, tetrahedra .05 to
+    /// .14. It chooses what is drawn first and nothing else.
+    double told = .05;
+  };
+
   /// What a contact pair does, after the last solve.
   struct PairResult
   {
@@ -77,14 +85,19 @@ namespace Signorini
     std::size_t dropped_nodes = 0;
     /// Where the pressure is largest, and the gap after the deformation least.
     dealii::Point<3> max_pressure_at, min_gap_at;
-    /// load / contact_area; the largest recovered pressure, which does not scatter from node to node
+    /// load / contact_area; the largest recovered pressure, which scatters less from node to node
     /// (recover_pressure()), and where it is.
     double           mean_pressure = 0., max_recovered_pressure = 0.;
     dealii::Point<3> max_recovered_pressure_at;
     /// How far nodal pressures are from the recovered ones: half of the load is on nodes whose pressure
-    /// differs by more than this share of the recovered one. Noise of the mesh, or a contact too narrow for
-    /// it.
+    /// differs by this share of the recovered one or more. Noise of the mesh, or a contact too narrow for it.
+    /// Zero for ties.
     double pressure_scatter = 0.;
+    /// Whether that is so much that it is told, and pictures show the recovered pressure (ScatterRule).
+    bool scatter_is_told() const
+    {
+      return pressure_scatter > ScatterRule().told;
+    }
     /// How far the surfaces slide on each other where they touch (length), and in multiples of the width of
     /// the faces there.
     double slip = 0., slip_in_faces = 0.;

@@ -31,7 +31,7 @@ namespace Signorini
       std::unique_lock<std::mutex> lock;
     };
 
-    /// Removes a folder if a signal comes, and says so on the standard error.
+    /// Removes a folder if a signal comes, and says so on the standard error. Not for one who has a Delay.
     /// @param message none if empty
     static void guard(const std::string &folder, const std::string &message);
 

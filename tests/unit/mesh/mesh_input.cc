@@ -79,6 +79,40 @@ TEST(MeshInput, TakesIdsWhereThereAreNoNames)
 
 // A tetrahedron with ten nodes, the middles of its edges a little off, and one of its sides with six: eight
 // and four, that cover the same, without notes of mirrored ones.
+// From version 4.9 on gmsh's Boundary{} is oriented, so that its list without that of a part still has the
+// part.
+TEST(MeshInput, SurfacesOfSeveralGroupsHaveAllNames)
+{
+  const TemporaryFile file(
+      "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n"
+      "$PhysicalNames\n5\n2 4 \"skin\"\n2 5 \"foot\"\n3 1 \"ball\"\n3 2 \"copper\"\n3 3 "
+      "\"iron\"\n$EndPhysicalNames\n"
+      "$Entities\n0 0 2 1\n1 0 0 0 1 1 0 2 -4 5 0\n2 0 0 0 1 1 1 1 4 0\n1 0 0 0 1 1 1 2 2 3 0\n$EndEntities\n"
+      "$Nodes\n1 4 1 4\n3 1 0 4\n1\n2\n3\n4\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n$EndNodes\n"
+      "$Elements\n3 5 1 5\n2 1 2 1\n1 1 3 2\n2 2 2 3\n2 1 2 4\n3 2 3 4\n4 1 4 3\n3 1 4 1\n5 1 2 3 "
+      "4\n$EndElements\n");
+  const auto mesh = read_volume_mesh(file.path, MPI_COMM_WORLD);
+  ASSERT_EQ(mesh.faces.size(), 4u);
+  std::map<std::string, std::set<double>> heights;
+  for (const auto &[name, boundaries] : mesh.boundary_groups)
+    for (const auto &face : mesh.faces)
+      if (std::count(boundaries.begin(), boundaries.end(), face.name) > 0)
+        {
+          double height = 0.;
+          for (unsigned int v = 0; v < 3; ++v)
+            height += mesh.vertices[face.vertices[v]][2];
+          heights[name].insert(height);
+        }
+  EXPECT_EQ(heights["foot"], std::set<double>{0.});
+  EXPECT_EQ(heights["skin"], (std::set<double>{0., 1.}));
+  EXPECT_EQ(heights.size(), 2u);
+  EXPECT_EQ(mesh.volume_names, std::vector<std::string>{"copper"});
+  ASSERT_EQ(mesh.notes.size(), 1u);
+  expect_in(mesh.notes[0], "copper, iron");
+}
+
+
+
 TEST(MeshInput, CutsQuadraticTetrahedra)
 {
   std::vector<Point<3>> points = {{0., 0., 0.}, {1., 0., 0.}, {0., 1., 0.}, {0., 0., 1.}};

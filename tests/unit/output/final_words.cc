@@ -79,7 +79,7 @@ TEST(FinalWords, TellScatterOfPressures)
   };
   EXPECT_EQ(words(.02).find("scatter"), std::string::npos) << words(.02);
   EXPECT_NE(words(.123).find("smoothed 1.5\n  pressures of nodes scatter: half of the load is on nodes that "
-                             "differ by more than 12 % from the smoothed pressure\n"),
+                             "differ by 12 % or more from the smoothed pressure\n"),
             std::string::npos)
       << words(.123);
 }
