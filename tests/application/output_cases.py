@@ -133,6 +133,7 @@ def check_pressure(s, out):
             i = at[int(r['node'])]
             check(max(abs(a - r[c]) for a, c in zip(data['points'][i], 'xyz')) < 1e-6, f'{side}: node {r["node"]} is elsewhere')
             check(abs(data['pressure'][i, 0] - r['pressure']) <= 1e-6 * pair['max_pressure'], f'{side}: pressure of node {r["node"]}')
+            check(abs(data['recovered pressure'][i, 0] - r['recovered_pressure']) <= 1e-6 * pair['max_pressure'], f'{side}: recovered pressure of node {r["node"]}')
             check(abs(data['traction'][i] @ [r['nx'], r['ny'], r['nz']] + r['pressure']) <= 1e-6 * pair['max_pressure'], f'{side}: traction of node {r["node"]}')
 
 

@@ -149,6 +149,17 @@ def report_hertz(p):
         check(not os.path.exists(os.path.join(out, 'report.html')), 'a report that is not wanted')
 
 
+def shown_pressure(b):
+    """What the picture of the contact surfaces begins with."""
+    return b.evaluate('[...document.querySelectorAll("#contact-panel select")].find(e => [...e.options].some(o => o.value === "gap")).value')
+
+
+def told(out):
+    """Whether the run says that pressures scatter."""
+    with open(os.path.join(out, 'summary.json')) as f:
+        return any(pair['scatter_is_told'] for pair in json.load(f)['pairs'])
+
+
 def report_kinds(p):
     """Load steps, an obstacle, a tied pair, separated bodies, a run that did not converge."""
     if skip():
@@ -168,6 +179,7 @@ def report_kinds(p):
         check(shown[0] == rows[0] and len(shown) == 4, 'the curve has other columns')
         check(all(math.isclose(as_number(s), float(e), rel_tol=1e-4) for a, c in zip(shown[1:], rows[1:]) for s, e in zip(a, c)), 'the curve has other numbers')
         is_quiet(b, steps)
+        begins_with = {'pressure': [], 'recovered_pressure': []}
         others = [(0, 'obstacle', [OBSTACLE]), (0, 'tied', [PATCH_TEST, '--set', 'Pair interface/Contact=tied']),
                   (0, 'separated', [PATCH_TEST, '--set', 'Body upper/Dirichlet=top: (0, 0, 0.01)']),
                   (0, 'on tetrahedra', [RESTING, '--set', 'Body cube/Convert to tetrahedra=true']),
@@ -180,7 +192,10 @@ def report_kinds(p):
             numbers_agree(b, out)
             is_quiet(b, out)
             check(('bad' in b.evaluate('document.querySelector(".verdict").className')) == (code == 1), f'{name}: verdict')
+            begins_with[shown_pressure(b)].append(told(out))
             moves(b, '#bodies-panel', lambda: b.drag('#bodies-panel canvas', 100, 30))
+        check(begins_with == {'pressure': [False] * len(begins_with['pressure']), 'recovered_pressure': [True] * len(begins_with['recovered_pressure'])}
+              and all(begins_with.values()), f'whether scatter is told where pictures begin with a pressure: {begins_with}')
         # One looks into a bore, not at the unloaded half of it from behind.
         settings = ['eye/Mesh=tube', 'eye/Convert to tetrahedra=false', 'eye/Round divisions=3, 44, 5', 'eye/Dirichlet=outer: (0, -0.05, 0)', 'pin/Mesh=tube', 'pin/Round divisions=2, 36, 4']
         bore = run(p, folder, os.path.join(TOP, 'tests', 'application', 'eye.prm'), '--set', 'Pair bearing/First region=1', *[a for s in settings for a in ('--set', f'Body {s}')])

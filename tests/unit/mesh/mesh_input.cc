@@ -77,10 +77,7 @@ TEST(MeshInput, TakesIdsWhereThereAreNoNames)
 
 
 
-// A tetrahedron with ten nodes, the middles of its edges a little off, and one of its sides with six: eight
-// and four, that cover the same, without notes of mirrored ones.
-// From version 4.9 on gmsh's Boundary{} is oriented, so that its list without that of a part still has the
-// part.
+// The Boundary{} of gmsh 4.13 is oriented, so that its list without that of a part still has the part.
 TEST(MeshInput, SurfacesOfSeveralGroupsHaveAllNames)
 {
   const TemporaryFile file(
@@ -113,6 +110,8 @@ TEST(MeshInput, SurfacesOfSeveralGroupsHaveAllNames)
 
 
 
+// A tetrahedron with ten nodes, the middles of its edges a little off, and one of its sides with six: eight
+// and four, that cover the same, without notes of mirrored ones.
 TEST(MeshInput, CutsQuadraticTetrahedra)
 {
   std::vector<Point<3>> points = {{0., 0., 0.}, {1., 0., 0.}, {0., 1., 0.}, {0., 0., 1.}};
