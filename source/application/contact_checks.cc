@@ -31,6 +31,9 @@ namespace Signorini
       /// and what is taken for one unless it is asked for. Fits of shafts are a thousandth; linear elasticity
       /// ends at a tenth.
       double overlap = .5, small_overlap = .01;
+      /// Initial overlap as a share of the heights of both surfaces over their facets: surfaces that touch
+      /// overlap by that, for facets do not know more of them. A pin in a bore of its own radius: .002.
+      double touching = .01;
       /// What prescribed displacements add to the overlap of two surfaces, as a share of the largest of them:
       /// more than different meshes make of the same field.
       double held_overlap = .02;
@@ -373,8 +376,15 @@ namespace Signorini
 
   namespace
   {
-    /// Collective. Calls f(vertex or point of the nonmortar surface, its normal, gap) where surfaces face
-    /// each other: at the corners of the overlay cells of this rank.
+    /// How far the true surface is from the middle of a triangle (length).
+    double height_over_facet(const ContactSurface &surface, const std::size_t triangle)
+    {
+      return surface.true_shape.has_offsets() ? surface.offset(triangle, {{1. / 3., 1. / 3., 1. / 3.}}).norm()
+                                              : 0.;
+    }
+
+    /// Collective. Calls f(vertex or point of the nonmortar surface, its normal, gap, heights of the surfaces
+    /// over their facets) where surfaces face each other: at the corners of the overlay cells of this rank.
     template <typename F>
     void for_each_gap(const ContactPair &pair, const F &f)
     {
@@ -388,7 +398,7 @@ namespace Signorini
               for (const unsigned int v : non.mesh.triangles[t])
                 if (double gap;
                     pair.obstacle->gap(gap, non.mesh.vertices[v], non.mesh.vertex_normals[v], size))
-                  f(non.mesh.vertices[v], non.mesh.vertex_normals[v], gap);
+                  f(non.mesh.vertices[v], non.mesh.vertex_normals[v], gap, height_over_facet(non, t));
         }
       if (!pair.mapping)
         return;
@@ -403,9 +413,11 @@ namespace Signorini
             const Vector3  n             = on_nonmortar.normal(cell.nonmortar_triangle, cell.nonmortar[c]);
             const Vector3  other         = facet_normal(mor, cell.mortar_triangle);
             if (pair.prescribed_gap)
-              f(x, n, pair.prescribed_gap(x));
+              f(x, n, pair.prescribed_gap(x), 0.);
             else if (may_touch(n, other))
-              f(x, n, initial_gap(non, mor, cell, corner, x, image) * n);
+              f(x, n, initial_gap(non, mor, cell, corner, x, image) * n,
+                height_over_facet(non, cell.nonmortar_triangle) +
+                    height_over_facet(mor, cell.mortar_triangle));
           }
     }
   } // namespace
@@ -415,19 +427,21 @@ namespace Signorini
   SmallestGap smallest_initial_gap(const ContactPair &pair, const MPI_Comm comm)
   {
     SmallestGap result;
-    for_each_gap(pair, [&](const Point<3> &x, const Vector3 &n, const double gap) {
+    double      height = 0.;
+    for_each_gap(pair, [&](const Point<3> &x, const Vector3 &n, const double gap, const double heights) {
+      if (gap < 0.)
+        height = std::max(height, heights);
       if (gap < result.value)
-        result = {gap, x, n};
+        result = {gap, x, n, 0.};
     });
+    result.doubt = ContactRule().touching * Utilities::MPI::max(height, comm);
     const auto all =
         Utilities::MPI::all_gather(comm, std::make_tuple(result.value, result.place, result.normal));
-    for (const auto &[value, place, normal] : all)
-      if (value < result.value)
-        result = {value, place, normal};
     // The same on all ranks, also where several of them have it.
-    for (const auto &[value, place, normal] : all)
-      if (value == result.value)
-        return {value, place, normal};
+    std::tie(result.value, result.place, result.normal) =
+        *std::min_element(all.begin(), all.end(), [](const auto &one, const auto &two) {
+          return std::get<0>(one) < std::get<0>(two);
+        });
     return result;
   }
 

@@ -184,12 +184,20 @@ namespace Signorini
         return;
       refuse_large_overlap(coupled, p);
       // The weighted gap is negative where surfaces bend within a face, too.
-      const double gap =
-          smallest_initial_gap(coupled.pairs[p], coupled.constrained.nodal().communicator()).value;
-      if (!(gap < -1e-12 * size))
+      const SmallestGap gap =
+          smallest_initial_gap(coupled.pairs[p], coupled.constrained.nodal().communicator());
+      if (!(gap.value < -1e-12 * size))
         return;
       std::ostringstream text;
-      text << "pair " << definition.name << ": initial penetration of " << -gap;
+      text << "pair " << definition.name << ": ";
+      if (-gap.value <= gap.doubt)
+        {
+          text << "the surfaces overlap by " << -gap.value << ", less than their facets leave open ("
+               << gap.doubt << ").";
+          journal.note(text.str());
+          return;
+        }
+      text << "initial penetration of " << -gap.value;
       if (definition.penetration == InitialPenetration::refuse)
         throw InputError(text.str() + "; \"Initial penetration = refuse\" does not allow it.");
       journal.note(text.str() + ", resolved as an interference fit.");

@@ -73,8 +73,10 @@ namespace Signorini
           << ", coverage " << coupling.covered_area / coupling.area << std::endl;
       if (smallest.value < std::numeric_limits<double>::max())
         out << "  smallest distance of the true surfaces: " << smallest.value
-            << (smallest.value < 0. ? " (they overlap)" : "") << ", at (" << smallest.place << ")"
-            << std::endl;
+            << (smallest.value >= 0.               ? ""
+                : -smallest.value > smallest.doubt ? " (they overlap)"
+                                                   : " (less than their facets leave open)")
+            << ", at (" << smallest.place << ")" << std::endl;
     }
 
     std::string text(const Vector3 &v)

@@ -16,6 +16,7 @@
 #include <signorini/output/field_output.h>
 #include <signorini/output/final_words.h>
 #include <signorini/output/load_curve.h>
+#include <signorini/output/process_memory.h>
 #include <signorini/output/summary.h>
 
 #include <deal.II/base/config.h>
@@ -405,9 +406,7 @@ namespace Signorini
         mapping_results(*nested.discretization, mesh_only ? all_pairs(*nested.discretization)
                                                           : results.certificate.wrongly_mapped_pairs);
 
-    Utilities::System::MemoryStats memory;
-    Utilities::System::get_memory_stats(memory);
-    results.peak_memory    = 1024. * Utilities::MPI::sum(static_cast<double>(memory.VmHWM), comm);
+    results.peak_memory    = Utilities::MPI::sum(process_memory().peak, comm);
     results.version        = version_text();
     results.title          = file.title();
     results.parameter_file = file.path();

@@ -5,6 +5,7 @@ signorini_add_layer(output
   load_curve.cc
   final_words.cc
   output_folder.cc
+  process_memory.cc
   progress.cc
   report_mesh.cc
   report_page.cc

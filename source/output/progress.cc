@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/output/process_memory.h>
 #include <signorini/output/progress.h>
-
-#include <deal.II/base/utilities.h>
 
 #include <algorithm>
 #include <cmath>
@@ -91,9 +90,7 @@ namespace Signorini
                              : std::to_string(std::lround(left / 60.)) + " min")
              << " left";
       }
-    dealii::Utilities::System::MemoryStats memory;
-    dealii::Utilities::System::get_memory_stats(memory);
-    text << "   " << std::setprecision(2) << static_cast<double>(memory.VmRSS) / 1e6 << " GB";
+    text << "   " << std::setprecision(2) << process_memory().resident / 1e9 << " GB";
     return text.str();
   }
 

@@ -34,10 +34,11 @@ namespace Signorini
 
 
   SafetyNet::SafetyNet(MultigridHierarchy &hierarchy, const SolverParameters &parameters,
-                       const unsigned int level, ConvergenceReport &report)
+                       const unsigned int level, TruncatedCycle &cycle, ConvergenceReport &report)
     : hierarchy(hierarchy)
     , parameters(parameters)
     , level(level)
+    , cycle(cycle)
   {
     if (is_wanted() && parameters.starts_with_patches)
       strengthen(report);
@@ -58,7 +59,12 @@ namespace Signorini
   {
     n_conjugate         = is_conjugate ? n_conjugate + 1 : 0;
     const Remedy remedy = due(report, problem);
-    if (remedy == Remedy::patches)
+    if (remedy == Remedy::contact_subspace)
+      {
+        cycle.begin_in_subspace();
+        wait(report);
+      }
+    else if (remedy == Remedy::patches)
       strengthen(report);
     else if (remedy == Remedy::active_set_steps)
       take_over(v, problem, contact, report, monitor);
@@ -84,8 +90,18 @@ namespace Signorini
   SafetyNet::Remedy SafetyNet::due(const ConvergenceReport &report, const ObstacleProblem &problem) const
   {
     if (!is_wanted() || report.converged || problem.semidefinite || level + 1 != hierarchy.n_levels() ||
-        report.history.size() <= net_rule.n_watched || report.iterations < not_before || report.scale <= 0.)
+        report.iterations < not_before || report.scale <= 0.)
       return Remedy::none;
+    if (report.iterations == net_rule.n_to_settle && n_conjugate == 0 && cycle.may_begin_in_subspace() &&
+        report.history.back() > net_rule.lost * report.history.front())
+      return Remedy::contact_subspace;
+    return report.history.size() > net_rule.n_watched ? due_to_rate(report) : Remedy::none;
+  }
+
+
+
+  SafetyNet::Remedy SafetyNet::due_to_rate(const ConvergenceReport &report) const
+  {
     const double left = iterations_left(report, parameters);
     if (uses_factors())
       return left > net_rule.left_with_factors + n_unknowns() / net_rule.unknowns_for_one_more
@@ -103,14 +119,21 @@ namespace Signorini
 
 
 
+  void SafetyNet::wait(const ConvergenceReport &report)
+  {
+    not_before  = report.iterations + static_cast<unsigned int>(net_rule.n_watched) + 1;
+    n_conjugate = 0;
+  }
+
+
+
   void SafetyNet::strengthen(ConvergenceReport &report)
   {
     report.needed_patches = !uses_factors();
     report.before_patches = report.iterations;
     if (report.needed_patches)
       hierarchy.strengthen_smoothers();
-    not_before  = report.iterations + static_cast<unsigned int>(net_rule.n_watched) + 1;
-    n_conjugate = 0;
+    wait(report);
   }
 
 

@@ -32,7 +32,7 @@ namespace Signorini
     , problem(problem)
     , contact(contact)
     , cycle(hierarchy, coarse_smoothing, level - 1)
-    , has_subspace(problem.semidefinite && ContactSubspace::exists(hierarchy, level))
+    , has_subspace(ContactSubspace::exists(hierarchy, level))
     , motions(hierarchy.level(level).matrix, problem.free_motions, problem.rhs)
     , stays_blocked(!knows_contact)
   {

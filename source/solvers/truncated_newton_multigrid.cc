@@ -147,7 +147,7 @@ namespace Signorini
                                 parameters.starts_with_interface_sweeps);
     TruncatedCycle       cycle(hierarchy, level, parameters.smoothing, problem, contact, knows_contact);
     SubstepCheck         check(matrix(), problem, report, parameters.check_monotonicity);
-    SafetyNet            net(hierarchy, parameters, level, report);
+    SafetyNet            net(hierarchy, parameters, level, cycle, report);
     Vector               residual;
     residual.reinit(v);
     IterationPhase phase = begin_from(v, residual, problem);

@@ -1,9 +1,9 @@
 SetFactory("OpenCASCADE");
-DefineConstant[ whole = 1 ];
+DefineConstant[ whole = 1, clearance = 0.03 ];
 // A pin in a lug. Whole: the surfaces that may touch are all of both bodies but the loaded and the fixed faces; otherwise the bore and the side of the pin.
 Box(1) = {-10, -8, 0, 30, 16, 5};
 Cylinder(2) = {0, 0, -1, 0, 0, 7, 4};
-Cylinder(3) = {0, 0, -2, 0, 0, 9, 3.97};
+Cylinder(3) = {0, 0, -2, 0, 0, 9, 4 - clearance};
 lug() = BooleanDifference{ Volume{1}; Delete; }{ Volume{2}; Delete; };
 Physical Volume("lug") = {lug()};
 Physical Volume("pin") = {3};

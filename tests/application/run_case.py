@@ -23,6 +23,7 @@ import random_pair_cases
 import rank_cases
 import report_cases
 import shape_cases
+import slender_cases
 import tool_cases
 import true_gap_cases
 import verification_cases
@@ -411,40 +412,6 @@ def from_zero(p):
         near(other['energy'], last['energy'], 1e-10, f'{text}: energy of truncated newton multigrid')
 
 
-def slender(p):
-    """Bodies that bend, held at one end and laid down on a plane, or on another body, by their weight. A coarse correction that is cut off node by node loses its
-    bending."""
-    weight = 'Volume force=(0, 0, -1e-8)'
-    bar = ('Divisions=40, 1, 1', 'Upper corner=40, 1, 1', 'Dirichlet=left: (0, 0, 0)', weight)
-    plate = ('Divisions=20, 10, 1', 'Upper corner=20, 10, 1', 'Dirichlet=left: (0, 0, 0)', weight)
-    plane = ('Pair bottom/Obstacle=plane: (0, 0, -0.001), (0, 0, 1)', 'Solver/Check monotonicity=true')
-    below = ('Body lower/Divisions=25, 2, 1', 'Body lower/Lower corner=0, -1, -1', 'Body lower/Upper corner=41, 2, 0', 'Body upper/Lower corner=0, 0, 0', 'Body upper/Young modulus=1',
-             'Body lower/Young modulus=1', 'Pair interface/Initial gap=0.001')
-    two = ('Refinement/Global cycles=1',)
-    three = ('Refinement/Global cycles=0', 'Refinement/Initial global levels=2')
-    for text, prm, settings, bounds in (('bar', 'obstacle/paraboloid.prm', [f'Body cube/{b}' for b in bar] + [*plane, *two], (20, 22)),
-                                        ('bar from zero', 'obstacle/paraboloid.prm', [f'Body cube/{b}' for b in bar] + [*plane, *three], (20,)),
-                                        ('plate', 'obstacle/paraboloid.prm', [f'Body cube/{b}' for b in plate] + [*plane, *two], (25, 25)),
-                                        ('bar on a block', 'cubes/cubes.prm', [f'Body upper/{b}' for b in bar] + [*below, *two], (20, 22))):
-        s = p.solve(prm, *settings)
-        certificate(s)
-        other = p.solve(prm, *settings, 'Solver/Method=active set amg', 'Solver/Compare linear multigrid=false')
-        check(len(s['cycles']) == len(other['cycles']) == len(bounds), f'{text}: {len(s["cycles"])} cycles')
-        check('bar on' in text or 'monotonicity' in s['cycles'][0]['nonlinear'], f'{text}: monotonicity was not checked')
-        for a, b, bound in zip(s['cycles'], other['cycles'], bounds):
-            solver = a['nonlinear']
-            print(f'{text}: {solver["iterations"]} iterations, start {solver.get("start_iterations", [])}')
-            check(solver['iterations'] <= bound, f'{text}: {solver["iterations"]} iterations')
-            check(a['active_nodes'] == b['active_nodes'], f'{text}: {a["active_nodes"]} active nodes, not {b["active_nodes"]}')
-            near(a['energy'], b['energy'], 1e-9, f'{text}: energy')
-            # The energy is a difference of numbers larger by the ratio of the stiffness of a cell to that of the bar, 4 (40 / 1)^3.
-            if 'monotonicity' in solver:
-                check(solver['monotonicity']['largest_energy_rise'] <= 1e-10, f'{text}: energy rises by {solver["monotonicity"]["largest_energy_rise"]}')
-    s = p.solve('obstacle/paraboloid.prm', *[f'Body cube/{b}' for b in bar], *plane, *two, 'Solver/Method=truncated newton multigrid')
-    for c in s['cycles']:
-        check(c['nonlinear']['iterations'] <= 30, f'truncated newton multigrid: {c["nonlinear"]["iterations"]} iterations')
-
-
 def free_bodies(p):
     """Bodies that only contact holds."""
     # The weight is carried; sliding and turning on the floor are undetermined and said to be.
@@ -736,7 +703,7 @@ def surface_map(p):
 
 
 if __name__ == '__main__':
-    modules = (sys.modules[__name__], checkpoint_cases, deck_cases, geometry_cases, hardening_cases, heat_cases, finished_mesh_cases, free_body_cases, load_cases, output_cases, random_pair_cases, rank_cases, report_cases, shape_cases,
+    modules = (sys.modules[__name__], checkpoint_cases, deck_cases, geometry_cases, hardening_cases, heat_cases, finished_mesh_cases, free_body_cases, load_cases, output_cases, random_pair_cases, rank_cases, report_cases, shape_cases, slender_cases,
                tool_cases, true_gap_cases, verification_cases, verify_cases, whole_boundary_cases)
     case = next(getattr(m, sys.argv[2]) for m in modules if hasattr(m, sys.argv[2]))
     case(Program(sys.argv[1], int(sys.argv[3])))

@@ -160,6 +160,23 @@ def ball_on_ball(p):
             check(s['converged'] and s['certificate']['contact_conditions_hold'], f'{s["certificate"]}')
 
 
+def touching_surfaces(p):
+    """A pin as thick as its bore: the overlap of surfaces that facets know to a hundredth of their heights is no interference fit, and nothing to refuse."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, 'lug.prm')
+        with open(path, 'w') as f:
+            f.write(LUG)
+        for clearance, penetrates in ((.03, False), (0., False), (-.01, True)):
+            make_mesh(os.path.join(GEOMETRIES, 'lug.geo'), os.path.join(folder, 'lug.msh'), '-setnumber', 'whole', '0', '-setnumber', 'clearance', str(clearance))
+            run = p.call(path, '--check')
+            check(run.returncode == 0, f'{clearance}: exit code {run.returncode}: {run.stderr}')
+            check(('initial penetration of' in run.stdout) == penetrates and ('(they overlap)' in run.stdout) == penetrates, f'{clearance}: {run.stdout}')
+            for text in ('the surfaces overlap by', 'less than their facets leave open)'):
+                check((text in run.stdout) == (clearance == 0.), f'{clearance}: {run.stdout}')
+            run = p.call(path, '--check', '--set', 'Pair bore/Initial penetration=refuse')
+            check(run.returncode == penetrates and ('does not allow it' in run.stderr) == penetrates, f'{clearance}, refused: exit code {run.returncode}: {run.stderr}')
+
+
 def pin_in_lug(p):
     """A bore with the flat faces at its rims in one boundary: the true surface at the rim is round, and so it stays in finer meshes."""
     with tempfile.TemporaryDirectory() as folder:

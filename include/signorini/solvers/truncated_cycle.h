@@ -61,6 +61,18 @@ namespace Signorini
     void replace(const double length, const Vector &direction, const Vector &direction_product,
                  Vector &residual);
 
+    /// Whether the next runs can begin in the contact subspace, and do not yet.
+    bool may_begin_in_subspace() const
+    {
+      return has_subspace && !stays_blocked;
+    }
+
+    /// Has them begin there, until the active set rests or a minimizer has cleared the way.
+    void begin_in_subspace()
+    {
+      stays_blocked = true;
+    }
+
     /// z, and A z.
     Vector correction, product;
 
@@ -98,7 +110,7 @@ namespace Signorini
     const ObstacleProblem &problem;
     ContactState          &contact;
     VCycle                 cycle;
-    /// For bodies that only contact holds; made when it is needed first.
+    /// Made when it is needed first.
     const bool                     has_subspace;
     std::optional<ContactSubspace> subspace;
     FreeMotionCorrection           motions;
@@ -111,8 +123,8 @@ namespace Signorini
     bool is_on_planes = false;
     /// Whether nodes in the way left little of the last coarse correction, or nothing holds the bodies.
     bool is_blocked = false;
-    /// Whether that was so after the last minimizer, too, or nothing is known yet: the next iterations begin
-    /// with one.
+    /// Whether that was so after the last minimizer, too, nothing is known yet, or the active set is lost:
+    /// the next iterations begin with one.
     bool stays_blocked;
     /// Energy norm of a coarse correction of which something was cut off or shortened; else zero.
     double cut_off = 0.;
