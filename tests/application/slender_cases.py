@@ -31,9 +31,12 @@ def slender(p):
             check(solver['iterations'] <= bound, f'{text}: {solver["iterations"]} iterations')
             check(a['active_nodes'] == b['active_nodes'], f'{text}: {a["active_nodes"]} active nodes, not {b["active_nodes"]}')
             near(a['energy'], b['energy'], 1e-9, f'{text}: energy')
-            # The energy is a difference of numbers larger by the ratio of the stiffness of a cell to that of the bar, 4 (40 / 1)^3.
+            # The energy is a difference of numbers larger by the ratio of the stiffness of a cell to that of the bar, 4 (40 / 1)^3. Where the contact
+            # subspace finds the minimizer in the first iteration, the sweeps after it have the whole displacement as their correction, in single
+            # precision: its rounding squared, 2^-48, times that ratio is 1e-9.
             if 'monotonicity' in solver:
-                check(solver['monotonicity']['largest_energy_rise'] <= 1e-10, f'{text}: energy rises by {solver["monotonicity"]["largest_energy_rise"]}')
+                rounding = 3e-9 if text == 'bar' and a is s['cycles'][0] else 1e-10
+                check(solver['monotonicity']['largest_energy_rise'] <= rounding, f'{text}: energy rises by {solver["monotonicity"]["largest_energy_rise"]}')
     s = p.solve('obstacle/paraboloid.prm', *[f'Body cube/{b}' for b in bar], *plane, *two, 'Solver/Method=truncated newton multigrid')
     for c in s['cycles']:
         check(c['nonlinear']['iterations'] <= 30, f'truncated newton multigrid: {c["nonlinear"]["iterations"]} iterations')
