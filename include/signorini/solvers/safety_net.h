@@ -13,11 +13,10 @@ namespace Signorini
 {
   /// What catches an iteration that stays slow. Where it has lost the active set from the start, the contact
   /// subspace: of slender bodies on each other all nodes may touch and few do. After that on small meshes
-  /// active-set steps with sparse factors. On
-  /// large ones the smoothers take patches of nodes (Smoother::strengthen()), and where it is the active set
-  /// that does not come to rest, active-set steps with conjugate gradients and the truncated V-cycle. Between
-  /// active-set steps that do not end the slow iteration has its turn: it lowers the energy each time, so
-  /// that nothing goes round in a circle.
+  /// active-set steps with sparse factors. On large ones the smoothers take patches of nodes
+  /// (Smoother::strengthen()), and where it is the active set that does not come to rest, active-set steps
+  /// with conjugate gradients and the truncated V-cycle. Between active-set steps that do not end the slow
+  /// iteration has its turn: it lowers the energy each time, so that nothing goes round in a circle.
   class SafetyNet
   {
   public:
