@@ -13,7 +13,9 @@
 #include <signorini/mortar/surface_values.h>
 #include <signorini/surface/mapping_quality.h>
 
+#include <algorithm>
 #include <iomanip>
+#include <tuple>
 
 namespace Signorini
 {
@@ -376,11 +378,12 @@ namespace Signorini
 
   namespace
   {
-    /// How far the true surface is from the middle of a triangle (length).
+    /// How far the true surface is from the middle of a triangle (length); zero where its shape is exact.
     double height_over_facet(const ContactSurface &surface, const std::size_t triangle)
     {
-      return surface.true_shape.has_offsets() ? surface.offset(triangle, {{1. / 3., 1. / 3., 1. / 3.}}).norm()
-                                              : 0.;
+      if (!surface.true_shape.has_offsets() || !(surface.true_shape.doubt(surface.mesh, triangle) > 0.))
+        return 0.;
+      return surface.offset(triangle, {{1. / 3., 1. / 3., 1. / 3.}}).norm();
     }
 
     /// Collective. Calls f(vertex or point of the nonmortar surface, its normal, gap, heights of the surfaces
@@ -398,7 +401,7 @@ namespace Signorini
               for (const unsigned int v : non.mesh.triangles[t])
                 if (double gap;
                     pair.obstacle->gap(gap, non.mesh.vertices[v], non.mesh.vertex_normals[v], size))
-                  f(non.mesh.vertices[v], non.mesh.vertex_normals[v], gap, height_over_facet(non, t));
+                  f(non.mesh.vertices[v], non.mesh.vertex_normals[v], gap, 0.);
         }
       if (!pair.mapping)
         return;
@@ -427,21 +430,21 @@ namespace Signorini
   SmallestGap smallest_initial_gap(const ContactPair &pair, const MPI_Comm comm)
   {
     SmallestGap result;
-    double      height = 0.;
+    bool        overlaps = false;
     for_each_gap(pair, [&](const Point<3> &x, const Vector3 &n, const double gap, const double heights) {
-      if (gap < 0.)
-        height = std::max(height, heights);
+      const double doubt = ContactRule().touching * heights;
+      overlaps           = overlaps || -gap > doubt;
       if (gap < result.value)
-        result = {gap, x, n, 0.};
+        result = {gap, x, n, doubt, false};
     });
-    result.doubt = ContactRule().touching * Utilities::MPI::max(height, comm);
-    const auto all =
-        Utilities::MPI::all_gather(comm, std::make_tuple(result.value, result.place, result.normal));
+    const auto all = Utilities::MPI::all_gather(
+        comm, std::make_tuple(result.value, result.place, result.normal, result.doubt));
     // The same on all ranks, also where several of them have it.
-    std::tie(result.value, result.place, result.normal) =
+    std::tie(result.value, result.place, result.normal, result.doubt) =
         *std::min_element(all.begin(), all.end(), [](const auto &one, const auto &two) {
           return std::get<0>(one) < std::get<0>(two);
         });
+    result.overlaps = Utilities::MPI::max(static_cast<int>(overlaps), comm) != 0;
     return result;
   }
 

@@ -190,7 +190,7 @@ namespace Signorini
         return;
       std::ostringstream text;
       text << "pair " << definition.name << ": ";
-      if (-gap.value <= gap.doubt)
+      if (!gap.overlaps)
         {
           text << "the surfaces overlap by " << -gap.value << ", less than their facets leave open ("
                << gap.doubt << ").";

@@ -73,9 +73,9 @@ namespace Signorini
           << ", coverage " << coupling.covered_area / coupling.area << std::endl;
       if (smallest.value < std::numeric_limits<double>::max())
         out << "  smallest distance of the true surfaces: " << smallest.value
-            << (smallest.value >= 0.               ? ""
-                : -smallest.value > smallest.doubt ? " (they overlap)"
-                                                   : " (less than their facets leave open)")
+            << (smallest.value >= 0. ? ""
+                : smallest.overlaps  ? " (they overlap)"
+                                     : " (less than their facets leave open)")
             << ", at (" << smallest.place << ")" << std::endl;
     }
 

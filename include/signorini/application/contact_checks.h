@@ -52,9 +52,11 @@ namespace Signorini
     dealii::Point<3> place;
     /// Of the nonmortar side there (1).
     Vector3 normal;
-    /// What overlaps by less may only touch: a part of the height of the true surfaces over the facets, where
-    /// they overlap at all (length).
+    /// What overlaps by less may only touch: a part of the height of the true surfaces over the facets there
+    /// (length).
     double doubt = 0.;
+    /// Whether surfaces overlap by more than that anywhere, not only here.
+    bool overlaps = false;
   };
 
   /// Collective. That of the true surfaces before anything moves, at the corners of the overlay (with an

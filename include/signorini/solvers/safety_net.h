@@ -23,10 +23,10 @@ namespace Signorini
     /// When an iteration is slow, and what takes over (doc/measurements.md, random pairs).
     struct Rule
     {
-      /// So many iterations, none of conjugate gradients, that leave more than this part of the first
-      /// correction have lost the active set. Leaf springs: .78 and .88 are left, and they come to rest after
-      /// hundreds; pin in lug: .11. With .1 after three of them random pairs take 6 % more time and no
-      /// iteration less.
+      /// So many iterations that leave more than this part of the first correction, the last one without a
+      /// step of conjugate gradients, have lost the active set. Leaf springs: .78 and .88 are left, and they
+      /// come to rest after hundreds; pin in lug: .11. With .1 after three of them random pairs take 6 % more
+      /// time and no iteration less.
       unsigned int n_to_settle = 2;
       double       lost        = .3;
       /// The rate is the geometric mean over so many iterations.
