@@ -59,8 +59,9 @@ namespace Signorini
                 {InitialPenetration::resolve, "resolve"},
                 {InitialPenetration::refuse, "refuse"}},
                "What to do where the surfaces overlap at the start. resolve: an interference fit, the bodies "
-               "push each other away. refuse: do not compute. automatic: resolve what is at most a percent "
-               "of the extents of both bodies along the normal, refuse what is more.");
+               "push each other away. refuse: do not compute, unless they just touch: overlap by less than "
+               "their facets leave open. automatic: resolve what is at most a percent of the extents of both "
+               "bodies along the normal, refuse what is more.");
     prm.add_parameter("First region", first_region,
                       "Expression in x, y, z that is positive where the first surface may touch (a face "
                       "belongs to it if a corner or its centre does); "

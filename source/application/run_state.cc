@@ -27,8 +27,9 @@ namespace Signorini
   void transfer(Archive &a, ConvergenceReport &r)
   {
     a(r.converged, r.stagnated, r.iterations, r.start_iterations, r.linear_cycles, r.history, r.scale);
-    a(r.active_nodes, r.energy, r.rate, r.hierarchy_updates, r.needed_interface_sweeps, r.needed_patches);
-    a(r.before_patches, r.checked_substeps, r.largest_energy_rise, r.largest_violation, r.safety_net, r.note);
+    a(r.active_nodes, r.energy, r.rate, r.hierarchy_updates, r.subspace_minimizations);
+    a(r.needed_interface_sweeps, r.needed_patches, r.before_patches, r.checked_substeps,
+      r.largest_energy_rise, r.largest_violation, r.safety_net, r.note);
   }
 
   template <typename Archive>

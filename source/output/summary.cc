@@ -75,6 +75,7 @@ namespace Signorini
       json.begin('{', "nonlinear");
       write_solver(json, report);
       json.number("hierarchy_updates", report.hierarchy_updates);
+      json.number("subspace_minimizations", report.subspace_minimizations);
       json.boolean("needed_interface_sweeps", report.needed_interface_sweeps);
       json.boolean("needed_patches", report.needed_patches);
       if (!report.start_iterations.empty())

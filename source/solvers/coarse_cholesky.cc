@@ -27,12 +27,18 @@ namespace Signorini
     MPI_Comm                                    communicator;
 
     template <typename Solver>
-    bool factorize(Solver &solver, const Matrix &upper, const std::size_t n)
+    void analyze(Solver &solver, const Matrix &upper, const std::size_t n)
     {
       if (!analyzed || n_blocks != n)
         solver.analyzePattern(upper);
       analyzed = true;
       n_blocks = n;
+    }
+
+    template <typename Solver>
+    bool factorize(Solver &solver, const Matrix &upper, const std::size_t n)
+    {
+      analyze(solver, upper, n);
       solver.factorize(upper);
       return solver.info() == Eigen::Success;
     }
@@ -60,6 +66,14 @@ namespace Signorini
                      entry.block());
         });
       return packed;
+    }
+
+    /// On rank 0.
+    GatheredBlocks gather(const NodeBlockMatrix &matrix)
+    {
+      GatheredBlocks result;
+      result.gather(pack(matrix), matrix.partition().n_global(), matrix.partition().communicator());
+      return result;
     }
 
     /// What keeps factors of a singular matrix with a consistent right hand side finite.
@@ -101,13 +115,29 @@ namespace Signorini
 
 
 
+  double CoarseCholesky::analyze(const NodeBlockMatrix &matrix)
+  {
+    AssertThrow(factorization->supernodal, ExcInternalError());
+    const MPI_Comm       comm   = matrix.partition().communicator();
+    const GatheredBlocks blocks = gather(matrix);
+    double               cost   = 0.;
+    if (Utilities::MPI::this_mpi_process(comm) == 0)
+      {
+        factorization->analyze(*factorization->supernodal, blocks.upper_structure(), blocks.n_blocks());
+        // CHOLMOD counts an addition and a multiplication as two.
+        cost = .5 * factorization->supernodal->cholmod().fl;
+      }
+    return Utilities::MPI::broadcast(comm, cost);
+  }
+
+
+
   void CoarseCholesky::factorize(const NodeBlockMatrix &matrix, const bool is_nearly_singular)
   {
     const MPI_Comm comm         = matrix.partition().communicator();
     factorization->communicator = comm;
-    bool           ok           = true;
-    GatheredBlocks blocks;
-    blocks.gather(pack(matrix), matrix.partition().n_global(), comm);
+    bool                 ok     = true;
+    const GatheredBlocks blocks = gather(matrix);
     if (Utilities::MPI::this_mpi_process(comm) == 0)
       {
         GatheredBlocks::UpperHalf upper = blocks.upper_structure();

@@ -107,9 +107,13 @@ namespace Signorini
 
 
 
-  bool ContactSubspace::exists(const MultigridHierarchy &hierarchy, const unsigned int level)
+  bool ContactSubspace::exists(const MultigridHierarchy &hierarchy, const unsigned int level,
+                               const ObstacleProblem &problem)
   {
+    const std::size_t n_restricted = Utilities::MPI::sum(
+        problem.half_spaces.size(), hierarchy.level(level).matrix.partition().communicator());
     return !hierarchy.level(level).contact_nodes.empty() &&
+           (problem.semidefinite || n_restricted <= Rule().most_contact_nodes) &&
            hierarchy.level(choose_level(hierarchy, level)).matrix.partition().n_global() <= Rule().most_nodes;
   }
 

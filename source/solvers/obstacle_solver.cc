@@ -125,8 +125,8 @@ namespace Signorini
                       "Applications of the V-cycle (of a symmetric sweep, for projected gauss seidel).",
                       Patterns::Integer(1, 1000000000));
     prm.add_parameter("Safety net", safety_net,
-                      "Whether accelerated goes on with active-set steps where it stays slow, with sparse "
-                      "factors while the mesh is small. A note says when.");
+                      "Whether accelerated goes on otherwise where it stays slow: with active-set steps, by "
+                      "sparse factors where these are cheap, or with patches of nodes. A note says when.");
     prm.add_parameter("Check monotonicity", check_monotonicity,
                       "Measure after every step of the solver on the finest level whether the energy has "
                       "fallen and the iterate is admissible, and report it (costs a product with the matrix "

@@ -79,8 +79,10 @@ namespace Signorini
     smoother.reset();
     reduced  = matrix_on_planes(matrix, half_spaces, active);
     smoother = std::make_unique<StagedSmoother>(reduced, LevelInterface());
-    free     = ContactState(reduced);
-    contact  = ContactState(matrix, half_spaces);
+    if (hierarchy.has_strong_smoothers())
+      smoother->strengthen();
+    free    = ContactState(reduced);
+    contact = ContactState(matrix, half_spaces);
     for (std::size_t p = 0; p < active.size(); ++p)
       contact.set_active(p, active[p]);
   }

@@ -62,7 +62,7 @@ namespace Signorini
     if (remedy == Remedy::contact_subspace)
       {
         cycle.begin_in_subspace();
-        wait(report);
+        watch_anew(report);
       }
     else if (remedy == Remedy::patches)
       strengthen(report);
@@ -80,46 +80,70 @@ namespace Signorini
 
 
 
-  bool SafetyNet::uses_factors() const
+  bool SafetyNet::is_small() const
   {
-    return n_unknowns() <= static_cast<double>(net_rule.largest_for_factors);
+    return n_unknowns() <= net_rule.small;
   }
 
 
 
-  SafetyNet::Remedy SafetyNet::due(const ConvergenceReport &report, const ObstacleProblem &problem) const
+  bool SafetyNet::may_take_patches() const
   {
-    if (!is_wanted() || report.converged || problem.semidefinite || level + 1 != hierarchy.n_levels() ||
-        report.iterations < not_before || report.scale <= 0.)
-      return Remedy::none;
-    if (report.iterations == net_rule.n_to_settle && n_conjugate == 0 && cycle.may_begin_in_subspace() &&
-        report.history.back() > net_rule.lost * report.history.front())
-      return Remedy::contact_subspace;
-    return report.history.size() > net_rule.n_watched ? due_to_rate(report) : Remedy::none;
-  }
-
-
-
-  SafetyNet::Remedy SafetyNet::due_to_rate(const ConvergenceReport &report) const
-  {
-    const double left = iterations_left(report, parameters);
-    if (uses_factors())
-      return left > net_rule.left_with_factors + n_unknowns() / net_rule.unknowns_for_one_more
-                 ? Remedy::active_set_steps
-                 : Remedy::none;
-    if (left <= net_rule.left_without)
-      return Remedy::none;
     const unsigned int n_ranks =
         Utilities::MPI::n_mpi_processes(hierarchy.level(level).matrix.partition().communicator());
-    if (!hierarchy.has_strong_smoothers() && n_unknowns() <= net_rule.largest_for_patches * n_ranks)
-      return Remedy::patches;
-    return n_conjugate + net_rule.fewest_searched <= net_rule.n_watched ? Remedy::active_set_steps
-                                                                        : Remedy::none;
+    return !hierarchy.has_strong_smoothers() && n_unknowns() <= net_rule.largest_for_patches * n_ranks;
   }
 
 
 
-  void SafetyNet::wait(const ConvergenceReport &report)
+  void SafetyNet::choose_planes()
+  {
+    const NodeBlockMatrix &matrix = hierarchy.level(level).matrix;
+    if (n_unknowns() <= net_rule.largest_for_factors)
+      {
+        auto factors = std::make_unique<FactoredPlanes>(matrix);
+        if (is_small() || factors->cost() <= net_rule.cheap_factors)
+          planes = std::move(factors);
+      }
+    if (!planes)
+      planes = std::make_unique<CycledPlanes>(hierarchy, level, parameters.smoothing);
+  }
+
+
+
+  SafetyNet::Remedy SafetyNet::due(const ConvergenceReport &report, const ObstacleProblem &problem)
+  {
+    if (!is_wanted() || report.converged || problem.semidefinite || level + 1 != hierarchy.n_levels() ||
+        report.scale <= 0.)
+      return Remedy::none;
+    if (report.iterations == net_rule.n_to_settle && n_conjugate == 0 && cycle.may_begin_in_subspace() &&
+        report.history.back() > net_rule.most_left * report.history.front())
+      return Remedy::contact_subspace;
+    return report.iterations >= not_before && report.history.size() > net_rule.n_watched ? due_to_rate(report)
+                                                                                         : Remedy::none;
+  }
+
+
+
+  SafetyNet::Remedy SafetyNet::due_to_rate(const ConvergenceReport &report)
+  {
+    const double slow = std::min(net_rule.left_with_factors + n_unknowns() / net_rule.unknowns_for_one_more,
+                                 net_rule.most_iterations_left);
+    if (iterations_left(report, parameters) <= slow)
+      return Remedy::none;
+    if (!planes)
+      choose_planes();
+    if (planes->is_exact())
+      return Remedy::active_set_steps;
+    const bool searches = n_conjugate + net_rule.fewest_searched <= net_rule.n_watched;
+    if (may_take_patches() && (has_failed || !searches))
+      return Remedy::patches;
+    return searches ? Remedy::active_set_steps : Remedy::none;
+  }
+
+
+
+  void SafetyNet::watch_anew(const ConvergenceReport &report)
   {
     not_before  = report.iterations + static_cast<unsigned int>(net_rule.n_watched) + 1;
     n_conjugate = 0;
@@ -129,11 +153,12 @@ namespace Signorini
 
   void SafetyNet::strengthen(ConvergenceReport &report)
   {
-    report.needed_patches = !uses_factors();
+    report.needed_patches = !is_small();
     report.before_patches = report.iterations;
     if (report.needed_patches)
       hierarchy.strengthen_smoothers();
-    wait(report);
+    has_failed = false;
+    watch_anew(report);
   }
 
 
@@ -142,14 +167,10 @@ namespace Signorini
                             ConvergenceReport &report, const ObstacleSolver::Monitor &monitor)
   {
     SafetyNetReport &net = report.safety_net;
-    if (!planes)
+    if (!steps)
       {
-        net.after = report.iterations;
-        net.rate  = std::exp(-decay_of(report.history));
-        if (uses_factors())
-          planes = std::make_unique<FactoredPlanes>(hierarchy.level(level).matrix);
-        else
-          planes = std::make_unique<CycledPlanes>(hierarchy, level, parameters.smoothing);
+        net.after         = report.iterations;
+        net.rate          = std::exp(-decay_of(report.history));
         net.linear_solver = planes->is_exact() ? "sparse factors" : "conjugate gradients with the V-cycle";
         steps             = std::make_unique<ActiveSetSolver>(hierarchy, parameters, level, *planes);
       }
@@ -158,6 +179,7 @@ namespace Signorini
       contact.set_active(p, steps->active()[p]);
     net.n_steps = steps->n_steps();
     net.n_failed += ended ? 0 : 1;
+    has_failed = !ended;
     // Longer each time.
     not_before  = report.iterations + (static_cast<unsigned int>(net_rule.n_watched) << net.n_failed);
     n_conjugate = 0;

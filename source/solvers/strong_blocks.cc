@@ -36,6 +36,10 @@ namespace Signorini
       /// iterations by node, 23 with patches of 24 that overlap, 179 where they do not; a random pair of
       /// 12,510 unknowns 216, 37, 86. Neighbours alone: 242 and 71.
       std::size_t patch_size = 24;
+      /// Added to the diagonal blocks of patches, of themselves. Functions of background levels may depend on
+      /// each other; the factors of a patch of such ones return rounding. A plate of 100 x 100 x 1 cubes, a
+      /// finished mesh: no end in 313 iterations, 35 with 1e-9, 30 with 1e-7 and 1e-6.
+      double patch_regularization = 1e-7;
       /// Colours of ranks for the blocks at their borders: those of further colours share a phase with
       /// others.
       unsigned int most_colours = 7;
@@ -77,6 +81,7 @@ namespace Signorini
     , sweeps(sweeps)
     , blocks_of_row(matrix.n_rows())
     , place_in_block(matrix.n_rows(), -1)
+    , regularization(choice == Choice::patches ? blocks_rule.patch_regularization : 0.)
   {
     if (choice == Choice::patches)
       find_patches();
@@ -391,8 +396,8 @@ namespace Signorini
             return;
           auto restricted =
               restrict_to_planes(entry.block(), row_normal, contact.plane(column), row == column);
-          if (row == column && !block.shift.empty())
-            restricted *= 1. + block.shift[i];
+          if (row == column)
+            restricted *= 1. + regularization + (block.shift.empty() ? 0. : block.shift[i]);
           restricted_matrix.set(i, j, restricted);
         });
       }

@@ -32,7 +32,7 @@ namespace Signorini
     , problem(problem)
     , contact(contact)
     , cycle(hierarchy, coarse_smoothing, level - 1)
-    , has_subspace(ContactSubspace::exists(hierarchy, level))
+    , has_subspace(ContactSubspace::exists(hierarchy, level, problem))
     , motions(hierarchy.level(level).matrix, problem.free_motions, problem.rhs)
     , stays_blocked(!knows_contact)
   {
@@ -94,8 +94,9 @@ namespace Signorini
 
     smoother.smooth_to_residual(correction, residual, contact, plan.smoothing, &new_residual);
     motions.restore_work(new_residual);
-    keeps_active = all_ranks(keeps_active && contact.active() == active);
-    product      = residual;
+    keeps_active  = all_ranks(keeps_active && contact.active() == active);
+    stays_blocked = stays_blocked && (is_blocked || !keeps_active);
+    product       = residual;
     product -= new_residual;
     is_on_planes = contact.normal_energy(hierarchy.level(level).matrix, correction) <=
                    PlaneRule().largest_share * std::abs(correction * product);
@@ -117,6 +118,7 @@ namespace Signorini
 
   void TruncatedCycle::minimize_in_subspace()
   {
+    ++n_minimizations;
     if (!subspace)
       subspace.emplace(hierarchy, level, nodes_of_subspace(), problem.free_motions);
     subspace->run(correction, new_residual, contact, motions);

@@ -177,6 +177,7 @@ namespace Signorini
       }
     close(report, v, problem, residual);
     report.hierarchy_updates       = cycle.n_updates;
+    report.subspace_minimizations  = cycle.n_minimizations;
     report.needed_interface_sweeps = sweeps.needs_sweeps();
     return report;
   }

@@ -42,6 +42,25 @@ def slender(p):
         check(c['nonlinear']['iterations'] <= 30, f'truncated newton multigrid: {c["nonlinear"]["iterations"]} iterations')
 
 
+def sheet(p):
+    """A sheet that its weight lays down on a plane, one finished mesh of cubes: the active set does not come to rest, and sparse factors of something so thin are cheap."""
+    settings = ('Body cube/Divisions=75, 75, 1', 'Body cube/Upper corner=75, 75, 1', 'Body cube/Dirichlet=left: (0, 0, 0)', 'Body cube/Volume force=(0, 0, -1e-8)',
+                'Pair bottom/Obstacle=plane: (0, 0, -0.001), (0, 0, 1)', 'Refinement/Global cycles=0', 'Solver/Compare linear multigrid=false')
+    s = p.solve('obstacle/paraboloid.prm', *settings)
+    certificate(s)
+    c = s['cycles'][-1]
+    solver = c['nonlinear']
+    print(f'{c["dofs"]} unknowns, {solver["iterations"]} iterations, {solver["subspace_minimizations"]} minimizations in the subspace, {solver.get("safety_net")}')
+    check(c['dofs'] > 30000 and solver['iterations'] <= 30, f'{c["dofs"]} unknowns, {solver["iterations"]} iterations')
+    check(solver['subspace_minimizations'] > 0, 'the contact subspace was not used')
+    net = solver['safety_net']
+    check(net['linear_solver'] == 'sparse factors' and net['failed_attempts'] == 0, f'{net}')
+    # Where a cantilever of this length would hang: it lies on the plane but for its root.
+    pair = s['pairs'][0]
+    weight = 1e-8 * 75. * 75.
+    check(.5 * weight < pair['force'][2] < weight, f'the plane carries {pair["force"][2]} of {weight}')
+
+
 LENGTHS = (480., 360., 240.)
 WIDTH, THICKNESS, LOAD = 40., 6., 200.
 

@@ -28,6 +28,10 @@ namespace Signorini
     CoarseCholesky(CoarseCholesky &&) noexcept;
     ~CoarseCholesky();
 
+    /// Collective. Orders matrices of the structure of this one; how many multiplications their factorization
+    /// takes. Supernodal factors only.
+    double analyze(const NodeBlockMatrix &matrix);
+
     /// Collective. Factorizes; the ordering is reused while the structure stays the same.
     /// @param is_nearly_singular whether functions of the level may depend on each other: the factors are
     ///   those of a definite matrix beside it

@@ -47,6 +47,8 @@ namespace Signorini
     double rate = std::numeric_limits<double>::quiet_NaN();
     /// How often the truncated hierarchy was updated.
     unsigned int hierarchy_updates = 0;
+    /// Minimizations in the contact subspace.
+    unsigned int subspace_minimizations = 0;
     /// Whether an iteration at rest left so much of the correction that accelerated needs interface sweeps on
     /// the finest level.
     bool needed_interface_sweeps = false;

@@ -41,6 +41,12 @@ namespace Signorini
     /// The matrix must outlive the object.
     explicit FactoredPlanes(const NodeBlockMatrix &matrix);
 
+    /// Collective. How many multiplications each setup() will take.
+    double cost()
+    {
+      return factors.analyze(matrix);
+    }
+
     void setup(const HalfSpaces &half_spaces, const std::vector<unsigned char> &active) override;
 
     void correct(Vector &correction, const Vector &residual) override

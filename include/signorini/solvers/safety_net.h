@@ -12,11 +12,12 @@
 namespace Signorini
 {
   /// What catches an iteration that stays slow. Where it has lost the active set from the start, the contact
-  /// subspace: of slender bodies on each other all nodes may touch and few do. After that on small meshes
-  /// active-set steps with sparse factors. On large ones the smoothers take patches of nodes
-  /// (Smoother::strengthen()), and where it is the active set that does not come to rest, active-set steps
-  /// with conjugate gradients and the truncated V-cycle. Between active-set steps that do not end the slow
-  /// iteration has its turn: it lowers the energy each time, so that nothing goes round in a circle.
+  /// subspace: of slender bodies on each other all nodes may touch and few do. After that active-set steps
+  /// with sparse factors, where these are cheap: on small meshes, and on thin bodies. Elsewhere, if it is the
+  /// active set that does not come to rest, active-set steps with conjugate gradients and the truncated
+  /// V-cycle; if not, or if they do not end, the smoothers take patches of nodes (Smoother::strengthen()).
+  /// Between active-set steps that do not end the slow iteration has its turn: it lowers the energy each
+  /// time, so that nothing goes round in a circle.
   class SafetyNet
   {
   public:
@@ -28,7 +29,7 @@ namespace Signorini
       /// come to rest after hundreds; pin in lug: .11. With .1 after three of them random pairs take 6 % more
       /// time and no iteration less.
       unsigned int n_to_settle = 2;
-      double       lost        = .3;
+      double       most_left   = .3;
       /// The rate is the geometric mean over so many iterations.
       std::size_t n_watched = 8;
       /// With sparse factors: so many iterations to go at this rate, and one more for this many unknowns, are
@@ -36,10 +37,14 @@ namespace Signorini
       /// (0.5 s): they are taken earlier than time alone would suggest, for a bound on the iterations (random
       /// pairs: at most 32).
       double left_with_factors = 12., unknowns_for_one_more = 2000.;
-      /// Without: patches cost some ten times a sweep by node.
-      double left_without = 40.;
-      /// Unknowns up to which sparse factors are taken: above this they are slow and large.
-      dealii::types::global_dof_index largest_for_factors = 30000;
+      /// Not more than these, which are slow in any case. Patches cost some ten times a sweep by node.
+      double most_iterations_left = 40.;
+      /// Unknowns up to which sparse factors are taken whatever they cost, and up to which their cost is
+      /// looked at: the matrix is gathered on rank 0 for that.
+      double small = 30000., largest_for_factors = 500000.;
+      /// Multiplications of a factorization that is cheap: it takes some 5 s. Pairs of blocks with 164,000
+      /// unknowns, slabs of one layer with 108,000, a sheet with 242,000 have 2e10 to 5e10 of them.
+      double cheap_factors = 5e10;
       /// Unknowns of a rank up to which the smoothers take patches: 4 kB each.
       double largest_for_patches = 500000.;
       /// Of the iterations watched, those that conjugate gradients did not take: with fewer it is the linear
@@ -72,14 +77,14 @@ namespace Signorini
 
     bool is_wanted() const;
 
-    /// The same on all ranks.
-    Remedy due(const ConvergenceReport &report, const ObstacleProblem &problem) const;
+    /// Collective.
+    Remedy due(const ConvergenceReport &report, const ObstacleProblem &problem);
 
-    /// What is due because of the rate of the last iterations.
-    Remedy due_to_rate(const ConvergenceReport &report) const;
+    /// Collective. What is due because of the rate of the last iterations.
+    Remedy due_to_rate(const ConvergenceReport &report);
 
-    /// Has a remedy show what it does before the next one.
-    void wait(const ConvergenceReport &report);
+    /// Has a remedy show what it does before the next one: watches as many iterations as at the beginning.
+    void watch_anew(const ConvergenceReport &report);
 
     /// Has the smoothers take patches, if that is not done yet and the mesh is too large for sparse factors.
     void strengthen(ConvergenceReport &report);
@@ -89,7 +94,11 @@ namespace Signorini
                    ConvergenceReport &report, const ObstacleSolver::Monitor &monitor);
 
     double n_unknowns() const;
-    bool   uses_factors() const;
+    bool   is_small() const;
+    bool   may_take_patches() const;
+
+    /// Collective. Makes `planes`, sparse factors if they are cheap.
+    void choose_planes();
 
     MultigridHierarchy              &hierarchy;
     const SolverParameters           parameters;
@@ -97,8 +106,10 @@ namespace Signorini
     TruncatedCycle                  &cycle;
     std::unique_ptr<PlaneSolver>     planes;
     std::unique_ptr<ActiveSetSolver> steps;
-    /// Steps of conjugate gradients in a row; the iteration before which it does not take over (again).
+    /// Steps of conjugate gradients in a row; the iteration before which the rate is not looked at (again).
     unsigned int n_conjugate = 0, not_before = 0;
+    /// Whether active-set steps did not end since the smoothers were as they are.
+    bool has_failed = false;
   };
 } // namespace Signorini
 

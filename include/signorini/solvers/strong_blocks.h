@@ -104,6 +104,8 @@ namespace Signorini
     /// Of each owned row in the block at hand, or -1.
     std::vector<int>          place_in_block;
     std::vector<unsigned int> block_rows;
+    /// Added to the diagonal blocks of what is factorized, of themselves.
+    double regularization;
   };
 } // namespace Signorini
 

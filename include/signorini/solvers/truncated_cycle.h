@@ -15,9 +15,9 @@ namespace Signorini
 {
   /// One correction z of an iterate v: projected smoothing on a level, one linear V-cycle on the spaces below
   /// truncated at active nodes, the better of this correction projected and shortened with exact line search,
-  /// smoothing. Where bodies are held by contact alone and nodes in the way leave little of the correction,
-  /// the minimizer in the contact subspace follows, and a second correction. It hands out A z, which costs no
-  /// product, but where there was a minimizer.
+  /// smoothing. Where nodes in the way leave little of the correction, the minimizer in the contact subspace
+  /// follows, and a second correction. It hands out A z, which costs no product, but where there was a
+  /// minimizer.
   class TruncatedCycle
   {
   public:
@@ -76,8 +76,8 @@ namespace Signorini
     /// z, and A z.
     Vector correction, product;
 
-    /// How often the hierarchy was truncated anew.
-    unsigned int n_updates = 0;
+    /// How often the hierarchy was truncated anew; how many minimizers in the contact subspace there were.
+    unsigned int n_updates = 0, n_minimizations = 0;
 
   private:
     bool all_ranks(const bool condition) const;

@@ -270,6 +270,33 @@ TEST_P(Sweeps, OverBlocksLowerTheEnergy)
     }
 }
 
+// As those of background levels are. Here the cube is one patch, held nowhere, and the load has the rounding
+// of single precision, of which there is no end along rigid motions.
+TEST(StrongBlocks, PatchesOfDependentFunctionsReturnNoRounding)
+{
+  if (!is_alone())
+    GTEST_SKIP() << "A cube of eight nodes.";
+  const CubeProblem::Grid    grid(1);
+  NodeBlockMatrix            matrix = CubeProblem::stiffness(grid, 1., .3);
+  const ProjectedGaussSeidel sweeps(matrix);
+  StrongBlocks               blocks(matrix, sweeps, StrongBlocks::Choice::patches);
+  ContactState               free(matrix);
+  Vector                     solution, rhs, v;
+  for (Vector *vector : {&solution, &rhs, &v})
+    matrix.partition().reinit(*vector);
+  for (unsigned int i = 0; i < solution.locally_owned_size(); ++i)
+    solution.local_element(i) = Cube::random_number(i);
+  matrix.vmult(rhs, solution);
+  for (unsigned int i = 0; i < rhs.locally_owned_size(); ++i)
+    rhs.local_element(i) = static_cast<float>(rhs.local_element(i));
+  blocks.run(v, rhs, free, Direction::forward);
+  EXPECT_GT(v.linfty_norm(), .1 * solution.linfty_norm());
+  EXPECT_LT(v.linfty_norm(), 3. * solution.linfty_norm());
+  matrix.vmult(solution, v);
+  solution -= rhs;
+  EXPECT_LE(solution.linfty_norm(), 1e-5 * rhs.linfty_norm());
+}
+
 INSTANTIATE_TEST_SUITE_P(Shapes, Sweeps,
                          testing::Values(Shape{1., .3}, Shape{1., .49}, Shape{.1, .3}, Shape{10., .3},
                                          Shape{1., .3, 274}, Shape{1., .49, 274}));
