@@ -26,19 +26,44 @@ namespace Signorini
     std::size_t                                 n_blocks = 0;
     MPI_Comm                                    communicator;
 
+    /// Eigen does not see that there may be no memory for it, or too few bits.
+    static bool has_ordering(Supernodal &solver)
+    {
+      return solver.cholmod().status == CHOLMOD_OK && solver.cholmod().fl >= 0.;
+    }
+
+    static bool has_ordering(Eigen::SimplicialLDLT<Matrix, Eigen::Upper> &)
+    {
+      return true;
+    }
+
     template <typename Solver>
-    void analyze(Solver &solver, const Matrix &upper, const std::size_t n)
+    bool analyze(Solver &solver, const Matrix &upper, const std::size_t n)
     {
       if (!analyzed || n_blocks != n)
-        solver.analyzePattern(upper);
-      analyzed = true;
+        {
+          solver.analyzePattern(upper);
+          analyzed = has_ordering(solver);
+        }
       n_blocks = n;
+      return analyzed;
+    }
+
+    /// Multiplications of a factorization; infinite if the structure cannot be analyzed.
+    double cost(const GatheredBlocks &blocks)
+    {
+      const SingleThreaded single_threaded;
+      // CHOLMOD counts an addition and a multiplication as two.
+      return analyze(*supernodal, blocks.upper_structure(), blocks.n_blocks())
+                 ? .5 * supernodal->cholmod().fl
+                 : std::numeric_limits<double>::infinity();
     }
 
     template <typename Solver>
     bool factorize(Solver &solver, const Matrix &upper, const std::size_t n)
     {
-      analyze(solver, upper, n);
+      if (!analyze(solver, upper, n))
+        return false;
       solver.factorize(upper);
       return solver.info() == Eigen::Success;
     }
@@ -115,18 +140,14 @@ namespace Signorini
 
 
 
-  double CoarseCholesky::analyze(const NodeBlockMatrix &matrix)
+  double CoarseCholesky::cost(const NodeBlockMatrix &matrix)
   {
     AssertThrow(factorization->supernodal, ExcInternalError());
     const MPI_Comm       comm   = matrix.partition().communicator();
     const GatheredBlocks blocks = gather(matrix);
     double               cost   = 0.;
     if (Utilities::MPI::this_mpi_process(comm) == 0)
-      {
-        factorization->analyze(*factorization->supernodal, blocks.upper_structure(), blocks.n_blocks());
-        // CHOLMOD counts an addition and a multiplication as two.
-        cost = .5 * factorization->supernodal->cholmod().fl;
-      }
+      cost = factorization->cost(blocks);
     return Utilities::MPI::broadcast(comm, cost);
   }
 

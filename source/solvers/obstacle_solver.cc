@@ -124,9 +124,11 @@ namespace Signorini
     prm.add_parameter("Maximal iterations", max_iterations,
                       "Applications of the V-cycle (of a symmetric sweep, for projected gauss seidel).",
                       Patterns::Integer(1, 1000000000));
-    prm.add_parameter("Safety net", safety_net,
-                      "Whether accelerated goes on otherwise where it stays slow: with active-set steps, by "
-                      "sparse factors where these are cheap, or with patches of nodes. A note says when.");
+    prm.add_parameter(
+        "Safety net", safety_net,
+        "Whether accelerated goes on otherwise where it stays slow: with active-set steps, by "
+        "sparse factors where these are cheap, by V-cycles elsewhere, or with patches of nodes. "
+        "A note says when.");
     prm.add_parameter("Check monotonicity", check_monotonicity,
                       "Measure after every step of the solver on the finest level whether the energy has "
                       "fallen and the iterate is admissible, and report it (costs a product with the matrix "

@@ -40,7 +40,7 @@ namespace Signorini
     , level(level)
     , cycle(cycle)
   {
-    if (is_wanted() && parameters.starts_with_patches)
+    if (is_wanted() && parameters.starts_with_patches && may_take_patches())
       strengthen(report);
   }
 
@@ -116,6 +116,7 @@ namespace Signorini
     if (!is_wanted() || report.converged || problem.semidefinite || level + 1 != hierarchy.n_levels() ||
         report.scale <= 0.)
       return Remedy::none;
+    // Whatever the rate waits for: it is due once.
     if (report.iterations == net_rule.n_to_settle && n_conjugate == 0 && cycle.may_begin_in_subspace() &&
         report.history.back() > net_rule.most_left * report.history.front())
       return Remedy::contact_subspace;
@@ -127,8 +128,8 @@ namespace Signorini
 
   SafetyNet::Remedy SafetyNet::due_to_rate(const ConvergenceReport &report)
   {
-    const double slow = std::min(net_rule.left_with_factors + n_unknowns() / net_rule.unknowns_for_one_more,
-                                 net_rule.most_iterations_left);
+    const double slow =
+        std::min(net_rule.few_left + n_unknowns() / net_rule.unknowns_for_one_more, net_rule.many_left);
     if (iterations_left(report, parameters) <= slow)
       return Remedy::none;
     if (!planes)

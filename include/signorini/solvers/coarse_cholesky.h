@@ -10,7 +10,8 @@
 
 namespace Signorini
 {
-  /// Direct solver of level 0: sparse factors on rank 0, where the small matrix is gathered.
+  /// Direct solver of level 0 and of active-set steps: sparse factors on rank 0, where the matrix is
+  /// gathered.
   class CoarseCholesky
   {
   public:
@@ -29,8 +30,8 @@ namespace Signorini
     ~CoarseCholesky();
 
     /// Collective. Orders matrices of the structure of this one; how many multiplications their factorization
-    /// takes. Supernodal factors only.
-    double analyze(const NodeBlockMatrix &matrix);
+    /// takes, infinity where they cannot be ordered (no memory). Supernodal factors only.
+    double cost(const NodeBlockMatrix &matrix);
 
     /// Collective. Factorizes; the ordering is reused while the structure stays the same.
     /// @param is_nearly_singular whether functions of the level may depend on each other: the factors are

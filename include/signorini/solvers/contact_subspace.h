@@ -32,8 +32,9 @@ namespace Signorini
       /// More cannot be factorized at the cost of an iteration (a mesh without coarser ones).
       unsigned int most_nodes = 5000;
       /// Contact nodes of a problem whose bodies are held otherwise: the matrix is factorized on rank 0. A
-      /// plate on a plane, finished meshes: 10,100 of them, a minimizer in 0.3 to 9 s, 77 iterations in place
-      /// of 123 in 1.2 times the time; 40,200 of them, 10 to 40 s, 128 and 131, 2.6 times.
+      /// sheet on a plane, finished meshes, active-set steps with V-cycles: 10,100 of them, a minimizer in
+      /// 0.02 to 9 s, 77 iterations in place of 123 in 1.2 to 1.7 times the time; 40,200 of them, 128 in
+      /// place of 131, 2.6 times.
       std::size_t most_contact_nodes = 20000;
       /// Used where the coarse correction, projected or shortened, lowers the energy by less than this part
       /// of what the whole one would have. Where contact lacks, 1e-7 to .03 is left; on nested starts of the

@@ -34,7 +34,7 @@ namespace Signorini
     virtual bool is_exact() const = 0;
   };
 
-  /// By sparse factors on rank 0: for small meshes.
+  /// By sparse factors on rank 0: for small meshes, and thin bodies.
   class FactoredPlanes : public PlaneSolver
   {
   public:
@@ -44,7 +44,7 @@ namespace Signorini
     /// Collective. How many multiplications each setup() will take.
     double cost()
     {
-      return factors.analyze(matrix);
+      return factors.cost(matrix);
     }
 
     void setup(const HalfSpaces &half_spaces, const std::vector<unsigned char> &active) override;

@@ -15,7 +15,7 @@ namespace Signorini
   /// subspace: of slender bodies on each other all nodes may touch and few do. After that active-set steps
   /// with sparse factors, where these are cheap: on small meshes, and on thin bodies. Elsewhere, if it is the
   /// active set that does not come to rest, active-set steps with conjugate gradients and the truncated
-  /// V-cycle; if not, or if they do not end, the smoothers take patches of nodes (Smoother::strengthen()).
+  /// V-cycle; if not, or if those do not end, the smoothers take patches of nodes (Smoother::strengthen()).
   /// Between active-set steps that do not end the slow iteration has its turn: it lowers the energy each
   /// time, so that nothing goes round in a circle.
   class SafetyNet
@@ -32,18 +32,19 @@ namespace Signorini
       double       most_left   = .3;
       /// The rate is the geometric mean over so many iterations.
       std::size_t n_watched = 8;
-      /// With sparse factors: so many iterations to go at this rate, and one more for this many unknowns, are
-      /// slow. A factorization of 5,000 unknowns takes as long as 50 iterations (0.1 s), of 13,000 as 125
-      /// (0.5 s): they are taken earlier than time alone would suggest, for a bound on the iterations (random
-      /// pairs: at most 32).
-      double left_with_factors = 12., unknowns_for_one_more = 2000.;
+      /// So many iterations to go at this rate, and one more for this many unknowns, are slow. A
+      /// factorization of 5,000 unknowns takes as long as 50 iterations (0.1 s), of 13,000 as 125 (0.5 s):
+      /// they are taken earlier than time alone would suggest, for a bound on the iterations (random pairs:
+      /// at most 32).
+      double few_left = 12., unknowns_for_one_more = 2000.;
       /// Not more than these, which are slow in any case. Patches cost some ten times a sweep by node.
-      double most_iterations_left = 40.;
+      double many_left = 40.;
       /// Unknowns up to which sparse factors are taken whatever they cost, and up to which their cost is
       /// looked at: the matrix is gathered on rank 0 for that.
       double small = 30000., largest_for_factors = 500000.;
-      /// Multiplications of a factorization that is cheap: it takes some 5 s. Pairs of blocks with 164,000
-      /// unknowns, slabs of one layer with 108,000, a sheet with 242,000 have 2e10 to 5e10 of them.
+      /// Multiplications of a factorization that is cheap: it takes some 5 s, and 0.4 to 0.6 GB. Pairs of
+      /// blocks with 164,000 unknowns, slabs of one layer with 108,000, a sheet with 242,000 have 2e10 to
+      /// 5e10 of them.
       double cheap_factors = 5e10;
       /// Unknowns of a rank up to which the smoothers take patches: 4 kB each.
       double largest_for_patches = 500000.;
@@ -86,7 +87,7 @@ namespace Signorini
     /// Has a remedy show what it does before the next one: watches as many iterations as at the beginning.
     void watch_anew(const ConvergenceReport &report);
 
-    /// Has the smoothers take patches, if that is not done yet and the mesh is too large for sparse factors.
+    /// Has the smoothers take patches, if the mesh is not small.
     void strengthen(ConvergenceReport &report);
 
     /// ActiveSetSolver::go_on().
