@@ -14,7 +14,8 @@ namespace Signorini
 
   void PairParameters::add_parameters(ParameterHandler &prm)
   {
-    prm.add_parameter("First", first, "One surface of the pair, \"body: boundary\".");
+    prm.add_parameter("First", first,
+                      "One surface of the pair, \"body: boundary\", or \"body: boundary + boundary\".");
     prm.add_parameter("Second", second,
                       "The other surface, \"body: boundary\"; empty if there is an obstacle.");
     prm.add_parameter("Obstacle", obstacle,

@@ -400,6 +400,25 @@ namespace Signorini
   std::set<types::boundary_id> Bodies::boundary_ids(const unsigned int body, const std::string &name,
                                                     const std::string &where) const
   {
+    const std::string            between = " + ";
+    std::set<types::boundary_id> ids;
+    if (name.find(between) == std::string::npos || has_boundary(body, name))
+      return ids_of_one_boundary(body, name, where);
+    for (std::size_t begin = 0, end = 0; end != std::string::npos; begin = end + between.size())
+      {
+        end                                     = name.find(between, begin);
+        const std::set<types::boundary_id> more = ids_of_one_boundary(
+            body, Utilities::trim(name.substr(begin, end == std::string::npos ? end : end - begin)), where);
+        ids.insert(more.begin(), more.end());
+      }
+    return ids;
+  }
+
+
+
+  std::set<types::boundary_id> Bodies::ids_of_one_boundary(const unsigned int body, const std::string &name,
+                                                           const std::string &where) const
+  {
     for (const auto &[group, members] : groups[body])
       if (group == name)
         {

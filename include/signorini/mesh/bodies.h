@@ -175,8 +175,8 @@ namespace Signorini
       return first_boundary[body] + i;
     }
 
-    /// Boundary ids of a named boundary. Errors: InputError listing the names the body has, for the parameter
-    /// `where`.
+    /// Boundary ids of a named boundary, or of several of them, "one + another". Errors: InputError listing
+    /// the names the body has, for the parameter `where`.
     std::set<dealii::types::boundary_id> boundary_ids(const unsigned int body, const std::string &name,
                                                       const std::string &where = "") const;
 
@@ -263,6 +263,9 @@ namespace Signorini
     void assess_hexahedra();
     void set_manifolds();
     bool is_sharp(const std::set<dealii::types::boundary_id> &ids) const;
+    /// As boundary_ids(), without "+".
+    std::set<dealii::types::boundary_id> ids_of_one_boundary(const unsigned int body, const std::string &name,
+                                                             const std::string &where) const;
     /// The shapes that a point in the given places has to lie on; none on sharp edges.
     std::vector<BoundaryShapePointer> shapes_of(const std::set<BoundaryPlace> &places) const;
     void                              create(const std::vector<Placed> &placed);

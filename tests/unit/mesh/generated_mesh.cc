@@ -361,6 +361,20 @@ TEST(GeneratedMesh, NewVerticesLieOnTheTrueGeometry)
 
 
 
+TEST(GeneratedMesh, SeveralBoundariesAsOne)
+{
+  const Bodies                 block(MPI_COMM_WORLD, define_bodies(MPI_COMM_WORLD, {body("block")}, "."));
+  std::set<types::boundary_id> both = block.boundary_ids(0, "left");
+  both.merge(block.boundary_ids(0, "top"));
+  both.merge(block.boundary_ids(0, "+x"));
+  EXPECT_EQ(both.size(), 3u);
+  EXPECT_EQ(block.boundary_ids(0, "left +  top + +x"), both);
+  for (const char *wrong : {"left + lid", "left + ", " + left", "left +"})
+    EXPECT_THROW(block.boundary_ids(0, wrong), InputError) << wrong;
+}
+
+
+
 TEST(GeneratedMesh, DirectionsNameBoundariesWhereTheBodyIs)
 {
   BodyParameters p = body("half cylinder");
