@@ -67,7 +67,7 @@ namespace Signorini
     void print_pair(std::ostream &out, const PairResult &pair)
     {
       out << "pair " << pair.name << ": ";
-      if (!(pair.load > 0.) && !(pair.force.norm() > 0.))
+      if (!(pair.contact_area > 0.))
         {
           out << "the surfaces are separated, there is no contact force\n";
           return;

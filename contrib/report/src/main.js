@@ -33,7 +33,7 @@ function verdict(s, run) {
 
 function cards(s, {units}) {
   const last = s.cycles.length - 1, cycle = `cycles.${last}`;
-  const list = s.pairs.map((pair, p) => pair.load > 0 || Math.hypot(...pair.force) > 0
+  const list = s.pairs.map((pair, p) => pair.contact_area > 0
     ? card(`${pair.name}: contact force`, [format(Math.hypot(...pair.force)), unitText(units.force)], 'largest pressure ', number(s, `pairs.${p}.max_pressure`), unitText(units.stress), pair.scatter_is_told && [', smoothed ', number(s, `pairs.${p}.max_recovered_pressure`), unitText(units.stress)], ', area ', number(s, `pairs.${p}.contact_area`), units.length && ` ${units.length}²`)
     : card(`${pair.name}: contact force`, '0', 'the surfaces are separated'));
   s.bodies.forEach((body, b) => list.push(card(`${body.name}: largest displacement`, [number(s, `bodies.${b}.largest_displacement`), unitText(units.length)], 'largest von Mises stress ', number(s, `bodies.${b}.largest_von_mises`), unitText(units.stress))));
