@@ -56,6 +56,9 @@ namespace Signorini
   {
     const std::vector<bool>    here = vertices_on_sharp_edges(pair.nonmortar.surface, covered_faces(pair));
     std::vector<unsigned char> flags(here.begin(), here.end());
+    for (std::size_t v = 0; v < pair.nonmortar.surface.has_partner_normal.size(); ++v)
+      if (pair.nonmortar.surface.has_partner_normal[v])
+        flags[v] = 0;
     pair.halo->update(flags);
     // Coarse faces beside fine ones have hanging vertices on their edges, which are no corners of theirs.
     const auto &hanging = pair.nonmortar.surface.hanging;

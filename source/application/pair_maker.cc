@@ -7,6 +7,7 @@
 #include <signorini/application/facing_sides.h>
 #include <signorini/application/journal.h>
 #include <signorini/mesh/surface_extraction.h>
+#include <signorini/mortar/edge_normals.h>
 #include <signorini/mortar/face_shares.h>
 #include <signorini/surface/mapping_quality.h>
 
@@ -169,11 +170,14 @@ namespace Signorini
       pair.mortar = take(1 - non);
     if (pair.obstacle)
       {
+        turn_edges(pair.nonmortar.surface, sight_of(*pair.obstacle, pair.nonmortar.surface.extent()));
         share(pair);
         pair.nonmortar.whole.reset();
         meet_obstacle(pair, model.communicator(), journal);
         return pair;
       }
+    if (!pair.is_tied && !pair.prescribed_gap)
+      turn_edges(pair.nonmortar.surface, sight_of(pair.mortar.surface));
     leave_out_images_behind(
         pair,
         [&] {

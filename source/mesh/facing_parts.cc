@@ -5,10 +5,9 @@
 #include <signorini/mesh/facing_parts.h>
 #include <signorini/mesh/surface_normals.h>
 #include <signorini/mesh/surface_piece.h>
+#include <signorini/mesh/surface_sight.h>
 #include <signorini/mesh/symmetry_planes.h>
 #include <signorini/mesh/way_out.h>
-#include <signorini/surface/box_tree.h>
-#include <signorini/surface/normal_projection.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -29,8 +28,6 @@ namespace Signorini
       /// Normals of neighbours: sharp edges are those of more than 60 degrees. Six facets around a pin are
       /// none, up to rounding, chamfers neither.
       double sharp_cosine = .5 - 1e-6;
-      /// Normals of what faces each other, as where a mapping ends (incidence.cc).
-      double facing_cosine = -.5;
       /// What of the way from the centre of a face to its corners is looked from.
       double toward_corners = .9;
       /// Distances that differ by less, in widths of the face, are one place: an edge between two triangles.
@@ -225,73 +222,6 @@ namespace Signorini
 
   namespace
   {
-    /// What is seen of a triangulated surface along lines.
-    class SurfaceSight
-    {
-    public:
-      explicit SurfaceSight(const ContactSurface &surface)
-        : surface(surface)
-        , normals(face_normals(surface))
-        , tree(tree_of_triangles(surface.mesh))
-      {
-      }
-
-      /// The nearest triangle before or behind a point, if it faces the line.
-      /// @param same_place lengths that do not differ
-      /// @param is_open(distance) tells whether one can see as far
-      template <typename IsOpen>
-      bool find(double &distance, unsigned int &face, const Point<3> &p, const Vector3 &n,
-                const double same_place, const IsOpen &is_open) const
-      {
-        found.clear();
-        tree.find_along_line(found, p, n);
-        bool is_seen = false;
-        for (const double side : {1., -1.})
-          {
-            double       nearest = std::numeric_limits<double>::infinity(), facing = nearest;
-            unsigned int faced = 0;
-            for (const unsigned int t : found)
-              {
-                double along;
-                if (!meets(along, t, p, n) || along * side < 0.)
-                  continue;
-                nearest = std::min(nearest, std::abs(along));
-                if (normals[surface.triangle_face[t]] * n < FacingRule().facing_cosine &&
-                    std::abs(along) < facing)
-                  {
-                    facing = std::abs(along);
-                    faced  = surface.triangle_face[t];
-                  }
-              }
-            if (std::isfinite(facing) && facing <= nearest + same_place &&
-                (!is_seen || facing < std::abs(distance)) && is_open(side * facing))
-              {
-                is_seen  = true;
-                distance = side * facing;
-                face     = faced;
-              }
-          }
-        return is_seen;
-      }
-
-    private:
-      bool meets(double &along, const unsigned int triangle, const Point<3> &p, const Vector3 &n) const
-      {
-        const auto           &t = surface.mesh.triangles[triangle];
-        std::array<double, 3> weights;
-        constexpr double      rounding = -1e-9;
-        return NormalProjection::intersect_line(weights, along, p, n,
-                                                {{surface.mesh.vertices[t[0]], surface.mesh.vertices[t[1]],
-                                                  surface.mesh.vertices[t[2]]}}) &&
-               std::all_of(weights.begin(), weights.end(), [](const double w) { return w >= rounding; });
-      }
-
-      const ContactSurface             &surface;
-      const std::vector<Vector3>        normals;
-      const BoxTree                     tree;
-      mutable std::vector<unsigned int> found;
-    };
-
     /// Calls f(face, point, unit normal, width) for the places that one looks from, on this rank.
     template <typename F>
     void for_places(const ContactSurface &surface, const MPI_Comm communicator, const F &f)
@@ -322,8 +252,7 @@ namespace Signorini
       std::optional<WayOut> way_out;
       for_places(from, communicator,
                  [&](const unsigned int face, const Point<3> &p, const Vector3 &n, const double width) {
-                   double       distance = 0.;
-                   unsigned int seen     = 0;
+                   SurfaceSight::Place seen;
                    // The teeth of a gear would see others through their own.
                    const auto is_open = [&](const double way) {
                      if (way >= -width)
@@ -332,10 +261,10 @@ namespace Signorini
                        way_out.emplace(from_parts.boundary_of_body());
                      return !way_out->leads_from(p, p + way * n, width);
                    };
-                   if (!sight.find(distance, seen, p, n, FacingRule().same_place * width, is_open))
+                   if (!sight.find(seen, p, n, FacingRule().same_place * width, is_open))
                      return;
-                   from_parts.see(face, std::abs(distance));
-                   to_parts.see(seen, std::abs(distance));
+                   from_parts.see(face, std::abs(seen.distance));
+                   to_parts.see(to.triangle_face[seen.triangle], std::abs(seen.distance));
                  });
     }
   } // namespace

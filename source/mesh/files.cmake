@@ -38,6 +38,7 @@ signorini_add_layer(mesh
   surface_file.cc
   surface_normals.cc
   surface_piece.cc
+  surface_sight.cc
   symmetry_planes.cc
   tetrahedral_forest.cc
   tetrahedron_bisection.cc

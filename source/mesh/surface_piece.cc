@@ -43,7 +43,7 @@ namespace Signorini
     std::size_t bytes = list_bytes(mesh.vertices) + list_bytes(mesh.triangles) +
                         list_bytes(mesh.vertex_normals) + list_bytes(faces) + list_bytes(triangle_face) +
                         list_bytes(vertex_node) + list_bytes(vertex_fixed) + list_bytes(hanging) +
-                        true_shape.memory_consumption();
+                        has_partner_normal.size() / 8 + true_shape.memory_consumption();
     for (const auto &parents : hanging)
       bytes += list_bytes(parents);
     if (origin)
@@ -116,7 +116,9 @@ namespace Signorini
     result.vertex_node         = vertices.select(whole.vertex_node);
     result.vertex_fixed        = vertices.select(whole.vertex_fixed);
     result.hanging             = vertices.select(whole.hanging);
-    result.true_shape          = TrueShape(whole.true_shape, triangles);
+    if (!whole.has_partner_normal.empty())
+      result.has_partner_normal = vertices.select(whole.has_partner_normal);
+    result.true_shape = TrueShape(whole.true_shape, triangles);
     for (auto &triangle : result.mesh.triangles)
       for (unsigned int &v : triangle)
         v = vertices[v];

@@ -2,6 +2,7 @@ signorini_add_layer(mortar
   contact_forces.cc
   contact_indicator.cc
   dual_basis.cc
+  edge_normals.cc
   face_claims.cc
   face_map.cc
   face_moments.cc

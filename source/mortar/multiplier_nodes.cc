@@ -33,9 +33,12 @@ namespace Signorini
             for (unsigned int b = 0; b < 4; ++b)
               covered[v] += m.mass[4 * a + b];
         }
-    const std::vector<bool> on_sharp_edge = rule.drops_sharp_edges
-                                                ? vertices_on_sharp_edges(surface, well_covered(rule))
-                                                : std::vector<bool>(states.size(), false);
+    std::vector<bool> on_sharp_edge = rule.drops_sharp_edges
+                                          ? vertices_on_sharp_edges(surface, well_covered(rule))
+                                          : std::vector<bool>(states.size(), false);
+    for (std::size_t v = 0; v < surface.has_partner_normal.size(); ++v)
+      if (surface.has_partner_normal[v])
+        on_sharp_edge[v] = false;
     for (unsigned int v = 0; v < states.size(); ++v)
       {
         State &state     = states[v];

@@ -223,6 +223,19 @@ namespace Signorini
 
 
 
+  bool RigidObstacle::contact_normal(Vector3 &normal, double &distance, const Point<3> &x, const Vector3 &n,
+                                     const double size) const
+  {
+    if (!gap(distance, x, n, size) || !is_faced(x + distance * n, n, size))
+      return false;
+    const Vector3 outward = gradient(x + distance * n, size);
+    normal                = -outward / outward.norm();
+    double along;
+    return gap(along, x, normal, size);
+  }
+
+
+
   // Newton's method along the line, with a difference quotient.
   bool RigidObstacle::function_gap(double &distance, const Point<3> &x, const Vector3 &n,
                                    const double size) const

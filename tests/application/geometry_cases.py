@@ -625,3 +625,27 @@ def clevis(p):
     check(max(map(abs, inner[1:] + outer[1:])) <= 1e-4 * 2e4, f'forces {inner}, {outer}')
     for words in ('nothing determines body eye, translation (0, 0, ', 'nothing determines body pin, translation (0, 0, ', 'body pin, rotation about the axis through (0, 0, 0)'):
         check(any(words in n for n in s['notes']), f'notes: {s["notes"]}')
+
+
+def edge_contact(p):
+    """The edge of a tilted block on a floor, rigid or next to it: an edge has no normal of its own, and a floor without friction only pushes upwards."""
+    edge = os.path.join(TOP, 'tests', 'application', 'edge.prm')
+    rigid = ['Pair ground/Second=', 'Pair ground/Obstacle=plane: (0, 0, 0), (0, 0, 1)']
+
+    def force(*settings):
+        s = p.solve(edge, *settings)
+        certificate(s)
+        check(s['certificate']['contact_conditions_hold'], f'{settings}: {s["certificate"]["objections"]}')
+        x, y, z = s['pairs'][0]['force']
+        check(abs(x) + abs(y) < 1e-9 * abs(z), f'{settings}: force ({x}, {y}, {z})')
+        return abs(z)
+
+    rigid_force = force(*rigid)
+    near(force(), rigid_force, 1e-3, 'force of a stiff floor')
+    # Multipliers on the floor, whose faces are wider.
+    near(force('Pair ground/Nonmortar=second'), rigid_force, .2, 'force from the other side')
+    # On its edge of 90 degrees, with one of the faces beside it or with both.
+    upright = ['Body bar/Rotation angle=-45', 'Body bar/Dirichlet=front + back: (*, 0, *); top + right: (0, *, -0.02)']
+    # On the floor the force is spread over the widths of both faces then.
+    for partner, tolerance in ((rigid, 1e-6), ([], 1e-4)):
+        near(force(*upright, *partner, 'Pair ground/First=bar: bottom + left'), force(*upright, *partner), tolerance, 'force with both faces')

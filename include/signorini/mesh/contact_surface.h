@@ -49,6 +49,8 @@ namespace Signorini
     std::vector<unsigned int> triangle_face;
     /// Global node number of each vertex of mesh.
     std::vector<NodeIndex> vertex_node;
+    /// By vertex, whether its normal is that of the other side of the pair (turn_edges()); empty if none is.
+    std::vector<bool> has_partner_normal;
     /// Prescribed directions of each vertex.
     std::vector<FixedDirections> vertex_fixed;
     /// For hanging vertices: parents (vertex indices) and weights of the closed constraint; else empty.

@@ -56,6 +56,12 @@ namespace Signorini
     /// whether n and the outward normal differ by more than 120 degrees. `size` is a length of the problem.
     bool is_faced(const dealii::Point<3> &y, const Vector3 &n, const double size) const;
 
+    /// Where the line along the unit vector n from x enters the obstacle, and n faces it there (is_faced()):
+    /// the distance (length), and the opposite of the outward unit normal, if the line along that meets the
+    /// obstacle, too. False if not. `size` is a length of the problem.
+    bool contact_normal(Vector3 &normal, double &distance, const dealii::Point<3> &x, const Vector3 &n,
+                        const double size) const;
+
     /// The text that it was made from.
     const std::string &description() const
     {

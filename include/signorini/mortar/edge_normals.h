@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_mortar_edge_normals_h
+#define signorini_mortar_edge_normals_h
+
+#include <signorini/mesh/contact_surface.h>
+#include <signorini/mortar/rigid_obstacle.h>
+
+#include <functional>
+
+namespace Signorini
+{
+  /// What an edge meets along the normal of a facet beside it.
+  struct MetPartner
+  {
+    /// A unit vector, against the outward normal of the other side.
+    Vector3 normal;
+    /// Along the normal of the facet, negative if it lies behind (length).
+    double distance = 0.;
+  };
+
+  /// Looks from a place along the unit normal of a facet of a width (length) there; false if nothing is met
+  /// that faces it.
+  using PartnerSight = std::function<bool(MetPartner &, const dealii::Point<3> &place, const Vector3 &normal,
+                                          const double width)>;
+
+  /// At an obstacle, which must outlive the function.
+  /// @param size a length of the problem
+  PartnerSight sight_of(const RigidObstacle &obstacle, const double size);
+
+  /// At another whole surface, which must outlive the function. What lies behind is met to the width of the
+  /// facet: farther back one would look through the body.
+  PartnerSight sight_of(const ContactSurface &other);
+
+  /// Gives the vertices on edges of a whole surface (its border off symmetry planes,
+  /// vertices_on_sharp_edges()) the normal of what the facets around them face, and marks them
+  /// (ContactSurface::has_partner_normal).
+  ///
+  /// Inside of a smooth surface that touches another one both have one normal. An edge has none of its own:
+  /// along that of the faces beside it, it would enter the other body as it slides, and contact forces would
+  /// have a part along the surface that they act on. Vertices keep their normal where the facets around them
+  /// meet walls that differ by more than 60 degrees (a corner between floor and wall), and where lines along
+  /// the new one would come closer to those of the neighbours than to half of the width of the facets.
+  void turn_edges(ContactSurface &surface, const PartnerSight &partner);
+} // namespace Signorini
+
+#endif

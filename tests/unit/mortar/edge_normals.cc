@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include "flat_surfaces.h"
+
+#include <signorini/mortar/edge_normals.h>
+
+#include <gtest/gtest.h>
+
+using namespace Signorini;
+using dealii::numbers::PI;
+
+namespace
+{
+  /// Turned about the y axis, such that what is at larger x gets higher, and lifted.
+  void tilt(ContactSurface &surface, const double angle, const double height)
+  {
+    const auto turn = [&](const Vector3 &v) {
+      return Point<3>(std::cos(angle) * v[0] - std::sin(angle) * v[2], v[1],
+                      std::sin(angle) * v[0] + std::cos(angle) * v[2]);
+    };
+    for (Point<3> &x : surface.mesh.vertices)
+      {
+        x = turn(x);
+        x[2] += height;
+      }
+    for (Vector3 &n : surface.mesh.vertex_normals)
+      n = turn(n);
+  }
+
+  /// The bottom of a block, four by four faces, one edge of which is the lowest.
+  ContactSurface bottom(const double angle, const double height)
+  {
+    FlatSurfaces::Grid grid;
+    grid.nx = grid.ny      = 4;
+    grid.faces_up          = false;
+    ContactSurface surface = FlatSurfaces::make_surface(grid);
+    tilt(surface, angle, height);
+    return surface;
+  }
+
+  ContactSurface floor()
+  {
+    FlatSurfaces::Grid grid;
+    grid.nx = 5;
+    grid.ny = 3;
+    grid.x0 = grid.y0 = -2.;
+    grid.x1 = grid.y1 = 3.;
+    return FlatSurfaces::make_surface(grid);
+  }
+
+  const RigidObstacle &plane()
+  {
+    static const RigidObstacle result = RigidObstacle::plane(Point<3>(0., 0., 0.), Vector3({0., 0., 1.}));
+    return result;
+  }
+
+  /// The prism between the planes z = x tan(angle) and z = -x tan(angle), whose edge points down.
+  ContactSurface prism(const double angle)
+  {
+    ContactSurface            surface = bottom(angle, 0.);
+    ContactSurface            other   = surface;
+    const auto                n       = static_cast<unsigned int>(surface.mesh.vertices.size());
+    std::vector<unsigned int> number(n);
+    for (unsigned int v = 0; v < n; ++v)
+      if (std::abs(surface.mesh.vertices[v][0]) < 1e-10)
+        number[v] = v;
+      else
+        {
+          number[v]  = static_cast<unsigned int>(surface.mesh.vertices.size());
+          Point<3> x = other.mesh.vertices[v], m(other.mesh.vertex_normals[v]);
+          x[0] *= -1.;
+          m[0] *= -1.;
+          surface.mesh.vertices.push_back(x);
+          surface.mesh.vertex_normals.push_back(m);
+          surface.vertex_fixed.push_back(other.vertex_fixed[v]);
+          surface.vertex_node.push_back(n + other.vertex_node[v]);
+        }
+    const auto n_faces = static_cast<unsigned int>(other.faces.size());
+    for (const ContactSurface::Face &face : other.faces)
+      {
+        surface.faces.push_back(face);
+        for (unsigned int a = 0; a < 4; ++a)
+          surface.faces.back().corners[a] = number[face.corners[(4 - a) % 4]];
+      }
+    for (unsigned int t = 0; t < other.mesh.triangles.size(); ++t)
+      {
+        const auto &one = other.mesh.triangles[t];
+        surface.mesh.triangles.push_back({{number[one[0]], number[one[2]], number[one[1]]}});
+        surface.triangle_face.push_back(n_faces + other.triangle_face[t]);
+      }
+    surface.hanging.resize(surface.mesh.vertices.size());
+    for (unsigned int v = 0; v < n; ++v)
+      if (number[v] == v)
+        surface.mesh.vertex_normals[v] = Vector3({0., 0., -1.});
+    return surface;
+  }
+
+  const Vector3 down({0., 0., -1.});
+
+  /// By vertex: whether the normal points down, and is marked.
+  std::vector<bool> turned(const ContactSurface &surface)
+  {
+    std::vector<bool> result;
+    for (unsigned int v = 0; v < surface.mesh.vertices.size(); ++v)
+      {
+        result.push_back((surface.mesh.vertex_normals[v] - down).norm() < 1e-14);
+        EXPECT_EQ(surface.has_partner_normal[v], result.back()) << surface.mesh.vertices[v];
+      }
+    return result;
+  }
+} // namespace
+
+
+
+TEST(EdgeNormals, AreThoseOfWhatTheEdgesMeet)
+{
+  const double         angle = PI / 9.;
+  const ContactSurface other = floor();
+  for (const PartnerSight &partner : {sight_of(plane(), 1.), sight_of(other)})
+    {
+      ContactSurface surface = bottom(angle, 0.);
+      turn_edges(surface, partner);
+      const std::vector<bool> is_turned = turned(surface);
+      for (unsigned int v = 0; v < is_turned.size(); ++v)
+        {
+          const Point<3> &x         = surface.mesh.vertices[v];
+          const bool      is_lowest = std::abs(x[2])<1e-10, is_inside = x[1]> .1 && x[1] < .9;
+          if (is_lowest)
+            EXPECT_TRUE(is_turned[v]) << x;
+          else if (is_inside && x[2] < .9 * std::sin(angle))
+            EXPECT_FALSE(is_turned[v]) << x;
+        }
+    }
+}
+
+// Where the gap is many faces wide, lines from the upper edge would cross those of its neighbours; those from
+// the lower edge part from them.
+TEST(EdgeNormals, LinesDoNotCross)
+{
+  ContactSurface surface = bottom(PI / 9., 5.);
+  turn_edges(surface, sight_of(plane(), 1.));
+  const std::vector<bool> is_turned = turned(surface);
+  for (unsigned int v = 0; v < is_turned.size(); ++v)
+    if (const Point<3> &x = surface.mesh.vertices[v]; x[1] > .1 && x[1] < .9)
+      EXPECT_EQ(is_turned[v], x[2] < 5. + 1e-10) << x;
+}
+
+// The edges at y = 0 lie in a symmetry plane; that at x = 0 ends there, and is one.
+TEST(EdgeNormals, SymmetryPlanesAreNoEdges)
+{
+  ContactSurface surface = bottom(PI / 9., 0.);
+  FlatSurfaces::fix(
+      surface, [](const Point<3> &x) { return x[1] < 1e-10; }, FixedDirections(2));
+  turn_edges(surface, sight_of(plane(), 1.));
+  const std::vector<bool> is_turned = turned(surface);
+  for (unsigned int v = 0; v < is_turned.size(); ++v)
+    if (const Point<3> &x = surface.mesh.vertices[v]; x[1] < 1e-10 && x[2] < .9 * std::sin(PI / 9.))
+      EXPECT_EQ(is_turned[v], x[2] < 1e-10) << x;
+}
+
+TEST(EdgeNormals, SharpEdgesBetweenFacesOfTheSurface)
+{
+  // Of 90 degrees, on a plane: one wall. In a corner as sharp: two.
+  for (const bool in_corner : {false, true})
+    {
+      ContactSurface      surface = prism(PI / 4.);
+      const RigidObstacle corner  = RigidObstacle::parse("function: z - abs(x)", "test");
+      turn_edges(surface, sight_of(in_corner ? corner : plane(), 1.));
+      unsigned int n_edge = 0;
+      for (unsigned int v = 0; v < surface.mesh.vertices.size(); ++v)
+        if (const Point<3> &x = surface.mesh.vertices[v]; std::abs(x[2]) < 1e-10 && x[1] > .1 && x[1] < .9)
+          {
+            ++n_edge;
+            EXPECT_EQ(surface.has_partner_normal[v], !in_corner);
+            EXPECT_LT((surface.mesh.vertex_normals[v] - down).norm(), 1e-14);
+          }
+      EXPECT_EQ(n_edge, 3u);
+    }
+}
+
+// Sides that turn away, and what lies behind by more than a face is wide.
+TEST(EdgeNormals, WhatIsNotFacedIsNotMet)
+{
+  const ContactSurface other = floor();
+  for (const bool is_steep : {true, false})
+    {
+      ContactSurface surface = is_steep ? bottom(PI / 2.5, 0.) : bottom(PI / 9., -.4);
+      turn_edges(surface, sight_of(other));
+      for (unsigned int v = 0; v < surface.mesh.vertices.size(); ++v)
+        if (is_steep || surface.mesh.vertices[v][2] < -.39)
+          EXPECT_FALSE(surface.has_partner_normal[v]) << surface.mesh.vertices[v];
+    }
+}
