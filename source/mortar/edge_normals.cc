@@ -30,6 +30,8 @@ namespace Signorini
       double toward_vertex = .9;
       /// What the places that neighbours see may come closer to each other, in parts of their distance.
       double least_image = .5;
+      /// Differences of unit normals that are rounding.
+      double rounding = 1e-6;
       /// Distances of one place (SurfaceSight), in widths of the facet.
       double same_place = 1e-6;
     };
@@ -46,13 +48,32 @@ namespace Signorini
       const std::vector<bool> sharp;
     };
 
-    /// What the facets around a vertex meet.
-    struct Edge
+    /// The facets around a vertex, and what they meet.
+    class Edge
     {
-      std::vector<Vector3> normals;
-      double               farthest = 0.;
+    public:
+      /// @param own normal of the vertex; zero on a sharp edge, where it is that of no face
+      explicit Edge(const Vector3 &own = Vector3())
+        : own(own)
+      {
+      }
 
-      /// Zero if that is not one wall.
+      /// A facet by its unit normal and the way from the vertex to its centre.
+      void add_facet(const Vector3 &normal, const Vector3 &way)
+      {
+        facets.emplace_back(normal, way);
+      }
+
+      /// What is met along the normal of the last facet.
+      void add(const MetPartner &met)
+      {
+        normals.push_back(met.normal);
+        farthest  = std::max(farthest, std::abs(met.distance));
+        doubt     = std::max(doubt, (facets.back().first - own).norm());
+        its_doubt = std::max(its_doubt, met.doubt);
+      }
+
+      /// Zero if that is not one wall, if the vertex has it already, or in a groove.
       Vector3 normal() const
       {
         Vector3 sum;
@@ -63,8 +84,36 @@ namespace Signorini
               if (one * other < EdgeRule().one_wall)
                 return Vector3();
           }
-        return sum / sum.norm();
+        const bool is_sharp = !(own.norm() > 0.);
+        if (normals.empty() || (is_sharp && !is_convex()))
+          return Vector3();
+        const Vector3 result = sum / sum.norm();
+        const bool    is_the_same =
+            !is_sharp && (result - own).norm() <= doubt + its_doubt + EdgeRule().rounding;
+        return is_the_same ? Vector3() : result;
       }
+
+      /// Length.
+      double farthest_met() const
+      {
+        return farthest;
+      }
+
+    private:
+      /// Whether no facet sees another one.
+      bool is_convex() const
+      {
+        for (const auto &one : facets)
+          for (const auto &other : facets)
+            if (one.first * other.second > EdgeRule().rounding * other.second.norm())
+              return false;
+        return true;
+      }
+
+      Vector3                                  own;
+      std::vector<std::pair<Vector3, Vector3>> facets;
+      std::vector<Vector3>                     normals;
+      double                                   farthest = 0., doubt = 0., its_doubt = 0.;
     };
 
     std::map<unsigned int, Edge> look_from_edges(const ContactSurface &surface, const PartnerSight &partner)
@@ -72,22 +121,23 @@ namespace Signorini
       const std::vector<bool> sharp  = vertices_on_sharp_edges(surface,
                                                                std::vector<bool>(surface.faces.size(), true)),
                               border = vertices_on_border_off_planes(surface);
+      const auto                  &x = surface.mesh.vertices;
       std::map<unsigned int, Edge> edges;
       for (unsigned int t = 0; t < surface.mesh.triangles.size(); ++t)
         for (const unsigned int v : surface.mesh.triangles[t])
           if (sharp[v] || border[v])
             {
-              const auto    &x = surface.mesh.vertices;
               const auto    &c = surface.mesh.triangles[t];
               const Vector3  n = facet_normal(surface, t);
               const Point<3> centre((Vector3(x[c[0]]) + Vector3(x[c[1]]) + Vector3(x[c[2]])) / 3.);
-              MetPartner     met;
-              if (n.norm() > 0. && partner(met, centre + EdgeRule().toward_vertex * (x[v] - centre), n,
-                                           std::sqrt(triangle_area(surface.mesh, t))))
-                {
-                  edges[v].normals.push_back(met.normal);
-                  edges[v].farthest = std::max(edges[v].farthest, std::abs(met.distance));
-                }
+              if (!(n.norm() > 0.))
+                continue;
+              Edge &edge =
+                  edges.emplace(v, Edge(sharp[v] ? Vector3() : surface.mesh.vertex_normals[v])).first->second;
+              edge.add_facet(n, centre - x[v]);
+              if (MetPartner met; partner(met, centre + EdgeRule().toward_vertex * (x[v] - centre), n,
+                                          std::sqrt(triangle_area(surface.mesh, t))))
+                edge.add(met);
             }
       return edges;
     }
@@ -146,7 +196,7 @@ namespace Signorini
       if (edge == edges.end())
         return;
       const Vector3 way = x[w] - x[v];
-      if (edge->second.farthest * ((normal_there - normals[v]) * way) <
+      if (edge->second.farthest_met() * ((normal_there - normals[v]) * way) <
           (EdgeRule().least_image - 1.) * way.norm_square())
         folds[v] = true;
     };

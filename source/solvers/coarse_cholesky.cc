@@ -146,8 +146,16 @@ namespace Signorini
     const MPI_Comm       comm   = matrix.partition().communicator();
     const GatheredBlocks blocks = gather(matrix);
     double               cost   = 0.;
+    // The other ranks wait for what this one finds.
     if (Utilities::MPI::this_mpi_process(comm) == 0)
-      cost = factorization->cost(blocks);
+      try
+        {
+          cost = factorization->cost(blocks);
+        }
+      catch (const std::bad_alloc &)
+        {
+          cost = std::numeric_limits<double>::infinity();
+        }
     return Utilities::MPI::broadcast(comm, cost);
   }
 

@@ -11,13 +11,11 @@ namespace Signorini
 
   namespace
   {
-    constexpr SafetyNet::Rule net_rule;
-
     /// Logarithm of what an iteration has taken off the correction, in the mean over those watched.
-    double decay_of(const std::vector<double> &history)
+    double decay_of(const std::vector<double> &history, const std::size_t n_watched)
     {
-      return std::log(history[history.size() - 1 - net_rule.n_watched] / history.back()) /
-             static_cast<double>(net_rule.n_watched);
+      return std::log(history[history.size() - 1 - n_watched] / history.back()) /
+             static_cast<double>(n_watched);
     }
 
     /// Iterations to the tolerance, at the rate of the last ones.
@@ -25,7 +23,7 @@ namespace Signorini
     {
       const double relative = parameters.tolerance * report.scale;
       const double target   = parameters.absolute_tolerance > 0. ? parameters.absolute_tolerance : relative;
-      const double decay    = decay_of(report.history);
+      const double decay    = decay_of(report.history, parameters.net_rule.n_watched);
       return decay > 0. ? std::log(report.history.back() / target) / decay
                         : std::numeric_limits<double>::max();
     }
@@ -37,6 +35,7 @@ namespace Signorini
                        const unsigned int level, TruncatedCycle &cycle, ConvergenceReport &report)
     : hierarchy(hierarchy)
     , parameters(parameters)
+    , net_rule(parameters.net_rule)
     , level(level)
     , cycle(cycle)
   {
@@ -171,7 +170,7 @@ namespace Signorini
     if (!steps)
       {
         net.after         = report.iterations;
-        net.rate          = std::exp(-decay_of(report.history));
+        net.rate          = std::exp(-decay_of(report.history, net_rule.n_watched));
         net.linear_solver = planes->is_exact() ? "sparse factors" : "conjugate gradients with the V-cycle";
         steps             = std::make_unique<ActiveSetSolver>(hierarchy, parameters, level, *planes);
       }

@@ -18,6 +18,8 @@ namespace Signorini
     Vector3 normal;
     /// Along the normal of the facet, negative if it lies behind (length).
     double distance = 0.;
+    /// How far `normal` is from that of a facet that stands for a curved surface there.
+    double doubt = 0.;
   };
 
   /// Looks from a place along the unit normal of a facet of a width (length) there; false if nothing is met
@@ -39,9 +41,11 @@ namespace Signorini
   ///
   /// Inside of a smooth surface that touches another one both have one normal. An edge has none of its own:
   /// along that of the faces beside it, it would enter the other body as it slides, and contact forces would
-  /// have a part along the surface that they act on. Vertices keep their normal where the facets around them
-  /// meet walls that differ by more than 60 degrees (a corner between floor and wall), and where lines along
-  /// the new one would come closer to those of the neighbours than to half of the width of the facets.
+  /// have a part along the surface that they act on. Vertices keep their normal where it differs from the new
+  /// one by no more than facets do from the surfaces that they stand for (the ends of a pin in a bore), where
+  /// the facets around them meet walls that differ by more than 60 degrees (a corner between floor and wall),
+  /// and where lines along the new one would come closer to those of the neighbours than to half of the width
+  /// of the facets.
   void turn_edges(ContactSurface &surface, const PartnerSight &partner);
 } // namespace Signorini
 

@@ -7,6 +7,7 @@
 #include <signorini/solvers/convergence_report.h>
 #include <signorini/solvers/multigrid_hierarchy.h>
 #include <signorini/solvers/obstacle_problem.h>
+#include <signorini/solvers/safety_net_rule.h>
 #include <signorini/solvers/v_cycle.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -48,7 +49,8 @@ namespace Signorini
     /// Not to wait likewise before it smooths patches of nodes at once.
     bool starts_with_patches = false;
     /// Whether accelerated goes on with active-set steps where it stays slow.
-    bool safety_net = true;
+    bool          safety_net = true;
+    SafetyNetRule net_rule;
     /// Measure energy and admissibility after every substep.
     bool check_monotonicity = false;
 

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 using namespace Signorini;
+using dealii::Point;
 using dealii::numbers::PI;
 
 namespace
@@ -126,10 +127,10 @@ TEST(EdgeNormals, AreThoseOfWhatTheEdgesMeet)
         {
           const Point<3> &x         = surface.mesh.vertices[v];
           const bool      is_lowest = std::abs(x[2])<1e-10, is_inside = x[1]> .1 && x[1] < .9;
-          if (is_lowest)
-            EXPECT_TRUE(is_turned[v]) << x;
-          else if (is_inside && x[2] < .9 * std::sin(angle))
-            EXPECT_FALSE(is_turned[v]) << x;
+          if (is_lowest || (is_inside && x[2] < .9 * std::sin(angle)))
+            {
+              EXPECT_EQ(is_turned[v], is_lowest) << x;
+            }
         }
     }
 }
@@ -143,7 +144,9 @@ TEST(EdgeNormals, LinesDoNotCross)
   const std::vector<bool> is_turned = turned(surface);
   for (unsigned int v = 0; v < is_turned.size(); ++v)
     if (const Point<3> &x = surface.mesh.vertices[v]; x[1] > .1 && x[1] < .9)
-      EXPECT_EQ(is_turned[v], x[2] < 5. + 1e-10) << x;
+      {
+        EXPECT_EQ(is_turned[v], x[2] < 5. + 1e-10) << x;
+      }
 }
 
 // The edges at y = 0 lie in a symmetry plane; that at x = 0 ends there, and is one.
@@ -156,7 +159,9 @@ TEST(EdgeNormals, SymmetryPlanesAreNoEdges)
   const std::vector<bool> is_turned = turned(surface);
   for (unsigned int v = 0; v < is_turned.size(); ++v)
     if (const Point<3> &x = surface.mesh.vertices[v]; x[1] < 1e-10 && x[2] < .9 * std::sin(PI / 9.))
-      EXPECT_EQ(is_turned[v], x[2] < 1e-10) << x;
+      {
+        EXPECT_EQ(is_turned[v], x[2] < 1e-10) << x;
+      }
 }
 
 TEST(EdgeNormals, SharpEdgesBetweenFacesOfTheSurface)
@@ -179,6 +184,40 @@ TEST(EdgeNormals, SharpEdgesBetweenFacesOfTheSurface)
     }
 }
 
+// The faces beside the edge of a groove both look down, but it cannot press on anything.
+TEST(EdgeNormals, GroovesPressOnNothing)
+{
+  ContactSurface      surface = prism(-PI / 9.);
+  const RigidObstacle below   = RigidObstacle::plane(Point<3>(0., 0., -.5), Vector3({0., 0., 1.}));
+  turn_edges(surface, sight_of(below, 1.));
+  for (unsigned int v = 0; v < surface.mesh.vertices.size(); ++v)
+    if (const Point<3> &x = surface.mesh.vertices[v]; std::abs(x[0]) < 1e-10 && x[1] > .1 && x[1] < .9)
+      {
+        EXPECT_FALSE(surface.has_partner_normal[v]) << x;
+      }
+}
+
+// The ends of a faceted half cylinder in a round one: its normals are right as they are.
+TEST(EdgeNormals, FacetsDoNotTurnTheEndsOfAPin)
+{
+  FlatSurfaces::Grid grid;
+  grid.nx                = 8;
+  grid.ny                = 2;
+  grid.faces_up          = false;
+  ContactSurface surface = FlatSurfaces::make_surface(grid);
+  for (unsigned int v = 0; v < surface.mesh.vertices.size(); ++v)
+    {
+      Point<3>    &x                 = surface.mesh.vertices[v];
+      const double angle             = PI * x[0];
+      surface.mesh.vertex_normals[v] = Vector3({-std::cos(angle), 0., -std::sin(angle)});
+      x                              = Point<3>(-std::cos(angle), x[1], -std::sin(angle));
+    }
+  const RigidObstacle bore = RigidObstacle::parse("hollow cylinder: (0, 0, 0), (0, 1, 0), 1.01", "test");
+  turn_edges(surface, sight_of(bore, 1.));
+  for (const bool is_turned : surface.has_partner_normal)
+    EXPECT_FALSE(is_turned);
+}
+
 // Sides that turn away, and what lies behind by more than a face is wide.
 TEST(EdgeNormals, WhatIsNotFacedIsNotMet)
 {
@@ -189,6 +228,8 @@ TEST(EdgeNormals, WhatIsNotFacedIsNotMet)
       turn_edges(surface, sight_of(other));
       for (unsigned int v = 0; v < surface.mesh.vertices.size(); ++v)
         if (is_steep || surface.mesh.vertices[v][2] < -.39)
-          EXPECT_FALSE(surface.has_partner_normal[v]) << surface.mesh.vertices[v];
+          {
+            EXPECT_FALSE(surface.has_partner_normal[v]) << surface.mesh.vertices[v];
+          }
     }
 }
