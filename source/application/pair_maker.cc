@@ -81,6 +81,17 @@ namespace Signorini
       return result;
     }
 
+    /// Before anything is measured along normals.
+    void turn_edges_of(ContactPair &pair, Journal &journal)
+    {
+      const auto      time    = journal.measure(Phase::mapping);
+      ContactSurface &surface = pair.nonmortar.surface;
+      if (pair.obstacle)
+        turn_edges(surface, sight_of(*pair.obstacle, surface.extent()));
+      else if (!pair.is_tied && !pair.prescribed_gap)
+        turn_edges(surface, sight_of(pair.mortar.surface));
+    }
+
     std::shared_ptr<ContactMapping> map_surfaces(ContactPair &pair, const MPI_Comm comm, Journal &journal)
     {
       const unsigned int    rank      = Utilities::MPI::this_mpi_process(comm);
@@ -168,16 +179,14 @@ namespace Signorini
       pair.mortar.name = pair.obstacle->description();
     else
       pair.mortar = take(1 - non);
+    turn_edges_of(pair, journal);
     if (pair.obstacle)
       {
-        turn_edges(pair.nonmortar.surface, sight_of(*pair.obstacle, pair.nonmortar.surface.extent()));
         share(pair);
         pair.nonmortar.whole.reset();
         meet_obstacle(pair, model.communicator(), journal);
         return pair;
       }
-    if (!pair.is_tied && !pair.prescribed_gap)
-      turn_edges(pair.nonmortar.surface, sight_of(pair.mortar.surface));
     leave_out_images_behind(
         pair,
         [&] {

@@ -294,6 +294,33 @@ namespace Signorini
 
 
 
+  namespace
+  {
+    /// ContactSurface::beyond of a surface that was cut out of a whole one.
+    void add_what_was_left(ContactSurface &surface, const ContactSurface &whole,
+                           const std::vector<bool> &is_kept)
+    {
+      std::map<unsigned int, unsigned int> number;
+      for (unsigned int v = 0; v < surface.origin->vertices.size(); ++v)
+        number[surface.origin->vertices[v]] = v;
+      for (const auto &[v, facets] : whole.beyond)
+        if (const auto kept = number.find(v); kept != number.end())
+          surface.beyond[kept->second] = facets;
+      const auto &x = whole.mesh.vertices;
+      for (unsigned int t = 0; t < whole.mesh.triangles.size(); ++t)
+        if (!is_kept[whole.triangle_face[t]])
+          {
+            const auto    &c = whole.mesh.triangles[t];
+            const Point<3> centre((Vector3(x[c[0]]) + Vector3(x[c[1]]) + Vector3(x[c[2]])) / 3.);
+            for (const unsigned int v : c)
+              if (const auto kept = number.find(v); kept != number.end())
+                surface.beyond[kept->second].push_back({facet_normal(whole, t), centre - x[v]});
+          }
+    }
+  } // namespace
+
+
+
   ContactSurface without_blind_parts(ContactSurface surface, const FacingParts &parts,
                                      const SurfaceShapes &shapes)
   {
@@ -306,6 +333,7 @@ namespace Signorini
       is_kept.push_back(parts.is_kept(f));
     ContactSurface result = cut_out(
         surface, SurfacePiece(surface, is_kept, std::vector<bool>(surface.mesh.vertices.size(), false)));
+    add_what_was_left(result, surface, is_kept);
     result.origin.reset();
     return result;
   }

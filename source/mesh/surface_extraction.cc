@@ -73,6 +73,23 @@ namespace Signorini
       }
     };
 
+    /// A facet beyond the surface, at one of the nodes of this.
+    struct PackedFacet
+    {
+      NodeIndex             node;
+      std::array<double, 3> normal, way;
+
+      bool operator<(const PackedFacet &other) const
+      {
+        return std::tie(node, normal, way) < std::tie(other.node, other.normal, other.way);
+      }
+
+      bool operator==(const PackedFacet &other) const
+      {
+        return std::tie(node, normal, way) == std::tie(other.node, other.normal, other.way);
+      }
+    };
+
     PackedFace pack(const NodalSpace::BoundaryFace &face, const NodalSpace &space)
     {
       const NodalSpace::Cell &cell = space.cells()[face.cell];
@@ -132,6 +149,36 @@ namespace Signorini
       std::stable_sort(all.begin(), all.end());
       all.erase(std::unique(all.begin(), all.end()), all.end());
       return all;
+    }
+
+    bool is_known(const NodeIndex node, const std::vector<PackedVertex> &vertices)
+    {
+      const auto it = std::lower_bound(
+          vertices.begin(), vertices.end(), node,
+          [](const PackedVertex &vertex, const NodeIndex wanted) { return vertex.node < wanted; });
+      return it != vertices.end() && it->node == node;
+    }
+
+    /// Of a face that is not in the surface, at the nodes that are.
+    void pack_facets(std::vector<PackedFacet> &facets, const PackedFace &face, const NodalSpace &space,
+                     const std::vector<PackedVertex> &vertices)
+    {
+      const unsigned int    n_corners = face.nodes[6] == invalid_node ? 3 : 4;
+      std::vector<Point<3>> x;
+      Point<3>              centre;
+      for (unsigned int v = 0; v < n_corners; ++v)
+        {
+          x.push_back(space.position(face.nodes[2 * v]));
+          centre += Vector3(x.back()) / n_corners;
+        }
+      // The product of the diagonals; of a triangle that of two edges.
+      const Vector3 area = cross_product_3d(x[2] - x[0], x[n_corners - 1] - x[1]);
+      if (!(area.norm() > 0.))
+        return;
+      const auto list = [](const Vector3 &v) { return std::array<double, 3>{{v[0], v[1], v[2]}}; };
+      for (const NodeIndex node : face.nodes)
+        if (node != invalid_node && is_known(node, vertices))
+          facets.push_back({node, list(area / area.norm()), list(centre - space.position(node))});
     }
 
     /// Twice the area along the normal over the square of the longest edge.
@@ -255,6 +302,13 @@ namespace Signorini
       }
 
       /// After all faces.
+      void add_facet(const PackedFacet &facet)
+      {
+        const auto vector = [](const std::array<double, 3> &v) { return Vector3({v[0], v[1], v[2]}); };
+        surface.beyond[add_vertex(facet.node)].push_back({vector(facet.normal), vector(facet.way)});
+      }
+
+      /// After all faces.
       void add_parent(const PackedParent &entry)
       {
         const unsigned int parent = add_vertex(entry.parent);
@@ -331,17 +385,25 @@ namespace Signorini
                                          const std::function<bool(const Point<3> &point)>      &region,
                                          const SurfaceShapes                                   &shapes)
   {
-    std::vector<PackedFace>   mine;
+    std::vector<PackedFace>   mine, others;
     std::vector<PackedParent> my_parents;
     for (const NodalSpace::BoundaryFace &face : space.boundary_faces())
-      if (space.cells()[face.cell].is_owned && ids.count(face.id) > 0)
-        if (const PackedFace packed = pack(face, space); !region || touches(packed, space, region))
-          {
-            mine.push_back(packed);
-            pack_parents(my_parents, packed, space);
-          }
+      if (space.cells()[face.cell].is_owned)
+        {
+          const PackedFace packed = pack(face, space);
+          if (ids.count(face.id) == 0 || (region && !touches(packed, space, region)))
+            {
+              others.push_back(packed);
+              continue;
+            }
+          mine.push_back(packed);
+          pack_parents(my_parents, packed, space);
+        }
     const std::vector<PackedVertex> vertices =
         gather_sorted(pack_vertices(mine, my_parents, space, fixed), space.communicator());
+    std::vector<PackedFacet> my_facets;
+    for (const PackedFace &face : others)
+      pack_facets(my_facets, face, space, vertices);
     SurfaceAssembly assembly(vertices);
     for (const PackedFace &face : gather_sorted(std::move(mine), space.communicator()))
       assembly.add_face(face);
@@ -349,6 +411,8 @@ namespace Signorini
     // lie outside of the region or belong to another boundary. Its corners then are vertices without faces.
     for (const PackedParent &entry : gather_sorted(std::move(my_parents), space.communicator()))
       assembly.add_parent(entry);
+    for (const PackedFacet &facet : gather_sorted(std::move(my_facets), space.communicator()))
+      assembly.add_facet(facet);
     ContactSurface surface = std::move(assembly.surface);
     surface.hanging.resize(surface.vertex_node.size());
     surface.true_shape = true_shape_of(surface, shapes);

@@ -113,27 +113,21 @@ namespace Signorini
       const SurfaceTopology               topology;
       std::vector<unsigned int>           near;
     };
-
-    /// With those of hanging vertices: what is prescribed at all of their parents.
-    std::vector<FixedDirections> fixed_at_vertices(const ContactSurface &surface)
-    {
-      std::vector<FixedDirections> fixed = surface.vertex_fixed;
-      for (std::size_t v = 0; v < fixed.size(); ++v)
-        if (!surface.hanging[v].empty())
-          {
-            fixed[v] = all_fixed;
-            for (const auto &parent : surface.hanging[v])
-              fixed[v] = fixed[v].common(surface.vertex_fixed[parent.first]);
-          }
-      return fixed;
-    }
   } // namespace
 
 
 
   void project_onto_symmetry_planes(ContactSurface &surface, const SymmetryPlaneRule &rule)
   {
-    const std::vector<FixedDirections> fixed = fixed_at_vertices(surface);
+    // Prescribed components of hanging vertices are those of all of their parents.
+    std::vector<FixedDirections> fixed = surface.vertex_fixed;
+    for (std::size_t v = 0; v < fixed.size(); ++v)
+      if (!surface.hanging[v].empty())
+        {
+          fixed[v] = all_fixed;
+          for (const auto &parent : surface.hanging[v])
+            fixed[v] = fixed[v].common(surface.vertex_fixed[parent.first]);
+        }
     // Vertices without any free component carry no multiplier.
     const auto is_partly_fixed = [](const FixedDirections &f) { return f.any() && !f.all(); };
     if (std::none_of(fixed.begin(), fixed.end(), is_partly_fixed))
@@ -165,26 +159,5 @@ namespace Signorini
             mean += weight * surface.mesh.vertex_normals[parent];
           surface.mesh.vertex_normals[v] = mean / mean.norm();
         }
-  }
-
-
-
-  std::vector<bool> vertices_on_border_off_planes(const ContactSurface    &surface,
-                                                  const SymmetryPlaneRule &rule)
-  {
-    const SurfaceMesh                 &mesh  = surface.mesh;
-    const std::vector<FixedDirections> fixed = fixed_at_vertices(surface);
-    const SurfaceTopology              topology(mesh.triangles, mesh.vertices.size());
-    std::vector<bool>                  result(mesh.vertices.size(), false);
-    for (unsigned int edge = 0; edge < topology.edges.size(); ++edge)
-      if (topology.is_border(edge))
-        {
-          const auto &[a, b]           = topology.edges[edge];
-          const FixedDirections common = fixed[a].common(fixed[b]);
-          const Vector3         way    = mesh.vertices[b] - mesh.vertices[a];
-          if (!common.any() || (way - common.project_free(way)).norm() > rule.planarity * way.norm())
-            result[a] = result[b] = true;
-        }
-    return result;
   }
 } // namespace Signorini

@@ -9,6 +9,7 @@
 #include <signorini/surface/surface_mesh.h>
 
 #include <array>
+#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -49,8 +50,17 @@ namespace Signorini
     std::vector<unsigned int> triangle_face;
     /// Global node number of each vertex of mesh.
     std::vector<NodeIndex> vertex_node;
-    /// By vertex, whether its normal is that of the other side of the pair (turn_edges()); empty if none is.
+    /// By vertex, whether its normal is that of the other side of the pair; empty before turn_edges().
     std::vector<bool> has_partner_normal;
+    /// A facet at a vertex: its outward unit normal, and the way from the vertex to its centre (length).
+    struct Facet
+    {
+      /// As above.
+      Vector3 normal, way;
+    };
+    /// By vertex, what else of the boundary of the body is around it: facets that do not belong to the
+    /// surface, or were left out. Known of whole surfaces until they are mapped.
+    std::map<unsigned int, std::vector<Facet>> beyond;
     /// Prescribed directions of each vertex.
     std::vector<FixedDirections> vertex_fixed;
     /// For hanging vertices: parents (vertex indices) and weights of the closed constraint; else empty.

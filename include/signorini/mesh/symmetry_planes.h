@@ -32,11 +32,6 @@ namespace Signorini
   /// do not differ, and an inclined one stays inclined; near a symmetry plane of a smooth surface they differ
   /// by at least twice n_c.
   void project_onto_symmetry_planes(ContactSurface &surface, const SymmetryPlaneRule &rule = {});
-
-  /// By vertex, whether a border edge of the surface meets there that lies in no plane across a direction
-  /// that is prescribed at both of its ends: an edge of the body, or an end of what may touch.
-  std::vector<bool> vertices_on_border_off_planes(const ContactSurface    &surface,
-                                                  const SymmetryPlaneRule &rule = {});
 } // namespace Signorini
 
 #endif

@@ -11,7 +11,7 @@
 
 namespace Signorini
 {
-  /// What an edge meets along the normal of a facet beside it.
+  /// What is met along the normal of a facet.
   struct MetPartner
   {
     /// A unit vector, against the outward normal of the other side.
@@ -35,17 +35,18 @@ namespace Signorini
   /// facet: farther back one would look through the body.
   PartnerSight sight_of(const ContactSurface &other);
 
-  /// Gives the vertices on edges of a whole surface (its border off symmetry planes,
-  /// vertices_on_sharp_edges()) the normal of what the facets around them face, and marks them
-  /// (ContactSurface::has_partner_normal).
+  /// Where edges of a whole surface press on the other side, gives them and the faces beside them the normal
+  /// of that, and marks them (ContactSurface::has_partner_normal).
   ///
-  /// Inside of a smooth surface that touches another one both have one normal. An edge has none of its own:
-  /// along that of the faces beside it, it would enter the other body as it slides, and contact forces would
-  /// have a part along the surface that they act on. Vertices keep their normal where it differs from the new
-  /// one by no more than facets do from the surfaces that they stand for (the ends of a pin in a bore), where
-  /// the facets around them meet walls that differ by more than 60 degrees (a corner between floor and wall),
-  /// and where lines along the new one would come closer to those of the neighbours than to half of the width
-  /// of the facets.
+  /// Inside of smooth surfaces that touch both have one normal there. An edge has none of its own: along that
+  /// of the faces beside it, it would enter the other body as it slides, and contact forces would have a part
+  /// along the surface that they act on. Edges are those of the boundary of the body, of
+  /// more than 60 degrees, that stick out (ContactSurface::beyond; at symmetry planes with its mirror image).
+  /// One presses where the other side comes nearer towards it over all faces beside it, or is as far; from
+  /// there the new normals spread over these as long as they rise. Vertices keep their normal where it
+  /// differs from the new one by no more than facets do from the surfaces that they stand for (a pin in a
+  /// bore), and where the facets around them meet walls that differ by more than 60 degrees (a corner between
+  /// floor and wall).
   void turn_edges(ContactSurface &surface, const PartnerSight &partner);
 } // namespace Signorini
 

@@ -13,6 +13,21 @@ using dealii::numbers::PI;
 
 namespace
 {
+  /// The walls of a block over or under the unit square, as far as they are seen from its vertices.
+  void add_walls(ContactSurface &surface, const bool faces_up)
+  {
+    for (unsigned int v = 0; v < surface.mesh.vertices.size(); ++v)
+      for (unsigned int c = 0; c < 2; ++c)
+        for (const double side : {0., 1.})
+          if (std::abs(surface.mesh.vertices[v][c] - side) < 1e-10)
+            {
+              ContactSurface::Facet wall;
+              wall.normal[c] = 2. * side - 1.;
+              wall.way[2]    = faces_up ? -.1 : .1;
+              surface.beyond[v].push_back(wall);
+            }
+  }
+
   /// Turned about the y axis, such that what is at larger x gets higher, and lifted.
   void tilt(ContactSurface &surface, const double angle, const double height)
   {
@@ -27,6 +42,12 @@ namespace
       }
     for (Vector3 &n : surface.mesh.vertex_normals)
       n = turn(n);
+    for (auto &entry : surface.beyond)
+      for (ContactSurface::Facet &facet : entry.second)
+        {
+          facet.normal = turn(facet.normal);
+          facet.way    = turn(facet.way);
+        }
   }
 
   /// The bottom of a block, four by four faces, one edge of which is the lowest.
@@ -36,6 +57,7 @@ namespace
     grid.nx = grid.ny      = 4;
     grid.faces_up          = false;
     ContactSurface surface = FlatSurfaces::make_surface(grid);
+    add_walls(surface, false);
     tilt(surface, angle, height);
     return surface;
   }
@@ -59,9 +81,10 @@ namespace
   /// The prism between the planes z = x tan(angle) and z = -x tan(angle), whose edge points down.
   ContactSurface prism(const double angle)
   {
-    ContactSurface            surface = bottom(angle, 0.);
-    ContactSurface            other   = surface;
-    const auto                n       = static_cast<unsigned int>(surface.mesh.vertices.size());
+    ContactSurface surface = bottom(angle, 0.);
+    surface.beyond.clear();
+    ContactSurface            other = surface;
+    const auto                n     = static_cast<unsigned int>(surface.mesh.vertices.size());
     std::vector<unsigned int> number(n);
     for (unsigned int v = 0; v < n; ++v)
       if (std::abs(surface.mesh.vertices[v][0]) < 1e-10)
@@ -114,54 +137,75 @@ namespace
 
 
 
+// With the face that rises from the edge: in its interior it touches nothing, and normals that bend from the
+// one to the other over a face would measure the gap wrongly.
 TEST(EdgeNormals, AreThoseOfWhatTheEdgesMeet)
 {
-  const double         angle = PI / 9.;
+  const ContactSurface other = floor();
+  for (const PartnerSight &partner : {sight_of(plane(), 1.), sight_of(other)})
+    for (const double height : {0., 5.})
+      {
+        ContactSurface surface = bottom(PI / 9., height);
+        turn_edges(surface, partner);
+        for (const bool is_turned : turned(surface))
+          EXPECT_TRUE(is_turned) << height;
+      }
+}
+
+TEST(EdgeNormals, FacesThatAreParallelKeepTheirs)
+{
   const ContactSurface other = floor();
   for (const PartnerSight &partner : {sight_of(plane(), 1.), sight_of(other)})
     {
-      ContactSurface surface = bottom(angle, 0.);
+      ContactSurface surface = bottom(0., .1);
       turn_edges(surface, partner);
-      const std::vector<bool> is_turned = turned(surface);
-      for (unsigned int v = 0; v < is_turned.size(); ++v)
-        {
-          const Point<3> &x         = surface.mesh.vertices[v];
-          const bool      is_lowest = std::abs(x[2])<1e-10, is_inside = x[1]> .1 && x[1] < .9;
-          if (is_lowest || (is_inside && x[2] < .9 * std::sin(angle)))
-            {
-              EXPECT_EQ(is_turned[v], is_lowest) << x;
-            }
-        }
+      for (const bool is_turned : surface.has_partner_normal)
+        EXPECT_FALSE(is_turned);
     }
 }
 
-// Where the gap is many faces wide, lines from the upper edge would cross those of its neighbours; those from
-// the lower edge part from them.
-TEST(EdgeNormals, LinesDoNotCross)
+// The lowest edge lies in a symmetry plane: with the mirror image it is one of 40 or of 70 degrees. The
+// others do not press.
+TEST(EdgeNormals, EdgesInSymmetryPlanes)
 {
-  ContactSurface surface = bottom(PI / 9., 5.);
-  turn_edges(surface, sight_of(plane(), 1.));
-  const std::vector<bool> is_turned = turned(surface);
-  for (unsigned int v = 0; v < is_turned.size(); ++v)
-    if (const Point<3> &x = surface.mesh.vertices[v]; x[1] > .1 && x[1] < .9)
-      {
-        EXPECT_EQ(is_turned[v], x[2] < 5. + 1e-10) << x;
-      }
+  for (const bool is_sharp : {false, true})
+    {
+      ContactSurface surface = bottom(is_sharp ? PI * 35. / 180. : PI / 9., 0.);
+      FlatSurfaces::fix(
+          surface, [](const Point<3> &x) { return x[1] < 1e-10 || x[1] > 1. - 1e-10; }, FixedDirections(2));
+      FlatSurfaces::fix(
+          surface, [](const Point<3> &x) { return x[0] < 1e-10; }, FixedDirections(1));
+      for (unsigned int v = 0; v < surface.mesh.vertices.size(); ++v)
+        if (surface.mesh.vertices[v][0] < 1e-10)
+          surface.beyond[v] = {{Vector3({-1., 0., 0.}), Vector3({0., 0., .1})}};
+      turn_edges(surface, sight_of(plane(), 1.));
+      for (const bool is_turned : surface.has_partner_normal)
+        EXPECT_EQ(is_turned, is_sharp);
+    }
 }
 
-// The edges at y = 0 lie in a symmetry plane; that at x = 0 ends there, and is one.
-TEST(EdgeNormals, SymmetryPlanesAreNoEdges)
+// What goes on smoothly beyond the border of the surface has no edge there.
+TEST(EdgeNormals, SeamsAreNoEdges)
 {
   ContactSurface surface = bottom(PI / 9., 0.);
-  FlatSurfaces::fix(
-      surface, [](const Point<3> &x) { return x[1] < 1e-10; }, FixedDirections(2));
+  for (auto &entry : surface.beyond)
+    for (ContactSurface::Facet &facet : entry.second)
+      facet.normal = surface.mesh.vertex_normals[entry.first];
   turn_edges(surface, sight_of(plane(), 1.));
-  const std::vector<bool> is_turned = turned(surface);
-  for (unsigned int v = 0; v < is_turned.size(); ++v)
-    if (const Point<3> &x = surface.mesh.vertices[v]; x[1] < 1e-10 && x[2] < .9 * std::sin(PI / 9.))
-      {
-        EXPECT_EQ(is_turned[v], x[2] < 1e-10) << x;
-      }
+  for (const bool is_turned : surface.has_partner_normal)
+    EXPECT_FALSE(is_turned);
+}
+
+// A flat surface under a ball: the gap grows towards its edges.
+TEST(EdgeNormals, EdgesFarFromTheContactKeepTheirs)
+{
+  FlatSurfaces::Grid grid;
+  grid.nx = grid.ny      = 6;
+  ContactSurface surface = FlatSurfaces::make_surface(grid);
+  add_walls(surface, true);
+  turn_edges(surface, sight_of(RigidObstacle::sphere(Point<3>(.4, .5, 1.), 1.), 1.));
+  for (const bool is_turned : surface.has_partner_normal)
+    EXPECT_FALSE(is_turned);
 }
 
 TEST(EdgeNormals, SharpEdgesBetweenFacesOfTheSurface)
@@ -187,8 +231,8 @@ TEST(EdgeNormals, SharpEdgesBetweenFacesOfTheSurface)
 // The faces beside the edge of a groove both look down, but it cannot press on anything.
 TEST(EdgeNormals, GroovesPressOnNothing)
 {
-  ContactSurface      surface = prism(-PI / 9.);
-  const RigidObstacle below   = RigidObstacle::plane(Point<3>(0., 0., -.5), Vector3({0., 0., 1.}));
+  ContactSurface      surface = prism(-PI / 4.);
+  const RigidObstacle below   = RigidObstacle::plane(Point<3>(0., 0., -2.), Vector3({0., 0., 1.}));
   turn_edges(surface, sight_of(below, 1.));
   for (unsigned int v = 0; v < surface.mesh.vertices.size(); ++v)
     if (const Point<3> &x = surface.mesh.vertices[v]; std::abs(x[0]) < 1e-10 && x[1] > .1 && x[1] < .9)
@@ -207,7 +251,9 @@ TEST(EdgeNormals, FacetsDoNotTurnTheEndsOfAPin)
   ContactSurface surface = FlatSurfaces::make_surface(grid);
   for (unsigned int v = 0; v < surface.mesh.vertices.size(); ++v)
     {
-      Point<3>    &x                 = surface.mesh.vertices[v];
+      Point<3> &x = surface.mesh.vertices[v];
+      if (x[1] < 1e-10 || x[1] > 1. - 1e-10)
+        surface.beyond[v] = {{Vector3({0., x[1] < .5 ? -1. : 1., 0.}), Vector3({0., 0., .1})}};
       const double angle             = PI * x[0];
       surface.mesh.vertex_normals[v] = Vector3({-std::cos(angle), 0., -std::sin(angle)});
       x                              = Point<3>(-std::cos(angle), x[1], -std::sin(angle));
@@ -216,6 +262,21 @@ TEST(EdgeNormals, FacetsDoNotTurnTheEndsOfAPin)
   turn_edges(surface, sight_of(bore, 1.));
   for (const bool is_turned : surface.has_partner_normal)
     EXPECT_FALSE(is_turned);
+}
+
+// The other side ends over the faces beside the edge: vertices under which there is nothing go with these.
+TEST(EdgeNormals, WhereTheOtherSideEnds)
+{
+  FlatSurfaces::Grid grid;
+  grid.nx = grid.ny = 3;
+  grid.y0           = .4;
+  grid.x0           = -1.;
+  grid.x1 = grid.y1            = 2.;
+  const ContactSurface other   = FlatSurfaces::make_surface(grid);
+  ContactSurface       surface = bottom(PI / 9., 0.);
+  turn_edges(surface, sight_of(other));
+  for (unsigned int v = 0; v < surface.mesh.vertices.size(); ++v)
+    EXPECT_EQ(surface.has_partner_normal[v], surface.mesh.vertices[v][1] > .2) << surface.mesh.vertices[v];
 }
 
 // Sides that turn away, and what lies behind by more than a face is wide.
