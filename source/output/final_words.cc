@@ -74,9 +74,8 @@ namespace Signorini
         }
       out << "force " << pair.force.norm() << " on " << pair.nonmortar << ", "
           << text(pair.force, pair.force.norm());
-      if (pair.contact_area > 0.)
-        out << "\n  contact area " << pair.contact_area << ", largest pressure " << pair.max_pressure
-            << " at " << place_text(pair.max_pressure_at) << smoothed_text(pair);
+      out << "\n  contact area " << pair.contact_area << ", largest pressure " << pair.max_pressure << " at "
+          << place_text(pair.max_pressure_at) << smoothed_text(pair);
       out << scatter_text(pair);
       out << '\n';
     }
