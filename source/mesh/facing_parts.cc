@@ -308,13 +308,14 @@ namespace Signorini
           surface.beyond[kept->second] = facets;
       const auto &x = whole.mesh.vertices;
       for (unsigned int t = 0; t < whole.mesh.triangles.size(); ++t)
-        if (!is_kept[whole.triangle_face[t]])
+        if (const Vector3 normal = facet_normal(whole, t);
+            !is_kept[whole.triangle_face[t]] && normal.norm() > 0.)
           {
             const auto    &c = whole.mesh.triangles[t];
             const Point<3> centre((Vector3(x[c[0]]) + Vector3(x[c[1]]) + Vector3(x[c[2]])) / 3.);
             for (const unsigned int v : c)
               if (const auto kept = number.find(v); kept != number.end())
-                surface.beyond[kept->second].push_back({facet_normal(whole, t), centre - x[v]});
+                surface.beyond[kept->second].push_back({normal, centre - x[v]});
           }
     }
   } // namespace

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <map>
 #include <memory>
 #include <vector>
@@ -35,6 +36,9 @@ namespace Signorini
       double toward_vertex = .9;
       /// By what part of its slope against the other side a face must rise from an edge that presses on that.
       double least_rise = .1;
+      /// How much of the first one the turn from own to new normals may change by as these spread: where a
+      /// surface or the other side is curved they go no farther than they matter.
+      double change = .5;
       /// Differences of unit normals that are rounding.
       double rounding = 1e-6;
       /// Distances of one place (SurfaceSight), in widths of the facet.
@@ -100,7 +104,7 @@ namespace Signorini
       {
         if (fixed.any() && !fixed.all())
           {
-            const std::vector<Vector3> planes = symmetry_planes(others, fixed);
+            planes = symmetry_planes(others, fixed);
             others.erase(std::remove_if(others.begin(), others.end(),
                                         [&](const Facet &facet) { return fixed.contains(facet.normal); }),
                          others.end());
@@ -116,7 +120,11 @@ namespace Signorini
       /// What is met along the normal of a facet.
       void add(const MetPartner &met, const Vector3 &facet)
       {
-        normals.push_back(met.normal);
+        std::vector<Facet> images = {{met.normal, Vector3()}};
+        add_mirrored(images, planes);
+        for (const Facet &image : images)
+          normals.push_back(image.normal);
+        ++n_met;
         sum_of_distances += met.distance;
         doubt = std::max(doubt, (facet - own).norm() + met.doubt);
       }
@@ -135,15 +143,19 @@ namespace Signorini
       /// Mean along the facets (length).
       double distance() const
       {
-        return sum_of_distances / static_cast<double>(normals.size());
+        return sum_of_distances / n_met;
       }
 
-      /// Zero if that is not one wall, or if the vertex has it already.
-      Vector3 normal() const
+      /// Whether its normal is that of a face beside it, or it is on an edge that sticks out: not in a
+      /// groove.
+      bool may_turn() const
       {
-        const bool has_own = own.norm() > 0.;
-        if (normals.empty() || (!has_own && !is_on_edge))
-          return Vector3();
+        return own.norm() > 0. || is_on_edge;
+      }
+
+      /// The normal of what is met; zero if that is not one wall.
+      Vector3 met_normal() const
+      {
         Vector3 sum;
         for (const Vector3 &one : normals)
           {
@@ -152,16 +164,29 @@ namespace Signorini
               if (one * other < EdgeRule().one_wall)
                 return Vector3();
           }
-        const Vector3 result = sum / sum.norm();
-        return has_own && (result - own).norm() <= doubt + EdgeRule().rounding ? Vector3() : result;
+        return normals.empty() ? sum : sum / sum.norm();
+      }
+
+      /// The same where it is not the one that the vertex has already; else zero.
+      Vector3 normal() const
+      {
+        const Vector3 met         = met_normal();
+        const bool    is_the_same = own.norm() > 0. && (met - own).norm() <= doubt + EdgeRule().rounding;
+        return may_turn() && !is_the_same ? met : Vector3();
+      }
+
+      /// From the own normal; from nothing where there is none.
+      Vector3 turn() const
+      {
+        return own.norm() > 0. ? Vector3(met_normal() - own) : Vector3();
       }
 
     private:
       /// Zero where it is that of no face.
       Vector3              own;
       bool                 is_on_edge = false;
-      std::vector<Vector3> normals;
-      double               sum_of_distances = 0., doubt = 0.;
+      std::vector<Vector3> planes, normals;
+      double               sum_of_distances = 0., n_met = 0., doubt = 0.;
     };
 
     class EdgeNormals
@@ -179,34 +204,45 @@ namespace Signorini
       std::map<unsigned int, Vector3> find()
       {
         std::map<unsigned int, Vector3> result;
-        std::vector<unsigned int>       front;
-        const auto                      add = [&](const unsigned int v) {
-          if (result.emplace(v, corner(v).normal()).second)
-            front.push_back(v);
-        };
-        std::vector<bool> may_press =
+        std::vector<bool>               may_press =
             vertices_on_sharp_edges(surface, std::vector<bool>(surface.faces.size(), true));
         for (const auto &entry : surface.beyond)
           may_press[entry.first] = true;
         for (unsigned int v = 0; v < x.size(); ++v)
           if (may_press[v] && presses(v))
-            add(v);
-        while (!front.empty())
-          {
-            const unsigned int v = front.back();
-            front.pop_back();
-            for_facets(v, [&](const unsigned int a, const unsigned int b, const unsigned int t) {
-              for (const unsigned int w : {a, b})
-                if (corner(w).meets_anything() && corner(w).normal().norm() > 0. &&
-                    corner(w).distance() > corner(v).distance() + least_rise(v, t, x[v].distance(x[w])))
-                  add(w);
-            });
-          }
+            {
+              result.emplace(v, corner(v).normal());
+              front.push_back({v, corner(v).turn()});
+            }
+        for (; !front.empty(); front.pop_front())
+          for_facets(front[0].vertex,
+                     [&, from = front[0]](const unsigned int a, const unsigned int b, const unsigned int t) {
+                       for (const unsigned int w : {a, b})
+                         if (spreads(from, w, t) && result.emplace(w, corner(w).normal()).second)
+                           front.push_back({w, from.turn.norm() > 0. ? from.turn : corner(w).turn()});
+                     });
         add_overhang(result);
         return result;
       }
 
     private:
+      /// A vertex with a new normal, and the turn at the edge that this comes from; zero on a sharp one.
+      struct Turned
+      {
+        unsigned int vertex;
+        Vector3      turn;
+      };
+
+      /// Whether a new normal goes on over a facet: if it rises, and the turn is much the same.
+      bool spreads(const Turned &from, const unsigned int w, const unsigned int triangle)
+      {
+        const unsigned int v = from.vertex;
+        return corner(w).meets_anything() && corner(w).normal().norm() > 0. &&
+               corner(w).distance() > corner(v).distance() + least_rise(v, triangle, x[v].distance(x[w])) &&
+               (corner(w).turn() - from.turn).norm() <=
+                   (from.turn.norm() > 0. ? EdgeRule().change * from.turn.norm() : 2.);
+      }
+
       /// Vertices that meet nothing, of facets that do in part: the other side ends there.
       void add_overhang(std::map<unsigned int, Vector3> &normals)
       {
@@ -215,7 +251,7 @@ namespace Signorini
           for_facets(v, [&, n = normal](const unsigned int a, const unsigned int b, const unsigned int t) {
             if (n * facet_normal(surface, t) >= EdgeRule().facing)
               for (const unsigned int w : {a, b})
-                if (!corner(w).meets_anything())
+                if (!corner(w).meets_anything() && corner(w).may_turn())
                   sums[w] += n;
           });
         for (const auto &[w, sum] : sums)
@@ -223,24 +259,45 @@ namespace Signorini
             normals.emplace(w, sum / sum.norm());
       }
 
-      /// Whether a vertex is on an edge with something before it, from which all facets rise.
+      /// Whether a vertex is on an edge with something before it, and all facets rise from there.
       bool presses(const unsigned int v)
       {
-        if (!corner(v).is_edge() || !(corner(v).normal().norm() > 0.))
+        const Corner &here = corner(v);
+        if (!here.is_edge() || !(here.normal().norm() > 0.))
           return false;
-        bool result = true;
+        bool all_rise = true, any = false;
         for_facets(v, [&](const unsigned int a, const unsigned int b, const unsigned int t) {
-          const bool has_a = corner(a).meets_anything(), has_b = corner(b).meets_anything();
-          if (!has_a && !has_b)
+          Vector3 middle;
+          double  distance = 0., n = 0.;
+          for (const unsigned int w : {a, b})
+            if (const Corner &there = corner(w); there.meets_anything())
+              {
+                middle += x[w] - x[v];
+                distance += there.distance();
+                n += 1.;
+                all_rise = all_rise && is_by_an_edge(v, w);
+              }
+          if (n == 0.)
             return;
-          const Point<3> middle = has_a && has_b ? Point<3>(.5 * (x[a] + x[b])) : x[has_a ? a : b];
-          const double   there  = has_a && has_b ? .5 * (corner(a).distance() + corner(b).distance())
-                                                 : corner(has_a ? a : b).distance();
-          const double   way    = x[v].distance(middle);
-          result =
-              result && there >= corner(v).distance() + least_rise(v, t, way) - EdgeRule().rounding * way;
+          const double way = middle.norm() / n;
+          any              = true;
+          all_rise =
+              all_rise && distance / n >= here.distance() + least_rise(v, t, way) - EdgeRule().rounding * way;
         });
-        return result;
+        return all_rise && any;
+      }
+
+      /// Whether a turn is that of a face that rises from an edge, as far as a neighbour tells: not that of
+      /// the vertex nearest to a place where smooth surfaces touch, whose neighbours meet normals that differ
+      /// by as much; nor beside that along the edge, where the other side comes nearer in this direction.
+      bool is_by_an_edge(const unsigned int v, const unsigned int w)
+      {
+        const Corner &here = corner(v), &there = corner(w);
+        const double  turn = here.turn().norm(), way = x[v].distance(x[w]);
+        const Vector3 met = there.met_normal();
+        return turn == 0. || (here.distance() - there.distance() <=
+                                  (EdgeRule().change * turn + EdgeRule().rounding) * way &&
+                              (met.norm() == 0. || (met - here.met_normal()).norm() < turn));
       }
 
       /// By how much farther the other side is over a way from v (lengths) if a facet rises.
@@ -295,6 +352,7 @@ namespace Signorini
       const std::vector<Point<3>>   &x;
       const SurfaceTopology          topology;
       std::map<unsigned int, Corner> corners;
+      std::deque<Turned>             front;
     };
 
     struct SurfaceWithEdges

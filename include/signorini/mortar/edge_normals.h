@@ -40,13 +40,14 @@ namespace Signorini
   ///
   /// Inside of smooth surfaces that touch both have one normal there. An edge has none of its own: along that
   /// of the faces beside it, it would enter the other body as it slides, and contact forces would have a part
-  /// along the surface that they act on. Edges are those of the boundary of the body, of
-  /// more than 60 degrees, that stick out (ContactSurface::beyond; at symmetry planes with its mirror image).
-  /// One presses where the other side comes nearer towards it over all faces beside it, or is as far; from
-  /// there the new normals spread over these as long as they rise. Vertices keep their normal where it
-  /// differs from the new one by no more than facets do from the surfaces that they stand for (a pin in a
-  /// bore), and where the facets around them meet walls that differ by more than 60 degrees (a corner between
-  /// floor and wall).
+  /// along the surface that they act on. Edges are those of the boundary of the body, of more than 60
+  /// degrees, that stick out (ContactSurface::beyond; at symmetry planes with its mirror image). One presses
+  /// where the other side comes nearer towards it over all facets beside it (or is as far, where these are
+  /// parallel to it). From there the new normals spread over the faces as long as they rise and the turn is
+  /// much the same, and to vertices of these under which the other side has ended. Vertices keep their normal
+  /// where it differs from the new one by no more than facets do from the surfaces that they stand for, or
+  /// than the new one from those of the neighbours, and where the facets around them meet walls that differ
+  /// by more than 25 degrees (a corner between floor and wall).
   void turn_edges(ContactSurface &surface, const PartnerSight &partner);
 } // namespace Signorini
 
