@@ -76,18 +76,14 @@ namespace Signorini
 
 
 
-  namespace
+  bool fall_apart(const std::vector<Vector3> &normals)
   {
-    /// Whether some of unit normals are not linked with the others by steps that are no sharp edges.
-    bool fall_apart(const std::vector<Vector3> &normals)
-    {
-      DisjointSets sets = linked_normals(normals, FacingRule().sharp_cosine);
-      for (unsigned int i = 1; i < normals.size(); ++i)
-        if (sets.find(i) != sets.find(0))
-          return true;
-      return false;
-    }
-  } // namespace
+    DisjointSets sets = linked_normals(normals, FacingRule().sharp_cosine);
+    for (unsigned int i = 1; i < normals.size(); ++i)
+      if (sets.find(i) != sets.find(0))
+        return true;
+    return false;
+  }
 
 
 

@@ -23,8 +23,6 @@ namespace Signorini
     /// Pure numbers.
     struct EdgeRule
     {
-      /// Edges are as sharp as those between parts that may be left out (FacingParts).
-      double sharp_cosine = .5 - 1e-6;
       /// Of an edge that sticks out no facet sees another one: the sine of the angle at which it would.
       double groove = .3;
       /// Normals of one wall.
@@ -47,16 +45,12 @@ namespace Signorini
 
     using Facet = ContactSurface::Facet;
 
-    bool fall_apart(const std::vector<Facet> &facets)
+    bool have_sharp_edge(const std::vector<Facet> &facets)
     {
       std::vector<Vector3> normals;
       for (const Facet &facet : facets)
         normals.push_back(facet.normal);
-      DisjointSets sets = linked_normals(normals, EdgeRule().sharp_cosine);
-      for (unsigned int i = 1; i < facets.size(); ++i)
-        if (sets.find(i) != sets.find(0))
-          return true;
-      return false;
+      return fall_apart(normals);
     }
 
     /// Whether no facet sees another one.
@@ -111,10 +105,10 @@ namespace Signorini
             add_mirrored(facets, planes);
             add_mirrored(others, planes);
           }
-        if (!fall_apart(facets))
+        if (!have_sharp_edge(facets))
           own = vertex_normal;
         facets.insert(facets.end(), others.begin(), others.end());
-        is_on_edge = fall_apart(facets) && stick_out(facets);
+        is_on_edge = have_sharp_edge(facets) && stick_out(facets);
       }
 
       /// What is met along the normal of a facet.

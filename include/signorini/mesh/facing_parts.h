@@ -100,6 +100,9 @@ namespace Signorini
     std::vector<double> nearest;
   };
 
+  /// Whether some of unit normals are not linked with the others by steps that are no sharp edges.
+  bool fall_apart(const std::vector<Vector3> &normals);
+
   /// Per vertex, whether not all triangles around it hang together without a sharp edge of the true surface
   /// (of more than 60 degrees): the vertex normal is that of none of them then. Those of a piece count if
   /// they are there.
