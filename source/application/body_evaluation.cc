@@ -6,8 +6,10 @@
 #include <signorini/application/pair_fields.h>
 #include <signorini/discretization/elasticity.h>
 #include <signorini/discretization/element.h>
+#include <signorini/discretization/nodal_stress.h>
 #include <signorini/mesh/surface_extraction.h>
 #include <signorini/mortar/surface_values.h>
+#include <signorini/output/field_output.h>
 
 namespace Signorini
 {
@@ -182,12 +184,16 @@ namespace Signorini
 
 
   std::vector<BodyResult> evaluate_bodies(const ContactModel &model, const Discretization &d,
-                                          const Vector &displacement, const std::vector<double> &stress,
-                                          const Results &results)
+                                          const Vector &displacement, const Results &results)
   {
-    const Bodies           &bodies = model.bodies();
-    std::vector<BodyResult> result(bodies.n_bodies());
-    std::vector<Largest>    movement(result.size()), von_mises(result.size());
+    const Bodies             &bodies = model.bodies();
+    const std::vector<double> values = relevant_values(d, displacement);
+    const StressedBodies      stressed{bodies, model.loads(), d.nodal(), values};
+    const NodalStress         nodal(stressed);
+    const std::vector<double> stress = stress_fields(nodal.values())[1].values;
+    const auto                errors = nodal.errors();
+    std::vector<BodyResult>   result(bodies.n_bodies());
+    std::vector<Largest>      movement(result.size()), von_mises(result.size());
     for (const NodalSpace::Cell &cell : d.nodal().cells())
       if (cell.is_owned)
         for (const NodeIndex node : d.nodal().nodes(cell))
@@ -209,6 +215,8 @@ namespace Signorini
         result[b].von_mises_at         = von_mises[b].place;
         result[b].largest_rotation     = extrema[b].rotation;
         result[b].largest_strain       = extrema[b].strain;
+        result[b].stress_error         = errors[b].relative();
+        result[b].missing_compliance   = errors[b].missing_compliance();
       }
     add_forces(result, model, d, results);
     return result;

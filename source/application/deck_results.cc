@@ -5,6 +5,7 @@
 #include <signorini/algebra/input_error.h>
 #include <signorini/application/deck_results.h>
 #include <signorini/application/journal.h>
+#include <signorini/application/nodal_sums.h>
 #include <signorini/application/pair_fields.h>
 #include <signorini/discretization/element.h>
 #include <signorini/output/field_output.h>
@@ -48,12 +49,9 @@ namespace Signorini
     std::vector<NodeRow> owned_rows(const ContactModel &model, const Discretization &d,
                                     const ContactSolution &solution)
     {
-      const NodalSpace   &space = d.nodal();
-      std::vector<double> u;
-      for (const NodeIndex node : space.relevant())
-        for (unsigned int c = 0; c < dim; ++c)
-          u.push_back(solution.displacement.local_element(dim * d.partition().to_local(node) + c));
-      const auto           stress = nodal_stress(space, u, model.bodies(), model.loads());
+      const NodalSpace    &space  = d.nodal();
+      const auto           u      = relevant_values(d, solution.displacement);
+      const auto           stress = NodalStress({model.bodies(), model.loads(), space, u}).values();
       std::vector<NodeRow> rows;
       for (const NodeIndex node : space.owned())
         {
@@ -65,7 +63,7 @@ namespace Signorini
               row.values[3 + c] = u[3 * i + c];
             }
           for (unsigned int c = 0; c < 6; ++c)
-            row.values[6 + c] = stress[0].values[6 * i + c];
+            row.values[6 + c] = stress[i][c];
           rows.push_back(row);
         }
       return rows;

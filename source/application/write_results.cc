@@ -7,6 +7,7 @@
 #include <signorini/algebra/input_error.h>
 #include <signorini/application/body_evaluation.h>
 #include <signorini/application/deck_results.h>
+#include <signorini/application/nodal_sums.h>
 #include <signorini/application/pair_fields.h>
 #include <signorini/application/write_report.h>
 #include <signorini/application/write_results.h>
@@ -40,20 +41,6 @@ namespace Signorini
 
   namespace
   {
-    /// Nodal values in the order of NodalSpace::relevant().
-    std::vector<double> relevant_values(const Discretization &d, const Vector &displacement)
-    {
-      std::vector<double> values;
-      values.reserve(3 * d.nodal().relevant().n_elements());
-      for (const NodeIndex node : d.nodal().relevant())
-        {
-          const unsigned int i = d.partition().to_local(node);
-          for (unsigned int c = 0; c < dim; ++c)
-            values.push_back(displacement.local_element(dim * i + c));
-        }
-      return values;
-    }
-
     OutputField field_of(const std::string &name, const std::vector<Vector3> &values)
     {
       OutputField field{name, 3, {}};
@@ -101,7 +88,8 @@ namespace Signorini
     std::vector<OutputField> fields;
     fields.push_back({"displacement", 3, relevant_values(d, solution.displacement)});
     if (with_stress)
-      for (OutputField &field : nodal_stress(d.nodal(), fields[0].values, model.bodies(), model.loads()))
+      for (OutputField &field :
+           stress_fields(NodalStress({model.bodies(), model.loads(), d.nodal(), fields[0].values}).values()))
         fields.push_back(std::move(field));
     return fields;
   }
@@ -218,17 +206,16 @@ namespace Signorini
     {
       const Discretization &d       = *nested.discretization;
       Results              &results = nested.results;
-      const auto            stress = nodal_stress(d.nodal(), relevant_values(d, nested.solution.displacement),
-                                                  model.bodies(), model.loads());
-      results.bodies = evaluate_bodies(model, d, nested.solution.displacement, stress[1].values, results);
+      results.bodies                = evaluate_bodies(model, d, nested.solution.displacement, results);
       for (unsigned int p = 0; p < results.pairs.size(); ++p)
         {
           const Slip slip                = largest_slip(d, nested.solution, p);
           results.pairs[p].slip          = slip.length;
           results.pairs[p].slip_in_faces = slip.in_faces;
         }
-      for (const std::string &line : large_displacements(results))
-        results.notes.push_back("warning: " + line);
+      for (const auto &lines : {large_displacements(results), coarse_meshes(results)})
+        for (const std::string &line : lines)
+          results.notes.push_back("warning: " + line);
     }
 
     /// On rank 0.

@@ -224,7 +224,7 @@ namespace Signorini
     double volume = 0., sum = 0., free = 0.;
     Block  gradient;
     for (unsigned int q = 0; q < element.n_points(); ++q)
-      if (plain_gradient(gradient, element.reference_point(q)))
+      if (plain_gradient(gradient, element.reference_point(q)) > 0.)
         {
           const double weight = element.volume_element(q).first;
           volume += weight;
@@ -242,25 +242,23 @@ namespace Signorini
 
 
 
-  bool CellDisplacement::plain_gradient(Block &gradient, const Point<3> &reference) const
+  double CellDisplacement::plain_gradient(Block &gradient, const Point<3> &reference) const
   {
     std::array<Vector3, CellShape::max_vertices> g;
     Block                                        inverse, on_reference;
     if (!element.reference_gradients(g, inverse, reference))
-      return false;
+      return 0.;
     for (unsigned int v = 0; v < element.n_vertices(); ++v)
       on_reference += outer_product(u[v], g[v]);
     gradient = on_reference * inverse;
-    return true;
+    return 1. / determinant(inverse);
   }
 
 
 
-  Block CellDisplacement::gradient(const Point<3> &reference) const
+  Block CellDisplacement::with_mean_dilatation(const Block &plain) const
   {
-    Block result;
-    if (!plain_gradient(result, reference))
-      return Block();
+    Block result = plain;
     if (has_mean_dilatation)
       {
         const double change = (mean_dilatation - trace(result)) / 3.;
@@ -272,11 +270,18 @@ namespace Signorini
 
 
 
-  Block CellDisplacement::elastic_gradient(const Point<3> &reference) const
+  Block CellDisplacement::gradient(const Point<3> &reference) const
   {
-    Block result = gradient(reference);
+    Block plain;
+    return plain_gradient(plain, reference) > 0. ? with_mean_dilatation(plain) : Block();
+  }
+
+
+
+  Block CellDisplacement::without_eigenstrain(const Block &gradient, const Point<3> &reference) const
+  {
     if (eigenstrain.is_zero)
-      return result;
+      return gradient;
     Block free = eigenstrain.value(element.shape_values(reference));
     if (has_mean_dilatation)
       {
@@ -284,7 +289,28 @@ namespace Signorini
         for (unsigned int c = 0; c < 3; ++c)
           free[c][c] += change;
       }
-    return result - free;
+    return gradient - free;
+  }
+
+
+
+  Block CellDisplacement::elastic_gradient(const Point<3> &reference) const
+  {
+    return without_eigenstrain(gradient(reference), reference);
+  }
+
+
+
+  std::pair<Block, double> CellDisplacement::stress_at_point(const unsigned int q) const
+  {
+    const Point<3> reference = element.reference_point(q);
+    Block          plain;
+    const double   determinant = plain_gradient(plain, reference);
+    if (!(determinant > 0.))
+      return {Block(), 0.};
+    const double part = element.n_vertices() == CellShape::hexahedron ? 1. / 8. : 1. / 24.;
+    return {Signorini::stress(without_eigenstrain(with_mean_dilatation(plain), reference), material),
+            part * determinant};
   }
 
 

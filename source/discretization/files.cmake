@@ -17,6 +17,7 @@ signorini_add_layer(discretization
   level_spaces.cc
   load_parameters.cc
   motion_description.cc
+  nodal_stress.cc
   node_conditions.cc
   rigid_faces.cc
   rigid_support.cc

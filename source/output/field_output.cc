@@ -2,8 +2,6 @@
 // Copyright (C) 2026 by the Signorini authors
 
 #include <signorini/algebra/input_error.h>
-#include <signorini/algebra/node_partition.h>
-#include <signorini/discretization/element.h>
 #include <signorini/output/field_output.h>
 #include <signorini/surface/contact_mapping.h>
 
@@ -212,71 +210,14 @@ namespace Signorini
 
   namespace
   {
-    /// The components of the stress in the order of the output: xx, yy, zz, xy, yz, zx.
-    using Stress = std::array<double, 6>;
-
-    /// Collective. Means of the stress over the cells around each relevant node, by volume.
-    class NodalMeans
-    {
-    public:
-      explicit NodalMeans(const NodalSpace &space)
-        : space(space)
-        , partition(space.owned(), space.relevant(), space.communicator())
-      {
-        for (Vector *v : {&normal, &shear, &weight})
-          partition.reinit(*v);
-      }
-
-      void add(const NodalSpace::Cell &cell, const Block &sigma, const double volume)
-      {
-        for (const NodeIndex node : space.nodes(cell))
-          {
-            const unsigned int i = partition.to_local(node);
-            for (unsigned int c = 0; c < 3; ++c)
-              {
-                normal.local_element(3 * i + c) += volume * sigma[c][c];
-                shear.local_element(3 * i + c) += volume * sigma[c][(c + 1) % 3];
-              }
-            weight.local_element(3 * i) += volume;
-          }
-      }
-
-      void finish()
-      {
-        for (Vector *v : {&normal, &shear, &weight})
-          {
-            v->compress(VectorOperation::add);
-            v->update_ghost_values();
-          }
-      }
-
-      /// Of the r-th relevant node; false if there is no cell around it.
-      bool get(Stress &s, const std::size_t r) const
-      {
-        const unsigned int i = partition.to_local(space.relevant().nth_index_in_set(r));
-        const double       w = weight.local_element(3 * i);
-        for (unsigned int c = 0; c < 3 && w > 0.; ++c)
-          {
-            s[c]     = normal.local_element(3 * i + c) / w;
-            s[3 + c] = shear.local_element(3 * i + c) / w;
-          }
-        return w > 0.;
-      }
-
-    private:
-      const NodalSpace   &space;
-      const NodePartition partition;
-      Vector              normal, shear, weight;
-    };
-
-    double von_mises(const Stress &s)
+    double von_mises(const StressComponents &s)
     {
       return std::sqrt(.5 * ((s[0] - s[1]) * (s[0] - s[1]) + (s[1] - s[2]) * (s[1] - s[2]) +
                              (s[2] - s[0]) * (s[2] - s[0])) +
                        3. * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
     }
 
-    std::array<double, 3> principal(const Stress &s)
+    std::array<double, 3> principal(const StressComponents &s)
     {
       SymmetricTensor<2, 3> tensor;
       for (unsigned int c = 0; c < 3; ++c)
@@ -290,41 +231,21 @@ namespace Signorini
 
 
 
-  std::vector<OutputField> nodal_stress(const NodalSpace &space, const std::vector<double> &displacement,
-                                        const Bodies &bodies, const Loads &loads)
+  std::vector<OutputField> stress_fields(const std::vector<StressComponents> &stress)
   {
-    NodalMeans means(space);
-    for (const NodalSpace::Cell &cell : space.cells())
-      if (cell.is_owned)
-        {
-          const auto                                   nodes = space.nodes(cell);
-          const Element                                element(space, cell);
-          std::array<Vector3, CellShape::max_vertices> u;
-          for (unsigned int v = 0; v < nodes.size(); ++v)
-            for (unsigned int c = 0; c < 3; ++c)
-              u[v][c] = displacement[3 * space.relevant().index_within_set(nodes[v]) + c];
-          // The centre is the most accurate point of a hexahedron.
-          const double           c = nodes.size() == CellShape::hexahedron ? .5 : .25;
-          const CellDisplacement cell_displacement(element, bodies.material(cell.material), u,
-                                                   loads.eigenstrain(space, cell));
-          means.add(cell, cell_displacement.stress(Point<3>(c, c, c)), element.volume());
-        }
-    means.finish();
-
-    const std::size_t        n      = space.relevant().n_elements();
+    const std::size_t        n      = stress.size();
     std::vector<OutputField> fields = {
         {"stress", 6, std::vector<double>(6 * n, 0.)},
         {"von_Mises", 1, std::vector<double>(n, 0.)},
         {"principal_stress", 3, std::vector<double>(3 * n, 0.), false, {"largest", "middle", "smallest"}}};
-    Stress s;
     for (std::size_t r = 0; r < n; ++r)
-      if (means.get(s, r))
-        {
-          std::copy(s.begin(), s.end(), fields[0].values.begin() + 6 * r);
-          fields[1].values[r] = von_mises(s);
-          const auto values   = principal(s);
-          std::copy(values.begin(), values.end(), fields[2].values.begin() + 3 * r);
-        }
+      {
+        const StressComponents &s = stress[r];
+        std::copy(s.begin(), s.end(), fields[0].values.begin() + 6 * r);
+        fields[1].values[r] = von_mises(s);
+        const auto values   = principal(s);
+        std::copy(values.begin(), values.end(), fields[2].values.begin() + 3 * r);
+      }
     return fields;
   }
 } // namespace Signorini

@@ -5,6 +5,7 @@
 
 #include <deal.II/base/numbers.h>
 
+#include <algorithm>
 #include <iomanip>
 #include <sstream>
 
@@ -127,6 +128,23 @@ namespace Signorini
       for (const std::string &line : large)
         out << "  " << line << '\n';
     }
+
+    void print_fineness(std::ostream &out, const Results &results)
+    {
+      const auto worst = std::max_element(
+          results.bodies.begin(), results.bodies.end(),
+          [](const BodyResult &a, const BodyResult &b) { return a.stress_error < b.stress_error; });
+      if (worst == results.bodies.end())
+        return;
+      const auto coarse = coarse_meshes(results);
+      // Far below what the mesh is made for, it is rounding.
+      constexpr double smallest = 1e-4;
+      out << "meshes are fine: " << (coarse.empty() ? "yes" : "NO") << " (estimated error of stresses "
+          << std::setprecision(2) << 100. * std::max(worst->stress_error, smallest) << " %"
+          << (results.bodies.size() > 1 ? " or less, most in body " + worst->name : "") << ")\n";
+      for (const std::string &line : coarse)
+        out << "  " << line << '\n';
+    }
   } // namespace
 
 
@@ -171,6 +189,26 @@ namespace Signorini
 
 
 
+  std::vector<std::string> coarse_meshes(const Results &results)
+  {
+    std::vector<std::string> lines;
+    for (const BodyResult &body : results.bodies)
+      if (!(body.stress_error <= FinenessRule().stress_error))
+        {
+          std::ostringstream line;
+          line << std::setprecision(2) << "the mesh of body " << body.name
+               << " is coarse for it: estimated error of its stresses " << 100. * body.stress_error
+               << " %, and under given forces it moves less than it would, by about "
+               << 100. * body.missing_compliance
+               << " %. One more cycle of refinement, more cells through what bends, or hexahedra "
+                  "instead of tetrahedra.";
+          lines.push_back(line.str());
+        }
+    return lines;
+  }
+
+
+
   void print_final_words(std::ostream &out, const Results &results)
   {
     const auto flags  = out.flags();
@@ -182,6 +220,7 @@ namespace Signorini
     for (const PretensionResult &bolt : results.pretensions)
       print_pretension(out, bolt);
     print_smallness(out, results);
+    print_fineness(out, results);
     print_mapping_errors(out, results);
     if (results.certificate.objections.empty())
       out << "contact conditions hold: yes\n";

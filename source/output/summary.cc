@@ -187,6 +187,8 @@ namespace Signorini
       json.vector("contact_force", body.contact);
       json.number("largest_rotation", body.largest_rotation);
       json.number("largest_strain", body.largest_strain);
+      json.number("stress_error", body.stress_error);
+      json.number("missing_compliance", body.missing_compliance);
       json.end('}');
     }
 
@@ -320,6 +322,7 @@ namespace Signorini
     write_list(json, "mappings", results.mappings, write_mapping);
     write_list(json, "bodies", results.bodies, write_body);
     json.boolean("displacements_are_small", large_displacements(results).empty());
+    json.boolean("meshes_are_fine", coarse_meshes(results).empty());
     write_list(json, "boundaries", results.boundaries, write_boundary);
     write_list(json, "probes", results.probes, write_probe);
     if (!results.pretensions.empty())

@@ -40,6 +40,8 @@ def no_stress(s, scale, text):
     check(s['converged'] and s['certificate']['contact_conditions_hold'], f'{text}: {s["certificate"]["objections"]}')
     for body in s['bodies']:
         check(body['largest_von_mises'] <= 1e-10 * scale, f'{text}: stress {body["largest_von_mises"]}')
+        # Rounding is no error of stresses.
+        check(body['stress_error'] == 0, f'{text}: error of stresses {body["stress_error"]}')
     for boundary in s['boundaries']:
         check(max(map(abs, boundary['reaction'])) <= 1e-10 * scale, f'{text}: reaction {boundary["reaction"]}')
 

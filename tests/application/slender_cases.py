@@ -116,3 +116,101 @@ def leaf_springs(p):
             check(max(counts) <= 30, f'{n_leaves} leaves: {counts} iterations')
             for pair, force in zip(s['pairs'], forces_of_beams(n_leaves)):
                 near(pair['force'][2], force, .01, f'{n_leaves} leaves, {pair["name"]}')
+
+
+def bending(layers, length, tetrahedra):
+    """Parameters: a bar of square section under the moment of linear tractions, whose largest stress is 1."""
+    return f"""set Bodies = bar
+set Contact pairs = nothing
+subsection Body bar
+  set Mesh = block
+  set Upper corner = {length}, 1, 1
+  set Divisions = {layers * length}, {layers}, {layers}
+  set Convert to tetrahedra = {'true' if tetrahedra else 'false'}
+  set Young modulus = 1000
+  set Poisson ratio = 0.3
+  set Dirichlet = left: (0, *, *)
+  set Tractions = right: (2*z - 1, 0, 0)
+  set Exact displacement = (0.002*x*(z-0.5), -0.0006*(y-0.5)*(z-0.5), -0.001*(x^2+0.3*((z-0.5)^2-(y-0.5)^2)))
+end
+subsection Pair nothing
+  set First = bar: top
+  set Obstacle = plane: (0, 0, 50), (0, 0, -1)
+end
+"""
+
+
+TWO_CUBES = """*NODE
+1, 0, 0, 0
+2, 1, 0, 0
+3, 2, 0, 0
+4, 0, 1, 0
+5, 1, 1, 0
+6, 2, 1, 0
+7, 0, 0, 1
+8, 1, 0, 1
+9, 2, 0, 1
+10, 0, 1, 1
+11, 1, 1, 1
+12, 2, 1, 1
+*ELEMENT, TYPE=C3D8, ELSET=soft
+1, 1, 2, 5, 4, 7, 8, 11, 10
+*ELEMENT, TYPE=C3D8, ELSET=stiff
+2, 2, 3, 6, 5, 8, 9, 12, 11
+*SURFACE, NAME=low
+1, S1
+2, S1
+*SURFACE, NAME=high
+1, S2
+2, S2
+*SURFACE, NAME=side
+2, S4
+"""
+
+
+def stress_error(p):
+    """The estimated error of stresses: against the true one of a bent bar; what is too coarse is said; what jumps between materials is no error."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, 'bar.prm')
+        for layers, tetrahedra, fine, largest in ((1, False, False, .7), (1, True, False, .2), (4, False, True, .95), (4, True, False, .8), (8, True, True, .9)):
+            with open(path, 'w') as f:
+                f.write(bending(layers, 4, tetrahedra))
+            s = p.solve(path)
+            text = f'{layers} layers of {"tetrahedra" if tetrahedra else "hexahedra"}'
+            body, exact = s['bodies'][0], s['cycles'][-1]['exact']['bar']
+            true_error = exact['energy_error'] / exact['energy_norm']
+            print(f'{text}: estimated {body["stress_error"]:.3f}, true {true_error:.3f}, largest stress {body["largest_von_mises"]:.3f}')
+            # One layer knows nothing of the stress across it: the estimate is below the truth, and large.
+            check((.6 if layers == 1 else .9) * true_error <= body['stress_error'] <= 1.05 * true_error, f'{text}: estimated {body["stress_error"]}, true {true_error}')
+            check(s['meshes_are_fine'] is fine, f'{text}: fine {s["meshes_are_fine"]}')
+            check(any('the mesh of body bar is coarse for it' in note for note in s['notes']) is not fine, f'{text}: {s["notes"]}')
+            # Forces are given: the displacement that is missing has the energy of the error.
+            moved = 1. - true_error ** 2
+            check(body['missing_compliance'] <= 1.1 * (1. - moved), f'{text}: {body["missing_compliance"]} of the compliance is missing')
+            check(largest <= body['largest_von_mises'] <= 1.05, f'{text}: largest stress {body["largest_von_mises"]}')
+
+        with open(os.path.join(folder, 'cubes.inp'), 'w') as f:
+            f.write(TWO_CUBES)
+        with open(path, 'w') as f:
+            f.write("""set Bodies = cubes
+set Contact pairs = nothing
+subsection Body cubes
+  set Mesh = cubes.inp
+  set Young modulus = 1
+  set Poisson ratio = 0
+  set Volume materials = stiff: 10, 0
+  set Dirichlet = low: (0, 0, 0); high: (0, 0, 0.01)
+end
+subsection Pair nothing
+  set First = cubes: side
+  set Obstacle = plane: (50, 0, 0), (-1, 0, 0)
+end
+""")
+        s = p.solve(path, 'Refinement/Initial global levels=1')
+        check(s['bodies'][0]['stress_error'] <= 1e-12 and s['meshes_are_fine'], f'a jump between materials: {s["bodies"][0]["stress_error"]}')
+        near(s['bodies'][0]['largest_von_mises'], .1, 1e-9, 'stress of the stiff cube')
+        s = p.solve(path, 'Refinement/Initial global levels=1', 'Body cubes/Volume materials=', 'Body cubes/Volume initial strains=stiff: (0, 0, 0.01, 0, 0, 0)')
+        check(s['bodies'][0]['stress_error'] <= 1e-12, f'a jump of the strain without stress: {s["bodies"][0]["stress_error"]}')
+        near(s['bodies'][0]['largest_von_mises'], .01, 1e-9, 'stress where nothing is without stress')
+        s = p.solve('patch_test/patch_test.prm', 'Body upper/Dirichlet=top: (0.1, 0.2, 0.3)', 'Body lower/Dirichlet=bottom: (0, 0, -0.1)')
+        check(all(body['stress_error'] == 0 for body in s['bodies']) and s['meshes_are_fine'], 'bodies that are moved without stress')

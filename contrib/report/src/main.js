@@ -38,6 +38,7 @@ function cards(s, {units}) {
     : card(`${pair.name}: contact force`, '0', 'the surfaces are separated'));
   s.bodies.forEach((body, b) => list.push(card(`${body.name}: largest displacement`, [number(s, `bodies.${b}.largest_displacement`), unitText(units.length)], 'largest von Mises stress ', number(s, `bodies.${b}.largest_von_mises`), unitText(units.stress))));
   list.push(card('Displacements are small', s.displacements_are_small ? 'yes' : 'NO', 'largest rotation ', format((Math.max(0, ...s.bodies.map(b => b.largest_rotation)) * 180) / Math.PI, 2), '°'));
+  list.push(card('Meshes are fine', s.meshes_are_fine ? 'yes' : 'NO', 'estimated error of stresses ', format(100 * Math.max(1e-4, ...s.bodies.map(b => b.stress_error)), 2), s.bodies.length > 1 ? ' % or less' : ' %'));
   if (last >= 0)
     list.push(card('Unknowns', number(s, `${cycle}.dofs`), number(s, `${cycle}.nonlinear.iterations`), ' iterations, ', duration(s.wall_time_s), ', ', bytes(s.peak_memory_bytes), ', ', number(s, 'ranks'), s.ranks === 1 ? ' rank' : ' ranks'));
   return h('div', {class: 'cards'}, list);
@@ -70,8 +71,8 @@ function forces(s, {units}) {
       [`approach${l}`, 'approach'], [`smallest gap${l}`, 'min_gap'], [`slip${l}`, 'slip'], ['slip in faces', 'slip_in_faces'],
     ].map(([name, key]) => [name, ...s.pairs.map((_, i) => number(s, `pairs.${i}.${key}`))])),
     h('h3', {}, 'Largest values'),
-    table(['body', `displacement${l}`, `where${l}`, `von Mises stress${p}`, `where${l}`, 'rotation [rad]', 'strain'], s.bodies.map((b, i) => [b.name,
-      ...['largest_displacement', 'largest_displacement_at', 'largest_von_mises', 'largest_von_mises_at', 'largest_rotation', 'largest_strain'].map(key => number(s, `bodies.${i}.${key}`))])),
+    table(['body', `displacement${l}`, `where${l}`, `von Mises stress${p}`, `where${l}`, 'rotation [rad]', 'strain', 'estimated error of stresses'], s.bodies.map((b, i) => [b.name,
+      ...['largest_displacement', 'largest_displacement_at', 'largest_von_mises', 'largest_von_mises_at', 'largest_rotation', 'largest_strain', 'stress_error'].map(key => number(s, `bodies.${i}.${key}`))])),
     bolts.length > 0 && h('h3', {}, 'Bolts'),
     bolts.length > 0 && table(['bolt', `wanted${f}`, `force${f}`, `shortening${l}`, 'strain'], bolts.map((b, i) => [`${b.body}: ${b.name}`, ...['wanted', 'force', 'shortening', 'strain'].map(key => number(s, `pretension.${i}.${key}`))])),
     s.probes.length > 0 && h('h3', {}, 'Probes'),

@@ -27,11 +27,9 @@ namespace Signorini
   std::vector<Resultant> all_loads(const ContactModel &model, const Discretization &discretization);
 
   /// Collective. Extrema of displacement, stress, strain and rotation of each body, and what acts on it.
-  /// @param stress von Mises stress at the relevant nodes, as nodal_stress() gives it
   /// @param results with boundaries and pairs
   std::vector<BodyResult> evaluate_bodies(const ContactModel &model, const Discretization &discretization,
-                                          const Vector &displacement, const std::vector<double> &stress,
-                                          const Results &results);
+                                          const Vector &displacement, const Results &results);
 
   /// Collective. How far bodies slide on each other where they touch: along the surface (length), and in
   /// multiples of the width of the faces there.

@@ -26,6 +26,17 @@ namespace Signorini
         {field.local_element(dim * i), field.local_element(dim * i + 1), field.local_element(dim * i + 2)});
   }
 
+  /// Nodal values in the order of NodalSpace::relevant(), three each.
+  inline std::vector<double> relevant_values(const Discretization &d, const Vector &field)
+  {
+    std::vector<double> values;
+    values.reserve(dim * d.nodal().relevant().n_elements());
+    for (const NodeIndex node : d.nodal().relevant())
+      for (unsigned int c = 0; c < dim; ++c)
+        values.push_back(field.local_element(dim * d.partition().to_local(node) + c));
+    return values;
+  }
+
   /// The body of each owned node; invalid_unsigned_int for nodes without cells.
   inline std::vector<unsigned int> bodies_of_nodes(const Discretization &d, const Bodies &bodies)
   {

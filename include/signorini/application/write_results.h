@@ -18,7 +18,7 @@ namespace Signorini
   std::string version_text();
 
   /// Collective. What bodies.pvtu has at the relevant nodes of the space, in their order: displacement, and
-  /// the fields of nodal_stress() if they are wanted.
+  /// stress_fields() if they are wanted.
   std::vector<OutputField> body_fields(const ContactModel &model, const Discretization &discretization,
                                        const ContactSolution &solution, const bool with_stress);
 

@@ -138,6 +138,10 @@ namespace Signorini
       return Signorini::stress(elastic_gradient(reference), material);
     }
 
+    /// Stress at a point of the rule of the element, and Jacobian determinant times weight there; zero where
+    /// the Jacobian is not positive.
+    std::pair<Block, double> stress_at_point(const unsigned int point) const;
+
     /// div C : eps0 (force per volume) on tetrahedra, where the eigenstrain eps0 is linear.
     Vector3 eigenstress_divergence() const;
 
@@ -148,7 +152,10 @@ namespace Signorini
     const CellEigenstrain                              eigenstrain;
 
   private:
-    bool plain_gradient(Block &gradient, const dealii::Point<3> &reference) const;
+    /// @return determinant of the Jacobian; 0 where it is not positive
+    double plain_gradient(Block &gradient, const dealii::Point<3> &reference) const;
+    Block  with_mean_dilatation(const Block &plain) const;
+    Block  without_eigenstrain(const Block &gradient, const dealii::Point<3> &reference) const;
 
     bool   has_mean_dilatation = false;
     double mean_dilatation = 0., mean_of_eigenstrain = 0.;

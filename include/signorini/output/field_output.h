@@ -4,8 +4,7 @@
 #ifndef signorini_output_field_output_h
 #define signorini_output_field_output_h
 
-#include <signorini/discretization/boundary_conditions.h>
-#include <signorini/mesh/bodies.h>
+#include <signorini/discretization/nodal_stress.h>
 #include <signorini/mesh/contact_surface.h>
 #include <signorini/mesh/nodal_space.h>
 #include <signorini/output/vtu_file.h>
@@ -48,11 +47,9 @@ namespace Signorini
                      const std::function<unsigned int(const unsigned int)> &nonmortar_number = {},
                      const std::function<unsigned int(const unsigned int)> &mortar_number    = {});
 
-  /// Collective. Volume weighted nodal averages of the stress: fields "stress" (xx, yy, zz, xy, yz, zx),
-  /// "von Mises" and "principal stress" (3, largest first), in the unit of E.
-  /// displacement: values at the relevant nodes, three each. Cells with mean dilatation have its stress.
-  std::vector<OutputField> nodal_stress(const NodalSpace &space, const std::vector<double> &displacement,
-                                        const Bodies &bodies, const Loads &loads);
+  /// What is written of a stress at the relevant nodes: "stress" (xx, yy, zz, xy, yz, zx), "von_Mises" and
+  /// "principal_stress" (3, largest first), in the unit of E.
+  std::vector<OutputField> stress_fields(const std::vector<StressComponents> &stress);
 } // namespace Signorini
 
 #endif

@@ -18,6 +18,9 @@ namespace Signorini
   /// Where displacements are too large for a theory of small ones, in words; empty if they are small.
   std::vector<std::string> large_displacements(const Results &results);
 
+  /// A line for each body whose mesh is too coarse for it (FinenessRule).
+  std::vector<std::string> coarse_meshes(const Results &results);
+
   /// What a person looks for at the end of a run: largest displacement and stress of each body, what acts on
   /// it, force, area and largest pressure of each pair, whether displacements are small, and whether the
   /// contact conditions hold.

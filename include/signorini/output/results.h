@@ -116,6 +116,9 @@ namespace Signorini
     Vector3 load, load_moment, reaction, contact;
     /// Largest angle (radians) and largest entry of the strain, at the centres of cells.
     double largest_rotation = 0., largest_strain = 0.;
+    /// Estimates (NodalStress::errors()): error of the stresses as a part of their energy norm; about the
+    /// part by which displacements under given forces are too small.
+    double stress_error = 0., missing_compliance = 0.;
   };
 
   /// From where on displacements are large for a theory of small ones. Pure numbers.
@@ -128,6 +131,13 @@ namespace Signorini
     double slip_in_faces = 1.;
     /// Strains whose squares count: 0.25 % in strain.
     double strain = .05;
+  };
+
+  /// From where on a mesh is coarse for what its body does. Pure number.
+  struct FinenessRule
+  {
+    /// Estimated error of the stresses: the body is too stiff by a tenth.
+    double stress_error = .3;
   };
 
   /// The forces that hold a boundary with prescribed displacements.

@@ -7,4 +7,5 @@ signorini_add_unit_tests(discretization RANKS "1;2;4"
   level_hierarchy.cc
   partly_fixed.cc
   mean_dilatation.cc
+  nodal_stress.cc
 )

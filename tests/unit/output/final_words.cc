@@ -114,3 +114,37 @@ TEST(FinalWords, WarnOfMappingErrors)
   EXPECT_TRUE(covers_twice(report));
   EXPECT_FALSE(covers_twice(perfect_report()));
 }
+
+
+
+// The worst body is told, and each one that is too coarse; what is no number is not fine.
+TEST(FinalWords, CoarseMeshes)
+{
+  Results results;
+  for (const char *const name : {"pin", "spring", "plate"})
+    {
+      results.bodies.emplace_back();
+      results.bodies.back().name = name;
+    }
+  const auto words = [&] {
+    std::ostringstream out;
+    print_final_words(out, results);
+    return out.str();
+  };
+  results.bodies[0].stress_error = .12;
+  EXPECT_TRUE(coarse_meshes(results).empty());
+  EXPECT_NE(words().find("meshes are fine: yes (estimated error of stresses 12 % or less, most in body pin)"),
+            std::string::npos)
+      << words();
+  results.bodies[1].stress_error       = .5;
+  results.bodies[1].missing_compliance = .25;
+  ASSERT_EQ(coarse_meshes(results).size(), 1u);
+  EXPECT_NE(words().find(
+                "meshes are fine: NO (estimated error of stresses 50 % or less, most in body spring)\n"
+                "  the mesh of body spring is coarse for it: estimated error of its stresses 50 %, and under "
+                "given forces it moves less than it would, by about 25 %."),
+            std::string::npos)
+      << words();
+  results.bodies[2].stress_error = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(coarse_meshes(results).size(), 2u);
+}
