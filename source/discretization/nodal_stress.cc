@@ -30,9 +30,9 @@ namespace Signorini
     }
 
     /// The stress in one cell at the points of its quadrature.
-    struct CellStress
+    struct StressAtPoints
     {
-      CellStress(const StressedBodies &s, const NodalSpace::Cell &cell)
+      StressAtPoints(const StressedBodies &s, const NodalSpace::Cell &cell)
         : element(s.space, cell)
       {
         const auto                                   nodes = s.space.nodes(cell);
@@ -123,14 +123,17 @@ namespace Signorini
           action(cell);
     }
 
-    /// From which part of E times displacement by width of a cell on stresses are more than rounding. Pure
-    /// number: far above what a body leaves that is moved as a whole or grows with heat (1e-17 to 1e-12), far
-    /// below what a bar leaves that is a thousand times as long as thick (1e-6).
-    constexpr double rounding = 1e-9;
+    /// From which part of E times displacement by width of a cell on stresses are more than rounding.
+    struct StressRoundingRule
+    {
+      /// Pure number: far above what a body leaves that is moved as a whole or grows with heat (1e-17 to
+      /// 1e-12), far below what a bar leaves that is a thousand times as long as thick (1e-6).
+      double strain = 1e-9;
+    };
 
     /// Adds the squares of a cell.
     /// @param recovered the stress at its nodes
-    void add_squares(StressError &squares, const CellStress &stress,
+    void add_squares(StressError &squares, const StressAtPoints &stress,
                      const std::array<StressComponents, CellShape::max_vertices> &recovered,
                      const Material                                              &material)
     {
@@ -145,7 +148,8 @@ namespace Signorini
           squares.error += stress.weights[q] * energy_density(difference, material);
           squares.norm += stress.weights[q] * energy_density(here, material);
         }
-      const double strain = rounding * stress.largest_displacement / std::cbrt(stress.volume);
+      const double strain =
+          StressRoundingRule().strain * stress.largest_displacement / std::cbrt(stress.volume);
       squares.rounding += stress.volume * material.young * strain * strain;
     }
   } // namespace
@@ -169,9 +173,9 @@ namespace Signorini
     for_owned_cells(stressed.space, [&](const NodalSpace::Cell &cell) {
       if (!belongs(cell))
         return;
-      const CellStress stress(stressed, cell);
-      const auto       at_vertices = stress.at_vertices();
-      const auto       nodes       = stressed.space.nodes(cell);
+      const StressAtPoints stress(stressed, cell);
+      const auto           at_vertices = stress.at_vertices();
+      const auto           nodes       = stressed.space.nodes(cell);
       for (unsigned int v = 0; v < nodes.size(); ++v)
         {
           const unsigned int i = partition.to_local(nodes[v]);
@@ -225,7 +229,7 @@ namespace Signorini
     for (unsigned int v = 0; v < nodes.size(); ++v)
       recovered[v] = at(nodes[v]);
     const Material &material = stressed.bodies.material(cell.material);
-    add_squares(squares[material.body], CellStress(stressed, cell), recovered, material);
+    add_squares(squares[material.body], StressAtPoints(stressed, cell), recovered, material);
   }
 
 
