@@ -15,7 +15,7 @@ namespace Signorini
 
 
 
-  std::string describe(const CycleResult &result, const bool has_indicator)
+  std::string describe(const CycleResult &result, const bool has_estimate)
   {
     std::ostringstream line;
     line << "cycle " << result.cycle << ": " << result.cells << " cells, " << result.dofs << " unknowns, "
@@ -24,9 +24,18 @@ namespace Signorini
       line << " (linear multigrid " << result.linear.iterations << ", with conjugate gradients "
            << result.linear_cg.iterations << ", difference " << result.difference << ")";
     line << ", " << result.active_nodes << " of " << result.contact_nodes << " contact nodes active";
-    if (has_indicator)
-      line << ", error indicator " << result.indicator;
+    if (has_estimate)
+      line << ", estimated error of stresses " << in_percent(result.stress_error);
     return line.str();
+  }
+
+
+
+  std::string in_percent(const double part)
+  {
+    std::ostringstream text;
+    text << std::setprecision(2) << 100. * part << " %";
+    return text.str();
   }
 
 

@@ -2,8 +2,10 @@
 // Copyright (C) 2026 by the Signorini authors
 
 #include <signorini/application/error_estimate.h>
+#include <signorini/application/nodal_sums.h>
 #include <signorini/application/pair_fields.h>
 #include <signorini/discretization/error_indicator.h>
+#include <signorini/discretization/nodal_stress.h>
 #include <signorini/mesh/surface_extraction.h>
 #include <signorini/mortar/contact_indicator.h>
 
@@ -97,6 +99,18 @@ namespace Signorini
       if (space.cells()[c].is_owned)
         total += indicator[c];
     return std::sqrt(Utilities::MPI::sum(total, space.communicator()));
+  }
+
+
+
+  double estimate_stress_error(const ContactModel &model, const Discretization &d,
+                               const ContactSolution &solution)
+  {
+    const auto  u = relevant_values(d, solution.displacement);
+    StressError all;
+    for (const StressError &body : NodalStress({model.bodies(), model.loads(), d.nodal(), u}).errors())
+      all.add(body);
+    return all.relative();
   }
 
 

@@ -36,6 +36,13 @@ namespace Signorini
                        ": the error indicator is at the level of rounding, there is nothing to refine.");
           return none;
         }
+      if (p.wanted_stress_error > 0. && last.stress_error <= p.wanted_stress_error)
+        {
+          journal.note("cycle " + std::to_string(last.cycle) + ": the estimated error of stresses is " +
+                       in_percent(last.stress_error) +
+                       ", not above \"Wanted stress error\": no further adaptive refinement.");
+          return none;
+        }
       const std::vector<bool> marked = p.marking == RefinementParameters::Marking::cells
                                            ? mark_share_of_cells(space, indicator, p.marking_fraction)
                                            : mark_share_of_error(space, indicator, p.marking_fraction);
@@ -103,6 +110,7 @@ namespace Signorini
         if (!last.discretization)
           restore_solution();
         compare_cycles();
+        compare_with_wanted();
         journal.show("evaluating");
         evaluate();
         last.indicator = std::move(indicator);
@@ -380,8 +388,19 @@ namespace Signorini
         journal.show("estimating the error");
         indicator               = estimate_error(model, *last.discretization, last.solution);
         result.indicator        = total_indicator(space->nodal(), indicator);
+        result.stress_error     = estimate_stress_error(model, *last.discretization, last.solution);
         result.potential_energy = potential_energy(model.bodies(), space->nodal(), space->partition,
                                                    model.loads(), last.solution.displacement);
+      }
+
+      void compare_with_wanted()
+      {
+        const double wanted  = parameters.refinement.wanted_stress_error;
+        const double reached = last.results.cycles.back().stress_error;
+        if (wanted > 0. && !(reached <= wanted))
+          journal.note("the estimated error of stresses is " + in_percent(reached) + " at the end, not " +
+                       in_percent(wanted) +
+                       " as wanted: more \"Adaptive cycles\" or \"Max dofs\" are needed.");
       }
 
       /// How far the solutions of all cycles are from the last.

@@ -385,6 +385,9 @@ namespace Signorini
   NestedParameters ParameterFile::nested() const
   {
     NestedParameters result;
+    if (refinement.wanted_stress_error > 0. && refinement.adaptive_cycles == 0)
+      throw InputError("Refinement/Wanted stress error ends adaptive cycles, and there are none: give "
+                       "\"Adaptive cycles\", the most that there may be.");
     result.refinement                 = refinement;
     result.refinement.initial_of_body = initial_levels();
     std::string           names       = top_level.bodies;

@@ -67,7 +67,8 @@ namespace Signorini
   {
     a(r.cycle, r.cells, r.dofs, r.contact_nodes, r.active_nodes, r.levels, r.nonlinear, r.linear,
       r.linear_cg);
-    a(r.has_linear, r.difference, r.movement, r.indicator, r.error_to_last, r.potential_energy, r.sweeps);
+    a(r.has_linear, r.difference, r.movement, r.indicator, r.stress_error, r.error_to_last,
+      r.potential_energy, r.sweeps);
     a(r.exact_errors, r.times);
   }
 

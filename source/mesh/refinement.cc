@@ -46,6 +46,12 @@ namespace Signorini
                       "No adaptive cycle is begun that would have more unknowns; 0 for no limit.",
                       Patterns::Double(0.));
     prm.add_parameter(
+        "Wanted stress error", wanted_stress_error,
+        "Adaptive cycles end where the estimated error of the stresses of all bodies together "
+        "is as small, as a part of them in the energy norm: 0.05 for five percent. 0 for never: "
+        "all of \"Adaptive cycles\" are done.",
+        Patterns::Double(0., 1.));
+    prm.add_parameter(
         "Final global cycles", final_global_cycles,
         "Cycles, each with one global refinement, after the regions have been worked through. "
         "They keep the nested iteration cheap: each mesh has about eight times the cells of the "

@@ -129,7 +129,10 @@ namespace Signorini
       if (cycle.error_to_last > 0.)
         json.number("error_to_last_cycle", cycle.error_to_last);
       if (cycle.indicator > 0.)
-        json.number("indicator", cycle.indicator);
+        {
+          json.number("indicator", cycle.indicator);
+          json.number("stress_error", cycle.stress_error);
+        }
       write_nonlinear(json, cycle.nonlinear);
       if (cycle.has_linear)
         write_linear(json, cycle);

@@ -309,6 +309,21 @@ def adaptive_hertz(p):
     near(s['pairs'][0]['max_pressure'], 244.6, .03, 'largest pressure')
 
 
+def wanted_error(p):
+    """Adaptive cycles go on until the estimated error of stresses is what was asked for, and say so; or that it is not."""
+    settings = (*HERTZ_ADAPTIVE, 'Refinement/Global cycles=0')
+    s = p.solve('hertz/hertz.prm', *settings, 'Refinement/Adaptive cycles=20', 'Refinement/Wanted stress error=0.2')
+    errors = [c['stress_error'] for c in s['cycles']]
+    print([(c['dofs'], round(c['stress_error'], 3)) for c in s['cycles']])
+    check(4 < len(errors) < 20 and errors[-1] <= .2 < min(errors[:-1]), f'estimated errors {errors}')
+    check(any(f'cycle {len(errors) - 1}: the estimated error of stresses is' in note and 'no further' in note for note in s['notes']), f'{s["notes"]}')
+    # All bodies together are between the best and the worst one.
+    bodies = [b['stress_error'] for b in s['bodies']]
+    check(min(bodies) <= errors[-1] <= max(bodies), f'{errors[-1]} of all bodies, {bodies}')
+    s = p.solve('hertz/hertz.prm', *settings, 'Refinement/Adaptive cycles=3', 'Refinement/Wanted stress error=0.2', codes=(0, 3))
+    check(len(s['cycles']) == 4 and any('not 20 % as wanted' in note for note in s['notes']), f'{s["notes"]}')
+
+
 def l_block(p):
     """Three cubes in the shape of an L on a block: a singular edge beside the contact."""
     cells = [((0, 0), (1, 1)), ((1, 0), (2, 1)), ((0, 1), (1, 2))]

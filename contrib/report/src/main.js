@@ -158,7 +158,7 @@ function times(s) {
 }
 
 function meshes(s) {
-  const rows = [['levels', 'levels'], ['cells', 'cells'], ['unknowns', 'dofs'], ['contact nodes', 'contact_nodes'], ['energy', 'energy'], ['potential energy', 'potential_energy'], ['error indicator (energy norm)', 'indicator'], ['change to the mesh before', 'error_to_last_cycle'],
+  const rows = [['levels', 'levels'], ['cells', 'cells'], ['unknowns', 'dofs'], ['contact nodes', 'contact_nodes'], ['energy', 'energy'], ['potential energy', 'potential_energy'], ['error indicator (energy norm)', 'indicator'], ['estimated error of stresses', 'stress_error'], ['change to the mesh before', 'error_to_last_cycle'],
     ['nodes moved to true shapes', 'boundary_shapes.moved_nodes'], ['nodes not there yet', 'boundary_shapes.nodes_not_yet_there'], ['worst quality of cells', 'boundary_shapes.worst_quality_after']];
   const value = (c, key) => key.split('.').reduce((o, k) => (o ? o[k] : undefined), c);
   const exact = [...new Set(s.cycles.flatMap(c => Object.keys(c.exact || {})))];

@@ -18,6 +18,11 @@ namespace Signorini
   /// Collective. The square root of the sum over the owned cells of all ranks.
   double total_indicator(const NodalSpace &space, const std::vector<double> &indicator);
 
+  /// Collective. The estimated error of the stresses of all bodies together, as a part of them
+  /// (NodalStress::errors()).
+  double estimate_stress_error(const ContactModel &model, const Discretization &discretization,
+                               const ContactSolution &solution);
+
   /// About how many unknowns a space would have after refinement of the marked cells. Collective.
   double expected_dofs(const NodalSpace &space, const std::vector<bool> &marked);
 } // namespace Signorini

@@ -38,6 +38,14 @@ namespace Signorini
     /// rounding where displacements are as large as they are.
     double error = 0., norm = 0., rounding = 0.;
 
+    /// That of another body joins this one.
+    void add(const StressError &other)
+    {
+      error    = std::hypot(error, other.error);
+      norm     = std::hypot(norm, other.norm);
+      rounding = std::hypot(rounding, other.rounding);
+    }
+
     /// The error as a part of the norm of the true stress (whose square is that of the solution and that of
     /// the error together where forces are given); 0 without stress.
     double relative() const

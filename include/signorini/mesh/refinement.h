@@ -52,8 +52,11 @@ namespace Signorini
     Marking                       marking          = Marking::error;
     double                        marking_fraction = .5;
     /// No adaptive cycle is begun that would have more unknowns; 0 for no limit.
-    double max_dofs       = 0.;
-    bool   compare_cycles = false;
+    double max_dofs = 0.;
+    /// No adaptive cycle is begun where the estimated error of stresses (a part of them) is as small; 0 for
+    /// never.
+    double wanted_stress_error = 0.;
+    bool   compare_cycles      = false;
 
     /// Declares the parameters in the current subsection.
     void add_parameters(dealii::ParameterHandler &prm);

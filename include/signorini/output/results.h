@@ -37,8 +37,9 @@ namespace Signorini
     double difference = 0.;
     /// What boundary shapes did to the mesh of this cycle.
     MovementReport movement;
-    /// Estimate of the energy norm of the error; 0 if it was not computed.
-    double indicator = 0.;
+    /// Estimates of the energy norm of the error, and of the error of stresses as a part of them; 0 if they
+    /// were not computed.
+    double indicator = 0., stress_error = 0.;
     /// Energy norm of the difference to the solution of the last cycle, if cycles are compared.
     double error_to_last = 0.;
     /// ½uᵀAu - fᵀu, lifts included; where the indicator was computed and on the last mesh.
