@@ -9,7 +9,6 @@
 #include <signorini/discretization/nodal_stress.h>
 #include <signorini/mesh/surface_extraction.h>
 #include <signorini/mortar/surface_values.h>
-#include <signorini/output/field_output.h>
 
 namespace Signorini
 {
@@ -190,7 +189,7 @@ namespace Signorini
     const std::vector<double> values = relevant_values(d, displacement);
     const StressedBodies      stressed{bodies, model.loads(), d.nodal(), values};
     const NodalStress         nodal(stressed);
-    const std::vector<double> stress = stress_fields(nodal.values())[1].values;
+    const auto                stress = nodal.values();
     const auto                errors = nodal.errors();
     std::vector<BodyResult>   result(bodies.n_bodies());
     std::vector<Largest>      movement(result.size()), von_mises(result.size());
@@ -201,7 +200,8 @@ namespace Signorini
             const unsigned int b = bodies.body_of_material(cell.material);
             movement[b].add(nodal_value(displacement, d.partition().to_local(node)).norm(),
                             d.nodal().position(node));
-            von_mises[b].add(stress[d.nodal().relevant().index_within_set(node)], d.nodal().position(node));
+            von_mises[b].add(Signorini::von_mises(stress[d.nodal().relevant().index_within_set(node)]),
+                             d.nodal().position(node));
           }
     const auto extrema = cell_extrema(model, d, displacement);
     for (unsigned int b = 0; b < result.size(); ++b)
@@ -216,7 +216,6 @@ namespace Signorini
         result[b].largest_rotation     = extrema[b].rotation;
         result[b].largest_strain       = extrema[b].strain;
         result[b].stress_error         = errors[b].relative();
-        result[b].missing_compliance   = errors[b].missing_compliance();
       }
     add_forces(result, model, d, results);
     return result;

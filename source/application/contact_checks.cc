@@ -11,6 +11,7 @@
 #include <signorini/mortar/face_claims.h>
 #include <signorini/mortar/pair_conflicts.h>
 #include <signorini/mortar/surface_values.h>
+#include <signorini/output/final_words.h>
 #include <signorini/surface/mapping_quality.h>
 
 #include <algorithm>
@@ -109,12 +110,6 @@ namespace Signorini
       return Utilities::MPI::sum(area, comm);
     }
 
-    std::string percent(const double share)
-    {
-      std::ostringstream text;
-      text << std::setprecision(3) << 100. * share << " %";
-      return text.str();
-    }
   } // namespace
 
 
@@ -132,7 +127,8 @@ namespace Signorini
       return result;
     result.share = std::max(result.refused, (of_others + by_conditions) / lost.covered);
     result.reason =
-        percent(result.share) + " of \"" + pair.nonmortar.name + "\" could carry no contact stress (" +
+        percent_text(result.share, 3) + " of \"" + pair.nonmortar.name +
+        "\" could carry no contact stress (" +
         (of_others > by_conditions || by_conditions == 0. ? "it is the nonmortar side of another pair, too"
                                                           : "its displacements are prescribed") +
         ")";
@@ -304,7 +300,7 @@ namespace Signorini
         if (lost.by_other_pairs > ContactRule().lost_share * lost.covered ||
             (is_void && lost.by_other_pairs > lost.by_conditions))
           throw InputError(
-              "Pair " + pair.name + ": " + percent(lost.by_other_pairs / lost.covered) + " of \"" +
+              "Pair " + pair.name + ": " + percent_text(lost.by_other_pairs / lost.covered, 3) + " of \"" +
               pair.nonmortar.name + "\" can carry no contact stress, because the nodes belong to " +
               rivals_of(coupled.pairs, p, comm) +
               ", too. If two pairs are the same, remove one; else choose \"Nonmortar\" so that the common "

@@ -3,6 +3,8 @@
 
 #include "cycle_words.h"
 
+#include <signorini/output/final_words.h>
+
 #include <iomanip>
 #include <sstream>
 
@@ -25,17 +27,8 @@ namespace Signorini
            << result.linear_cg.iterations << ", difference " << result.difference << ")";
     line << ", " << result.active_nodes << " of " << result.contact_nodes << " contact nodes active";
     if (has_estimate)
-      line << ", estimated error of stresses " << in_percent(result.stress_error);
+      line << ", estimated error of stresses " << percent_text(result.stress_error);
     return line.str();
-  }
-
-
-
-  std::string in_percent(const double part)
-  {
-    std::ostringstream text;
-    text << std::setprecision(2) << 100. * part << " %";
-    return text.str();
   }
 
 

@@ -18,9 +18,6 @@ namespace Signorini
   /// @param has_estimate whether the error was estimated
   std::string describe(const CycleResult &result, const bool has_estimate);
 
-  /// "5.2 %" for .052.
-  std::string in_percent(const double part);
-
   /// What took over from a slow iteration.
   std::string describe(const SafetyNetReport &net);
 

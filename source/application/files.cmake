@@ -1,4 +1,5 @@
 signorini_add_layer(application
+  adaptive_marks.cc
   body_evaluation.cc
   certificate.cc
   checkpoints.cc

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include "adaptive_marks.h"
 #include "cycle_words.h"
 
 #include <signorini/algebra/input_error.h>
@@ -12,7 +13,6 @@
 #include <signorini/application/pair_fields.h>
 #include <signorini/application/point_holds.h>
 #include <signorini/discretization/elasticity.h>
-#include <signorini/discretization/error_indicator.h>
 #include <signorini/discretization/exact_error.h>
 #include <signorini/discretization/level_hierarchy.h>
 
@@ -22,41 +22,6 @@ namespace Signorini
 
   namespace
   {
-    /// What an adaptive cycle refines, after the cycle `last`; nothing where that makes no sense, with a
-    /// note.
-    std::vector<bool> mark_adaptively(const NodalSpace &space, const std::vector<double> &indicator,
-                                      const CycleResult &last, const unsigned int cycle,
-                                      const RefinementParameters &p, Journal &journal)
-    {
-      const std::vector<bool> none(space.cells().size(), false);
-      // The indicator of an exact solution is rounding: 1e-8 of what a difference of squares consists of.
-      if (last.indicator * last.indicator <= 1e-14 * std::abs(last.nonlinear.energy))
-        {
-          journal.note("cycle " + std::to_string(last.cycle) +
-                       ": the error indicator is at the level of rounding, there is nothing to refine.");
-          return none;
-        }
-      if (p.wanted_stress_error > 0. && last.stress_error <= p.wanted_stress_error)
-        {
-          journal.note("cycle " + std::to_string(last.cycle) + ": the estimated error of stresses is " +
-                       in_percent(last.stress_error) +
-                       ", not above \"Wanted stress error\": no further adaptive refinement.");
-          return none;
-        }
-      const std::vector<bool> marked = p.marking == RefinementParameters::Marking::cells
-                                           ? mark_share_of_cells(space, indicator, p.marking_fraction)
-                                           : mark_share_of_error(space, indicator, p.marking_fraction);
-      if (p.max_dofs > 0.)
-        if (const double expected = expected_dofs(space, marked); expected > p.max_dofs)
-          {
-            journal.note("cycle " + std::to_string(cycle) + " would have about " +
-                         std::to_string(static_cast<std::size_t>(expected)) +
-                         " dofs, more than \"Max dofs\": no further adaptive refinement.");
-            return none;
-          }
-      return marked;
-    }
-
     void compare_with_exact(CycleResult &result, const ContactModel &model, const Discretization &d,
                             const Vector &displacement, const std::vector<VectorField> &exact)
     {
@@ -110,7 +75,7 @@ namespace Signorini
         if (!last.discretization)
           restore_solution();
         compare_cycles();
-        compare_with_wanted();
+        compare_with_wanted(last.results.cycles.back(), parameters.refinement, journal);
         journal.show("evaluating");
         evaluate();
         last.indicator = std::move(indicator);
@@ -140,11 +105,11 @@ namespace Signorini
             return true;
           }
         journal.show("refining");
-        const NodalSpace       &old    = space->nodal();
-        const std::vector<bool> marked = refinement.is_adaptive(cycle)
-                                             ? mark_adaptively(old, indicator, last.results.cycles.back(),
-                                                               cycle, parameters.refinement, journal)
-                                             : refinement.mark(model.bodies(), old, cycle);
+        const NodalSpace       &old = space->nodal();
+        const std::vector<bool> marked =
+            refinement.is_adaptive(cycle)
+                ? mark_adaptively(old, indicator, last.results.cycles.back(), parameters.refinement, journal)
+                : refinement.mark(model.bodies(), old, cycle);
         if (!model.refine(old, marked))
           return false;
         if (keeps_state())
@@ -391,16 +356,6 @@ namespace Signorini
         result.stress_error     = estimate_stress_error(model, *last.discretization, last.solution);
         result.potential_energy = potential_energy(model.bodies(), space->nodal(), space->partition,
                                                    model.loads(), last.solution.displacement);
-      }
-
-      void compare_with_wanted()
-      {
-        const double wanted  = parameters.refinement.wanted_stress_error;
-        const double reached = last.results.cycles.back().stress_error;
-        if (wanted > 0. && !(reached <= wanted))
-          journal.note("the estimated error of stresses is " + in_percent(reached) + " at the end, not " +
-                       in_percent(wanted) +
-                       " as wanted: more \"Adaptive cycles\" or \"Max dofs\" are needed.");
       }
 
       /// How far the solutions of all cycles are from the last.

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Signorini authors
 
 #include "result_file.h"
+#include <signorini/application/certificate.h>
 #include <signorini/application/problem_description.h>
 #include <signorini/application/write_report.h>
 #include <signorini/application/write_results.h>

@@ -156,6 +156,15 @@ namespace Signorini
 
 
 
+  double von_mises(const StressComponents &s)
+  {
+    return std::sqrt(
+        .5 * ((s[0] - s[1]) * (s[0] - s[1]) + (s[1] - s[2]) * (s[1] - s[2]) + (s[2] - s[0]) * (s[2] - s[0])) +
+        3. * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
+  }
+
+
+
   NodalStress::NodalStress(const StressedBodies &stressed)
     : NodalStress(stressed, [](const NodalSpace::Cell &) { return true; })
   {

@@ -210,13 +210,6 @@ namespace Signorini
 
   namespace
   {
-    double von_mises(const StressComponents &s)
-    {
-      return std::sqrt(.5 * ((s[0] - s[1]) * (s[0] - s[1]) + (s[1] - s[2]) * (s[1] - s[2]) +
-                             (s[2] - s[0]) * (s[2] - s[0])) +
-                       3. * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
-    }
-
     std::array<double, 3> principal(const StressComponents &s)
     {
       SymmetricTensor<2, 3> tensor;

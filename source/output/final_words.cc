@@ -140,7 +140,7 @@ namespace Signorini
       // Far below what the mesh is made for, it is rounding.
       constexpr double smallest = 1e-4;
       out << "meshes are fine: " << (coarse.empty() ? "yes" : "NO") << " (estimated error of stresses "
-          << std::setprecision(2) << 100. * std::max(worst->stress_error, smallest) << " %"
+          << percent_text(std::max(worst->stress_error, smallest))
           << (results.bodies.size() > 1 ? " or less, most in body " + worst->name : "") << ")\n";
       for (const std::string &line : coarse)
         out << "  " << line << '\n';
@@ -152,6 +152,15 @@ namespace Signorini
   std::string place_text(const Point<3> &place)
   {
     return text(Vector3(place), Vector3(place).norm());
+  }
+
+
+
+  std::string percent_text(const double part, const int digits)
+  {
+    std::ostringstream text;
+    text << std::setprecision(digits) << 100. * part << " %";
+    return text.str();
   }
 
 
@@ -196,12 +205,12 @@ namespace Signorini
       if (!(body.stress_error <= FinenessRule().stress_error))
         {
           std::ostringstream line;
-          line << std::setprecision(2) << "the mesh of body " << body.name
-               << " is coarse for it: estimated error of its stresses " << 100. * body.stress_error
-               << " %, and under given forces it moves less than it would, by about "
-               << 100. * body.missing_compliance
-               << " %. One more cycle of refinement, more cells through what bends, or hexahedra "
-                  "instead of tetrahedra.";
+          line << "the mesh of body " << body.name << " is coarse for it: estimated error of its stresses "
+               << percent_text(body.stress_error)
+               << ", and under given forces it moves less than it would, by about "
+               << percent_text(body.missing_compliance())
+               << ". With a single layer of cells it is up to twice that. One more cycle of refinement, more "
+                  "cells through what bends, or hexahedra instead of tetrahedra.";
           lines.push_back(line.str());
         }
     return lines;

@@ -191,7 +191,7 @@ namespace Signorini
       json.number("largest_rotation", body.largest_rotation);
       json.number("largest_strain", body.largest_strain);
       json.number("stress_error", body.stress_error);
-      json.number("missing_compliance", body.missing_compliance);
+      json.number("missing_compliance", body.missing_compliance());
       json.end('}');
     }
 

@@ -14,6 +14,23 @@ namespace Signorini
   bool has_lost_edges_near(const ContactPair &pair, const PairCoupling &coupling,
                            const std::vector<unsigned char> &active);
 
+  /// When a result is certified. Set so that every example and every test with a right result passes, and the
+  /// wrong ones of `application/wrong_results` do not.
+  struct CertificateRule
+  {
+    /// Of the solver: far above what converged runs leave (1e-16 to 1e-9).
+    double penetration = 1e-7, tension = 1e-6, equilibrium = 1e-5, balance = 1e-5;
+    /// Of the discretization, relative to the approach. A pressure is wrong by about this share at single
+    /// nodes.
+    double gap_doubt             = .1;
+    double geometric_penetration = .5;
+    double loaded_gap            = .25;
+    /// Forces that are smaller than this part of E·u·width are rounding.
+    double rounding = 1e-11;
+    /// Directions that contradict each other.
+    double moment_balance = .05;
+  };
+
   /// Collective. Whether the contact conditions hold, of the solver and of the true bodies.
   /// @param tolerance of the solver: what a user asked for is enough
   /// @param has_converged on all meshes

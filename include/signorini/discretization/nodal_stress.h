@@ -19,6 +19,9 @@ namespace Signorini
   /// The components of a stress (force per area): xx, yy, zz, xy, yz, zx.
   using StressComponents = std::array<double, 6>;
 
+  /// The von Mises stress (force per area).
+  double von_mises(const StressComponents &stress);
+
   /// A displacement and what its stress needs. Referred to, not copied.
   struct StressedBodies
   {
@@ -51,13 +54,6 @@ namespace Signorini
     double relative() const
     {
       return error <= rounding && norm <= rounding ? 0. : error / std::hypot(error, norm);
-    }
-
-    /// By about which part displacements under given forces are too small: cells that cannot bend make a body
-    /// stiffer. The square of relative(), for energies of the error and of the solution add up.
-    double missing_compliance() const
-    {
-      return relative() * relative();
     }
   };
 

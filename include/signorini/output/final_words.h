@@ -12,8 +12,30 @@
 
 namespace Signorini
 {
+  /// From where on displacements are large for a theory of small ones. Pure numbers.
+  struct SmallnessRule
+  {
+    /// A rotation by an angle changes lengths by half its square: 0.5 %.
+    double rotation = .1;
+    /// The gap is that of the points that face each other before the bodies move: a shift by a face is an
+    /// error of the order of the mesh.
+    double slip_in_faces = 1.;
+    /// Strains whose squares count: 0.25 % in strain.
+    double strain = .05;
+  };
+
+  /// From where on a mesh is coarse for what its body does. Pure number.
+  struct FinenessRule
+  {
+    /// Estimated error of the stresses: the body is too stiff by a tenth.
+    double stress_error = .3;
+  };
+
   /// "(x, y, z)"; what is rounding against the rest is 0.
   std::string place_text(const dealii::Point<3> &place);
+
+  /// "5.2 %" for .052.
+  std::string percent_text(const double part, const int digits = 2);
 
   /// Where displacements are too large for a theory of small ones, in words; empty if they are small.
   std::vector<std::string> large_displacements(const Results &results);

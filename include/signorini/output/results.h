@@ -117,28 +117,15 @@ namespace Signorini
     Vector3 load, load_moment, reaction, contact;
     /// Largest angle (radians) and largest entry of the strain, at the centres of cells.
     double largest_rotation = 0., largest_strain = 0.;
-    /// Estimates (NodalStress::errors()): error of the stresses as a part of their energy norm; about the
-    /// part by which displacements under given forces are too small.
-    double stress_error = 0., missing_compliance = 0.;
-  };
+    /// Estimated error of the stresses as a part of their energy norm (NodalStress::errors()).
+    double stress_error = 0.;
 
-  /// From where on displacements are large for a theory of small ones. Pure numbers.
-  struct SmallnessRule
-  {
-    /// A rotation by an angle changes lengths by half its square: 0.5 %.
-    double rotation = .1;
-    /// The gap is that of the points that face each other before the bodies move: a shift by a face is an
-    /// error of the order of the mesh.
-    double slip_in_faces = 1.;
-    /// Strains whose squares count: 0.25 % in strain.
-    double strain = .05;
-  };
-
-  /// From where on a mesh is coarse for what its body does. Pure number.
-  struct FinenessRule
-  {
-    /// Estimated error of the stresses: the body is too stiff by a tenth.
-    double stress_error = .3;
+    /// By about which part displacements under given forces are too small: energies of the error and of the
+    /// solution add up, and cells that cannot bend make a body stiffer.
+    double missing_compliance() const
+    {
+      return stress_error * stress_error;
+    }
   };
 
   /// The forces that hold a boundary with prescribed displacements.
@@ -156,23 +143,6 @@ namespace Signorini
     std::string      name;
     dealii::Point<3> point;
     Vector3          displacement;
-  };
-
-  /// When a result is certified. Set so that every example and every test with a right result passes, and the
-  /// wrong ones of `application/wrong_results` do not.
-  struct CertificateRule
-  {
-    /// Of the solver: far above what converged runs leave (1e-16 to 1e-9).
-    double penetration = 1e-7, tension = 1e-6, equilibrium = 1e-5, balance = 1e-5;
-    /// Of the discretization, relative to the approach. A pressure is wrong by about this share at single
-    /// nodes.
-    double gap_doubt             = .1;
-    double geometric_penetration = .5;
-    double loaded_gap            = .25;
-    /// Forces that are smaller than this part of E·u·width are rounding.
-    double rounding = 1e-11;
-    /// Directions that contradict each other.
-    double moment_balance = .05;
   };
 
   /// Each number relative to the scale that is stated beside it.
