@@ -284,12 +284,15 @@ namespace Signorini
     CheckpointWriter writer(program, comm);
     writer.add("identity", identity);
     write_state(writer, the_state);
-    writer.write(state_file);
+    // Who finds the file may end the run at once: what is said then is right.
+    writer.write(state_file, [&](const TerminationWatch::Delay &delay) {
+      folder.set_last_words("The state after " + stage + " is saved in " + place +
+                                ": --resume goes on from it, on any number of ranks.",
+                            delay);
+    });
     if (!has_saved)
       on_root(comm, [&] { clean_up(); });
     has_saved = true;
-    folder.set_last_words("The state after " + stage + " is saved in " + place +
-                          ": --resume goes on from it, on any number of ranks.");
   }
 
 

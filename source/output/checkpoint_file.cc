@@ -219,7 +219,7 @@ namespace Signorini
 
 
 
-  std::uint64_t CheckpointWriter::write(const std::string &file) const
+  std::uint64_t CheckpointWriter::write(const std::string &file, const WhenNamed &when_named) const
   {
     const bool        is_root = Utilities::MPI::this_mpi_process(comm) == 0;
     const std::string part =
@@ -245,8 +245,13 @@ namespace Signorini
         std::error_code error;
         good = fs::file_size(part, error) == header.size && !error;
         if (good)
-          fs::rename(part, file, error);
-        good = good && !error;
+          {
+            const TerminationWatch::Delay delay;
+            fs::rename(part, file, error);
+            good = !error;
+            if (good && when_named)
+              when_named(delay);
+          }
         if (good)
           sync_folder(fs::path(file).parent_path().string());
       }

@@ -211,8 +211,15 @@ namespace Signorini
 
   void OutputFolder::set_last_words(const std::string &text)
   {
+    set_last_words(text, TerminationWatch::Delay());
+  }
+
+
+
+  void OutputFolder::set_last_words(const std::string &text, const TerminationWatch::Delay &delay)
+  {
     const std::string words = last_words();
-    TerminationWatch::guard(temporary, words.empty() ? words : words + " " + text);
+    TerminationWatch::guard(temporary, words.empty() ? words : words + " " + text, delay);
   }
 
 

@@ -4,9 +4,12 @@
 #ifndef signorini_output_checkpoint_file_h
 #define signorini_output_checkpoint_file_h
 
+#include <signorini/output/termination.h>
+
 #include <mpi.h>
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -59,9 +62,13 @@ namespace Signorini
       pieces.push_back({name, sizeof(T), std::vector<char>(data, data + sizeof(T) * mine.size())});
     }
 
+    /// What is to be done while signals wait.
+    using WhenNamed = std::function<void(const TerminationWatch::Delay &)>;
+
     /// Collective. Errors: InputError where the file cannot be written; an earlier one is as it was.
+    /// @param when_named called on rank 0 when the file has its name, before a signal can end the run
     /// @return bytes of the file
-    std::uint64_t write(const std::string &file) const;
+    std::uint64_t write(const std::string &file, const WhenNamed &when_named = {}) const;
 
   private:
     struct Piece

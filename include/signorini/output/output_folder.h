@@ -4,6 +4,8 @@
 #ifndef signorini_output_output_folder_h
 #define signorini_output_output_folder_h
 
+#include <signorini/output/termination.h>
+
 #include <mpi.h>
 
 #include <string>
@@ -49,6 +51,9 @@ namespace Signorini
 
     /// What the user hears last if a signal ends the run, beside that earlier results are unchanged.
     void set_last_words(const std::string &text);
+
+    /// The same for one who has a Delay.
+    void set_last_words(const std::string &text, const TerminationWatch::Delay &delay);
 
     /// Where to write, with a slash at the end.
     const std::string &path() const
