@@ -2,6 +2,7 @@ signorini_add_layer(algebra
   algebraic_multigrid.cc
   block_row.cc
   block_structure.cc
+  collectives.cc
   dense_matrix.cc
   fixed_directions.cc
   galerkin_product.cc

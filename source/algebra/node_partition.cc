@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/algebra/collectives.h>
 #include <signorini/algebra/node_partition.h>
 
 #include <deal.II/base/mpi.h>
@@ -37,7 +38,7 @@ namespace Signorini
   {
     Assert(owned.is_contiguous(), ExcMessage("A rank must own a contiguous range of nodes."));
     rank_begin.push_back(0);
-    for (const NodeIndex n : Utilities::MPI::all_gather(comm, owned.n_elements()))
+    for (const NodeIndex n : gather_values(owned.n_elements(), comm))
       rank_begin.push_back(rank_begin.back() + n);
     begin = rank_begin[Utilities::MPI::this_mpi_process(comm)];
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/algebra/collectives.h>
 #include <signorini/algebra/rank_colour.h>
 
 #include <deal.II/base/mpi.h>
@@ -17,7 +18,7 @@ namespace Signorini
     std::vector<unsigned int> owners;
     for (const NodePartition::Neighbour &owner : partition.owners())
       owners.push_back(owner.rank);
-    const auto neighbours = Utilities::MPI::all_gather(partition.communicator(), owners);
+    const auto                          neighbours = gather_values(owners, partition.communicator());
     std::vector<std::set<unsigned int>> graph(neighbours.size());
     for (unsigned int rank = 0; rank < neighbours.size(); ++rank)
       for (const unsigned int other : neighbours[rank])

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/algebra/collectives.h>
+#include <signorini/algebra/gathered_lists.h>
 #include <signorini/algebra/node_request.h>
 #include <signorini/algebra/replicated_data.h>
+#include <signorini/algebra/sent_lists.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -17,12 +20,6 @@ namespace Signorini
       std::vector<unsigned int> lengths;
       std::vector<NodeIndex>    columns;
       std::vector<double>       weights;
-
-      template <class Archive>
-      void serialize(Archive &archive, const unsigned int)
-      {
-        archive &lengths &columns &weights;
-      }
 
       void append(const NodeRows &rows, const std::size_t row)
       {
@@ -41,6 +38,12 @@ namespace Signorini
       }
     };
 
+    template <typename Archive>
+    void transfer(Archive &archive, PackedRows &rows)
+    {
+      archive(rows.lengths, rows.columns, rows.weights);
+    }
+
     /// The part of a sorted list of nodes that this rank owns. The ranges of the ranks follow each
     /// other, so the pieces of all ranks, in the order of the ranks, make up the list.
     std::pair<std::size_t, std::size_t> owned_range(const NodePartition          &partition,
@@ -49,17 +52,6 @@ namespace Signorini
       const auto begin = std::lower_bound(nodes.begin(), nodes.end(), partition.first_owned());
       const auto end   = std::lower_bound(begin, nodes.end(), partition.first_owned() + partition.n_owned());
       return {begin - nodes.begin(), end - nodes.begin()};
-    }
-
-    template <typename T>
-    std::vector<T> concatenate(const NodePartition &partition, const std::vector<T> &mine)
-    {
-      if (partition.n_ranks() == 1)
-        return mine;
-      std::vector<T> all;
-      for (const std::vector<T> &piece : Utilities::MPI::all_gather(partition.communicator(), mine))
-        all.insert(all.end(), piece.begin(), piece.end());
-      return all;
     }
   } // namespace
 
@@ -75,12 +67,12 @@ namespace Signorini
       wanted[partition.owner(ghost)].push_back(ghost);
 
     std::map<unsigned int, PackedRows> answers;
-    for (const auto &[rank, nodes] : Utilities::MPI::some_to_some(partition.communicator(), wanted))
+    for (const auto &[rank, nodes] : send_lists(wanted, partition.communicator()))
       for (const NodeIndex node : nodes)
         answers[rank].append(rows, node - partition.first_owned());
 
     // Ghosts are sorted by node, so the pieces of the owners follow each other.
-    for (const auto &answer : Utilities::MPI::some_to_some(partition.communicator(), answers))
+    for (const auto &answer : send_values(answers, partition.communicator()))
       answer.second.unpack(rows);
     AssertDimension(rows.n_rows(), partition.n_local());
     return rows;
@@ -99,7 +91,7 @@ namespace Signorini
     if (partition.n_ranks() == 1)
       mine.unpack(all);
     else
-      for (const PackedRows &piece : Utilities::MPI::all_gather(partition.communicator(), mine))
+      for (const PackedRows &piece : gather_values(mine, partition.communicator()))
         piece.unpack(all);
     return all;
   }
@@ -114,7 +106,7 @@ namespace Signorini
     for (std::size_t i = begin; i < end; ++i)
       for (unsigned int c = 0; c < dim; ++c)
         mine.push_back(field.local_element(dim * (nodes[i] - partition.first_owned()) + c));
-    const std::vector<double> all = concatenate(partition, mine);
+    const std::vector<double> all = gather_lists(std::move(mine), partition.communicator(), Receivers::all);
     std::vector<Vector3>      values(nodes.size());
     for (std::size_t i = 0; i < nodes.size(); ++i)
       for (unsigned int c = 0; c < dim; ++c)
@@ -179,7 +171,7 @@ namespace Signorini
     std::vector<FixedDirections> mine;
     for (std::size_t i = begin; i < end; ++i)
       mine.push_back(owned[nodes[i] - partition.first_owned()]);
-    return concatenate(partition, mine);
+    return gather_lists(std::move(mine), partition.communicator(), Receivers::all);
   }
 
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/algebra/collectives.h>
 #include <signorini/application/body_evaluation.h>
 #include <signorini/application/nodal_sums.h>
 #include <signorini/application/pair_fields.h>
@@ -42,7 +43,7 @@ namespace Signorini
       void gather(const MPI_Comm comm)
       {
         Largest all;
-        for (const auto &[v, x] : Utilities::MPI::all_gather(comm, std::make_pair(value, place)))
+        for (const auto &[v, x] : gather_values(std::make_pair(value, place), comm))
           all.add(v, x);
         *this = all;
       }

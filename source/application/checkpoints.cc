@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/algebra/collectives.h>
 #include <signorini/algebra/input_error.h>
 #include <signorini/application/checkpoints.h>
 #include <signorini/application/journal.h>
@@ -67,7 +68,7 @@ namespace Signorini
           {
             error = e.what();
           }
-      error = Utilities::MPI::broadcast(comm, error, 0);
+      error = broadcast_value(error, comm);
       if (!error.empty())
         throw InputError(error);
     }

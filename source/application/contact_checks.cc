@@ -3,6 +3,7 @@
 
 #include "imported_field.h"
 
+#include <signorini/algebra/collectives.h>
 #include <signorini/algebra/gathered_lists.h>
 #include <signorini/algebra/input_error.h>
 #include <signorini/application/contact_checks.h>
@@ -433,8 +434,8 @@ namespace Signorini
       if (gap < result.value)
         result = {gap, x, n, doubt, false};
     });
-    const auto all = Utilities::MPI::all_gather(
-        comm, std::make_tuple(result.value, result.place, result.normal, result.doubt));
+    const auto all =
+        gather_values(std::make_tuple(result.value, result.place, result.normal, result.doubt), comm);
     // The same on all ranks, also where several of them have it.
     std::tie(result.value, result.place, result.normal, result.doubt) =
         *std::min_element(all.begin(), all.end(), [](const auto &one, const auto &two) {

@@ -3,6 +3,7 @@
 
 #include "nodal_contact_forces.h"
 
+#include <signorini/algebra/collectives.h>
 #include <signorini/algebra/gathered_lists.h>
 #include <signorini/application/contact_evaluation.h>
 #include <signorini/application/nodal_sums.h>
@@ -378,8 +379,8 @@ namespace Signorini
             pair.max_recovered_pressure    = row.recovered_pressure;
             pair.max_recovered_pressure_at = row.position;
           }
-      std::tie(pair.max_recovered_pressure, pair.max_recovered_pressure_at) = Utilities::MPI::broadcast(
-          comm, std::make_tuple(pair.max_recovered_pressure, pair.max_recovered_pressure_at), 0);
+      std::tie(pair.max_recovered_pressure, pair.max_recovered_pressure_at) =
+          broadcast_value(std::make_tuple(pair.max_recovered_pressure, pair.max_recovered_pressure_at), comm);
     }
 
     /// PairResult::pressure_scatter. A median: at the edge of a contact and at sharp edges of bodies the

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/algebra/collectives.h>
 #include <signorini/algebra/gathered_lists.h>
 #include <signorini/algebra/input_error.h>
 #include <signorini/application/deck_results.h>
@@ -31,12 +32,6 @@ namespace Signorini
       NodeIndex              node;
       unsigned int           start_vertex;
       std::array<double, 12> values;
-
-      template <class Archive>
-      void serialize(Archive &archive, const unsigned int)
-      {
-        archive &node &start_vertex &values;
-      }
     };
 
     /// A contact node with its opening (length) and pressure (force per area).
@@ -225,15 +220,13 @@ namespace Signorini
   void write_deck_results(const DeckProblem &deck, const ContactModel &model, const Discretization &d,
                           const ContactSolution &solution, const std::string &folder)
   {
-    const MPI_Comm comm  = model.communicator();
-    const auto     rows  = Utilities::MPI::gather(comm, owned_rows(model, d, solution));
-    const auto     cells = Utilities::MPI::gather(comm, owned_cells(d.nodal()));
+    const MPI_Comm comm = model.communicator();
     Gathered       all;
-    all.contact = gather_contact(d, solution);
+    all.rows         = gather_lists(owned_rows(model, d, solution), comm, Receivers::rank_zero);
+    const auto cells = gather_values(owned_cells(d.nodal()), comm, Receivers::rank_zero);
+    all.contact      = gather_contact(d, solution);
     if (Utilities::MPI::this_mpi_process(comm) != 0)
       return;
-    for (const auto &part : rows)
-      all.rows.insert(all.rows.end(), part.begin(), part.end());
     for (const auto &part : cells)
       all.cells.insert(all.cells.end(), part.begin(), part.end());
     std::ofstream out(folder + "results.frd");

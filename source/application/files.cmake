@@ -1,4 +1,4 @@
-signorini_add_layer(application
+signorini_add_layer(application COLD
   adaptive_marks.cc
   body_evaluation.cc
   certificate.cc

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/algebra/collectives.h>
 #include <signorini/algebra/input_error.h>
 #include <signorini/application/problem_identity.h>
 #include <signorini/mesh/deck_text.h>
@@ -135,7 +136,7 @@ namespace Signorini
         {
           // Files that cannot be read are refused where they are needed.
         }
-    return Utilities::MPI::broadcast(communicator, text, 0);
+    return broadcast_value(text, communicator);
   }
 
 

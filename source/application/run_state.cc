@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/algebra/byte_archive.h>
 #include <signorini/algebra/input_error.h>
 #include <signorini/algebra/replicated_data.h>
 #include <signorini/application/run_state.h>
-#include <signorini/output/byte_archive.h>
 
 #include <algorithm>
 

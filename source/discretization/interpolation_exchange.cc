@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/algebra/collectives.h>
+#include <signorini/algebra/sent_lists.h>
 #include <signorini/discretization/interpolation_exchange.h>
 
 #include <deal.II/base/mpi.h>
@@ -80,7 +82,7 @@ namespace Signorini
     for (const auto &entry : index)
       owned[home(entry.first)].push_back(entry.first);
     std::unordered_map<Key, unsigned int, Hash> owner_of;
-    for (const auto &[rank, keys] : Utilities::MPI::some_to_some(comm, owned))
+    for (const auto &[rank, keys] : send_lists(owned, comm))
       for (const Key &key : keys)
         owner_of[key] = rank;
 
@@ -97,7 +99,7 @@ namespace Signorini
     for (const auto &[coarse_cell, path] : missing)
       wanted[home({coarse_cell, path})].push_back({coarse_cell, path});
     std::map<unsigned int, std::vector<std::pair<Key, unsigned int>>> owners;
-    for (const auto &[rank, keys] : Utilities::MPI::some_to_some(comm, wanted))
+    for (const auto &[rank, keys] : send_lists(wanted, comm))
       for (const Key &key : keys)
         if (const auto it = owner_of.find(key); it != owner_of.end())
           owners[rank].emplace_back(key, it->second);
@@ -111,14 +113,14 @@ namespace Signorini
     const MPI_Comm                           comm   = fine.communicator();
     const auto                               owners = answer_for_owners(fine);
     std::map<unsigned int, std::vector<Key>> requests;
-    for (const auto &answer : Utilities::MPI::some_to_some(comm, owners))
+    for (const auto &answer : send_values(owners, comm))
       for (const auto &[key, rank] : answer.second)
         requests[rank].push_back(key);
     std::map<unsigned int, std::vector<std::pair<Key, CellInterpolation>>> answers;
-    for (const auto &[rank, keys] : Utilities::MPI::some_to_some(comm, requests))
+    for (const auto &[rank, keys] : send_lists(requests, comm))
       for (const Key &key : keys)
         answers[rank].emplace_back(key, cells[index.at(key)]);
-    for (const auto &answer : Utilities::MPI::some_to_some(comm, answers))
+    for (const auto &answer : send_values(answers, comm))
       for (const auto &[key, data] : answer.second)
         {
           index[key] = static_cast<unsigned int>(cells.size());

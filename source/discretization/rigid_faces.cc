@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Signorini authors
 
 #include <signorini/algebra/dense_matrix.h>
+#include <signorini/algebra/gathered_lists.h>
 #include <signorini/algebra/input_error.h>
 #include <signorini/discretization/boundary_conditions.h>
 #include <signorini/discretization/element.h>
@@ -53,12 +54,6 @@ namespace Signorini
     {
       NodeIndex             node;
       std::array<double, 3> position;
-
-      template <typename Archive>
-      void serialize(Archive &archive, const unsigned int)
-      {
-        archive &node &position[0] & position[1] & position[2];
-      }
     };
 
     /// The nodes of a face that are not hanging, by number, on all ranks.
@@ -81,9 +76,8 @@ namespace Signorini
       for (const auto &[node, x] : mine)
         packed.push_back({node, {{x[0], x[1], x[2]}}});
       std::map<NodeIndex, Point<3>> all;
-      for (const auto &piece : Utilities::MPI::all_gather(space.communicator(), packed))
-        for (const PackedNode &one : piece)
-          all[one.node] = Point<3>(one.position[0], one.position[1], one.position[2]);
+      for (const PackedNode &one : gather_lists(packed, space.communicator(), Receivers::all))
+        all[one.node] = Point<3>(one.position[0], one.position[1], one.position[2]);
       return all;
     }
 

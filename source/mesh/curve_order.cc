@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/algebra/collectives.h>
 #include <signorini/mesh/curve_order.h>
 
 #include <deal.II/base/mpi.h>
@@ -65,9 +66,9 @@ namespace Signorini
                 is_listed[node - begin] = true;
                 node_lists[kind].push_back(node);
               }
-        const auto counts = Utilities::MPI::all_gather(space.communicator(),
-                                                       static_cast<std::uint64_t>(node_lists[kind].size()));
-        first[kind]       = 0;
+        const auto counts =
+            gather_values(static_cast<std::uint64_t>(node_lists[kind].size()), space.communicator());
+        first[kind] = 0;
         for (unsigned int r = 0; r < Utilities::MPI::this_mpi_process(space.communicator()); ++r)
           first[kind] += counts[r];
       }
@@ -89,7 +90,7 @@ namespace Signorini
     // Whether there are cells, which an end alone does not tell.
     for (const std::vector<unsigned int> &list : cell_lists)
       ends.push_back({{list.empty() ? 0u : 1u, 0}});
-    const auto all = Utilities::MPI::all_gather(space.communicator(), ends);
+    const auto all = gather_values(ends, space.communicator());
     for (unsigned int kind = 0; kind < n_kinds; ++kind)
       {
         const Place *last = nullptr;

@@ -3,6 +3,8 @@
 
 #include "forest_closure.h"
 
+#include <signorini/algebra/collectives.h>
+
 #include <algorithm>
 #include <iterator>
 #include <numeric>
@@ -249,7 +251,7 @@ namespace Signorini
     const auto        at     = holders(used_vertices(cells));
     const auto        mine   = vertices_to_name(cells, at);
     std::vector<Name> result = {first_free};
-    for (const std::uint64_t n : Utilities::MPI::all_gather(comm, static_cast<std::uint64_t>(mine.size())))
+    for (const std::uint64_t n : gather_values(static_cast<std::uint64_t>(mine.size()), comm))
       result.push_back(result.back() + n);
 
     ListsByRank<std::array<Name, 2>> told;

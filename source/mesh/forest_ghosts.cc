@@ -5,6 +5,7 @@
 
 #include "forest_pieces.h"
 
+#include <signorini/algebra/collectives.h>
 #include <signorini/mesh/cell_shape.h>
 
 #include <algorithm>
@@ -46,7 +47,7 @@ namespace Signorini
     std::vector<std::uint64_t> partial_sums(const std::uint64_t mine, const MPI_Comm communicator)
     {
       std::vector<std::uint64_t> first = {0};
-      for (const std::uint64_t n : Utilities::MPI::all_gather(communicator, mine))
+      for (const std::uint64_t n : gather_values(mine, communicator))
         first.push_back(first.back() + n);
       return first;
     }

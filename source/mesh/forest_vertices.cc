@@ -3,6 +3,7 @@
 
 #include "late_vertices.h"
 
+#include <signorini/algebra/collectives.h>
 #include <signorini/algebra/gathered_lists.h>
 #include <signorini/algebra/sent_lists.h>
 #include <signorini/mesh/forest_vertices.h>
@@ -92,7 +93,7 @@ namespace Signorini
       all.clear();
     std::sort(all.begin(), all.end());
     all.resize(std::min(all.size(), most));
-    return Utilities::MPI::broadcast(comm, all, 0);
+    return broadcast_value(all, comm);
   }
 
 

@@ -3,6 +3,7 @@
 
 #include "gmsh_session.h"
 
+#include <signorini/algebra/collectives.h>
 #include <signorini/algebra/input_error.h>
 #include <signorini/mesh/abaqus_input.h>
 #include <signorini/mesh/gmsh_file.h>
@@ -293,9 +294,9 @@ namespace Signorini
                     ". Is it complete, and of a format that gmsh knows?";
           }
       }
-    error = Utilities::MPI::broadcast(communicator, error, 0);
+    error = broadcast_value(error, communicator);
     if (!error.empty())
       throw InputError(error);
-    return Utilities::MPI::broadcast(communicator, mesh, 0);
+    return broadcast_value(mesh, communicator);
   }
 } // namespace Signorini

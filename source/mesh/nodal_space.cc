@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/algebra/collectives.h>
 #include <signorini/algebra/node_partition.h>
 #include <signorini/mesh/nodal_space.h>
 
@@ -129,7 +130,7 @@ namespace Signorini
     Numbering numbering(n_ranks);
     if (hexahedra)
       {
-        const auto counts = Utilities::MPI::all_gather(comm, hexahedra->dofs.n_locally_owned_dofs());
+        const auto counts = gather_values(hexahedra->dofs.n_locally_owned_dofs(), comm);
         std::partial_sum(counts.begin(), counts.end(), numbering.hexahedral_begin.begin() + 1);
         n_cells_of_all += mesh.hexahedra->n_global_active_cells();
       }

@@ -104,7 +104,7 @@ namespace Signorini
         dup2(nowhere, stream);
     }
 
-    [[noreturn]] void answer(const int pipe_end, const std::function<std::vector<char>()> &read)
+    [[noreturn]] void answer(const int pipe_end, const std::function<std::string()> &read)
     {
       const auto send = [pipe_end](const Answer kind, const auto &bytes) {
         const char head = kind;
@@ -137,9 +137,9 @@ namespace Signorini
       _exit(0);
     }
 
-    std::vector<char> read_all(const int pipe_end)
+    std::string read_all(const int pipe_end)
     {
-      std::vector<char> bytes;
+      std::string       bytes;
       std::vector<char> buffer(1 << 16);
       for (;;)
         {
@@ -147,7 +147,7 @@ namespace Signorini
           if (n == 0 || (n < 0 && errno != EINTR))
             return bytes;
           if (n > 0)
-            bytes.insert(bytes.end(), buffer.begin(), buffer.begin() + n);
+            bytes.append(buffer.data(), static_cast<std::size_t>(n));
         }
     }
 
@@ -172,8 +172,7 @@ namespace Signorini
       return text.str();
     }
 
-    std::vector<char> judge(std::vector<char> bytes, const int status, const std::string &reader,
-                            const Limits &limits)
+    std::string judge(std::string bytes, const int status, const std::string &reader, const Limits &limits)
     {
       const std::string too_long =
           "has not read it within " + std::to_string(limits.seconds) + " s of processor time";
@@ -193,20 +192,19 @@ namespace Signorini
           case result:
             return bytes;
           case input_error:
-            throw InputError(std::string(bytes.begin(), bytes.end()));
+            throw InputError(bytes);
           case out_of_space:
             complain(reader, "asks for more than " + gigabytes(limits.bytes) + " of memory for it");
           default:
-            throw std::runtime_error(std::string(bytes.begin(), bytes.end()));
+            throw std::runtime_error(bytes);
         }
     }
   } // namespace
 
 
 
-  std::vector<char> bytes_of_separate_process(const std::string &file, const std::string &reader,
-                                              const std::function<std::vector<char>()> &read,
-                                              const ReadingRule                        &rule)
+  std::string bytes_of_separate_process(const std::string &file, const std::string &reader,
+                                        const std::function<std::string()> &read, const ReadingRule &rule)
   {
     const Limits limits = limits_of(file, rule);
     int          ends[2];
@@ -226,7 +224,7 @@ namespace Signorini
         close(ends[0]);
         return read();
       }
-    std::vector<char> bytes = read_all(ends[0]);
+    std::string bytes = read_all(ends[0]);
     close(ends[0]);
     return judge(std::move(bytes), status_of(child), reader, limits);
   }

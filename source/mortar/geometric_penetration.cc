@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/algebra/collectives.h>
 #include <signorini/mesh/surface_normals.h>
 #include <signorini/mortar/geometric_penetration.h>
 #include <signorini/mortar/surface_values.h>
@@ -48,7 +49,7 @@ namespace Signorini
 
   void LeastGap::reduce(const MPI_Comm communicator)
   {
-    for (const auto &[gap, place] : Utilities::MPI::all_gather(communicator, std::make_pair(least, where)))
+    for (const auto &[gap, place] : gather_values(std::make_pair(least, where), communicator))
       add(gap, place);
   }
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/algebra/byte_archive.h>
+#include <signorini/algebra/collectives.h>
 #include <signorini/algebra/input_error.h>
-#include <signorini/output/byte_archive.h>
 #include <signorini/output/checkpoint_file.h>
 
 #include <deal.II/base/mpi.h>
@@ -308,12 +309,12 @@ namespace Signorini
     std::string error;
     if (Utilities::MPI::this_mpi_process(comm) == 0)
       error = read_header(header, file);
-    error = Utilities::MPI::broadcast(comm, error, 0);
+    error = broadcast_value(error, comm);
     if (!error.empty())
       throw InputError(error);
     ByteWriter writer;
     writer(header);
-    ByteReader(Utilities::MPI::broadcast(comm, writer.bytes(), 0))(header);
+    ByteReader(broadcast_bytes(writer.bytes(), comm))(header);
     for (const Section &s : header.sections)
       check(s);
   }

@@ -1,4 +1,4 @@
-signorini_add_layer(output
+signorini_add_layer(output COLD
   checkpoint_file.cc
   field_output.cc
   frd_output.cc

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/algebra/collectives.h>
 #include <signorini/algebra/input_error.h>
 #include <signorini/output/output_folder.h>
 #include <signorini/output/termination.h>
@@ -46,7 +47,7 @@ namespace Signorini
           {
             error = e.what();
           }
-      error = Utilities::MPI::broadcast(comm, error, 0);
+      error = broadcast_value(error, comm);
       if (!error.empty())
         throw InputError("Output folder: " + error);
     }
@@ -193,8 +194,8 @@ namespace Signorini
                          "\" exists and was not written by signorini. Choose another name or remove it.");
       make_temporary();
     });
-    temporary      = Utilities::MPI::broadcast(comm, temporary, 0);
-    for_checkpoint = Utilities::MPI::broadcast(comm, for_checkpoint, 0);
+    temporary      = broadcast_value(temporary, comm);
+    for_checkpoint = broadcast_value(for_checkpoint, comm);
     TerminationWatch::guard(temporary, last_words());
   }
 
@@ -431,6 +432,6 @@ namespace Signorini
     });
     committed = true;
     TerminationWatch::release(temporary);
-    return Utilities::MPI::broadcast(comm, place, 0);
+    return broadcast_value(place, comm);
   }
 } // namespace Signorini

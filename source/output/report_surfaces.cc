@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/algebra/collectives.h>
 #include <signorini/algebra/gathered_lists.h>
 #include <signorini/mesh/surface_piece.h>
 #include <signorini/output/json_writer.h>
@@ -352,7 +353,7 @@ namespace Signorini
       for (const NodeIndex node : surfaces[b].nodes)
         drawn_bodies[b].source.push_back(
             static_cast<unsigned int>(std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin()));
-    nodes = Utilities::MPI::broadcast(space.communicator(), nodes, 0);
+    nodes = broadcast_value(nodes, space.communicator());
   }
 
 

@@ -3,6 +3,7 @@
 
 #include "problem_run.h"
 
+#include <signorini/algebra/collectives.h>
 #include <signorini/algebra/input_error.h>
 #include <signorini/application/run_problem.h>
 #include <signorini/output/load_curve.h>
@@ -55,8 +56,8 @@ namespace Signorini
       outcome.converged      = results.converged;
       outcome.objections     = results.certificate.objections;
       outcome.summary        = text_of([&](std::ostream &out) { write_summary(out, results); });
-      outcome.pressure       = Utilities::MPI::broadcast(
-                model.communicator(), text_of([&](std::ostream &out) { write_pressure(out, results); }), 0);
+      outcome.pressure   = broadcast_value(text_of([&](std::ostream &out) { write_pressure(out, results); }),
+                                           model.communicator());
       outcome.parameters = text_of([&](std::ostream &out) { file.print(out, false); });
       if (!results.steps.empty())
         outcome.curve = text_of([&](std::ostream &out) { write_load_curve(out, results); });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/algebra/collectives.h>
 #include <signorini/algebra/galerkin_product.h>
 #include <signorini/algebra/gathered_lists.h>
 #include <signorini/solvers/contact_subspace.h>
@@ -17,7 +18,7 @@ namespace Signorini
     std::vector<NodeIndex> first_nodes(const NodePartition &partition)
     {
       std::vector<NodeIndex> result = {0};
-      for (const unsigned int n : Utilities::MPI::all_gather(partition.communicator(), partition.n_owned()))
+      for (const unsigned int n : gather_values(partition.n_owned(), partition.communicator()))
         result.push_back(result.back() + n);
       return result;
     }
@@ -324,7 +325,7 @@ namespace Signorini
           coefficients[m] = steps[m].step;
         steps.erase(steps.begin(), steps.begin() + coefficients.size());
       }
-    coefficients = Utilities::MPI::broadcast(comm, coefficients);
+    coefficients = broadcast_value(coefficients, comm);
     space.values.zero_out_ghost_values();
     for (unsigned int i = 0; i < steps.size(); ++i)
       {

@@ -1,4 +1,4 @@
-signorini_add_layer(verification
+signorini_add_layer(verification COLD
   corner_problems.cc
   hertz_problems.cc
   indenter_problems.cc

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/algebra/collectives.h>
 #include <signorini/algebra/input_error.h>
 #include <signorini/application/write_results.h>
 #include <signorini/output/progress.h>
@@ -154,7 +155,7 @@ namespace Signorini
           {
             error = e.what();
           }
-      error = Utilities::MPI::broadcast(communicator, error);
+      error = broadcast_value(error, communicator);
       if (!error.empty())
         throw InputError(error);
       return files;

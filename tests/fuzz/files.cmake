@@ -2,9 +2,7 @@
 function(signorini_add_fuzzer _name)
   add_executable(fuzz_${_name} fuzz/${_name}.cc fuzz/read_input.cc)
   set_target_properties(fuzz_${_name} PROPERTIES OUTPUT_NAME ${_name} RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
-  target_precompile_headers(fuzz_${_name} REUSE_FROM signorini_headers)
-  deal_ii_setup_target(fuzz_${_name})
-  signorini_compile_options(fuzz_${_name})
+  signorini_compile(fuzz_${_name} COLD)
   target_link_libraries(fuzz_${_name} signorini)
 endfunction()
 

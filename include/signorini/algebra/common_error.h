@@ -4,9 +4,8 @@
 #ifndef signorini_algebra_common_error_h
 #define signorini_algebra_common_error_h
 
+#include <signorini/algebra/collectives.h>
 #include <signorini/algebra/input_error.h>
-
-#include <deal.II/base/mpi.h>
 
 #include <string>
 
@@ -16,7 +15,7 @@ namespace Signorini
   /// @param message empty where nothing is wrong
   inline void throw_everywhere(const std::string &message, const MPI_Comm communicator)
   {
-    for (const std::string &text : dealii::Utilities::MPI::all_gather(communicator, message))
+    for (const std::string &text : gather_values(message, communicator))
       if (!text.empty())
         throw InputError(text);
   }

@@ -145,13 +145,6 @@ namespace Signorini
       return !(*this == other);
     }
 
-    /// For messages between ranks (Boost).
-    template <typename Archive>
-    void serialize(Archive &archive, const unsigned int)
-    {
-      archive &axis[0] & axis[1] & axis[2] & mask &n_oblique;
-    }
-
   private:
     /// As oblique_axis().
     std::array<double, 3> axis = {{0., 0., 0.}};

@@ -5,6 +5,7 @@
 #define signorini_algebra_sent_lists_h
 
 #include <signorini/algebra/checked_count.h>
+#include <signorini/algebra/collectives.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -15,10 +16,6 @@
 
 namespace Signorini
 {
-  /// Lists by rank: of the one that they are for, or that they come from.
-  template <typename T>
-  using ListsByRank = std::map<unsigned int, std::vector<T>>;
-
   /// Collective. Sends a list to each of some ranks and returns those that come, by sender. Ranks without a
   /// list for each other do not talk.
   template <typename T>
@@ -36,7 +33,7 @@ namespace Signorini
           std::memcpy(bytes.data(), static_cast<const void *>(list.data()), bytes.size());
         }
     ListsByRank<T> result;
-    for (const auto &[rank, bytes] : dealii::Utilities::MPI::some_to_some(communicator, parcels))
+    for (const auto &[rank, bytes] : send_bytes(parcels, communicator))
       {
         std::vector<T> &list = result[rank];
         list.resize(bytes.size() / sizeof(T));

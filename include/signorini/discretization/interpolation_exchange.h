@@ -21,16 +21,14 @@ namespace Signorini
     std::array<unsigned int, 9> start;
     std::vector<NodeIndex>      nodes;
     std::vector<double>         weights;
-
-    template <class Archive>
-    /// For messages between ranks.
-    void serialize(Archive &archive, const unsigned int)
-    {
-      for (unsigned int &s : start)
-        archive &s;
-      archive &nodes &weights;
-    }
   };
+
+  /// For messages between ranks.
+  template <typename Archive>
+  void transfer(Archive &archive, CellInterpolation &cell)
+  {
+    archive(cell.start, cell.nodes, cell.weights);
+  }
 
   /// Finds, for owned hexahedra of a fine space, the cell of a coarse space that contains them: the same cell
   /// or its parent. Cells that live on another rank are looked up through a directory: the rank that a
@@ -54,13 +52,6 @@ namespace Signorini
       bool operator==(const Key &other) const
       {
         return coarse_cell == other.coarse_cell && path == other.path;
-      }
-
-      template <class Archive>
-      /// For messages between ranks.
-      void serialize(Archive &archive, const unsigned int)
-      {
-        archive &coarse_cell &path;
       }
     };
 
@@ -89,6 +80,13 @@ namespace Signorini
     std::unordered_map<Key, unsigned int, Hash> index;
     std::vector<CellInterpolation>              cells;
   };
+
+  /// For messages between ranks.
+  template <typename Archive>
+  void transfer(Archive &archive, ParentLookup::Key &key)
+  {
+    archive(key.coarse_cell, key.path);
+  }
 } // namespace Signorini
 
 #endif

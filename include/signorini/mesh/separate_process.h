@@ -4,11 +4,10 @@
 #ifndef signorini_mesh_separate_process_h
 #define signorini_mesh_separate_process_h
 
-#include <deal.II/base/utilities.h>
+#include <signorini/algebra/collectives.h>
 
 #include <functional>
 #include <string>
-#include <vector>
 
 namespace Signorini
 {
@@ -30,19 +29,17 @@ namespace Signorini
   /// @return those bytes
   /// Errors: InputError of the process, with its text; std::runtime_error with the text of any other
   /// exception of it; InputError where it died, or has taken more time or memory than the rule has.
-  std::vector<char> bytes_of_separate_process(const std::string &file, const std::string &reader,
-                                              const std::function<std::vector<char>()> &read,
-                                              const ReadingRule                        &rule = {});
+  std::string bytes_of_separate_process(const std::string &file, const std::string &reader,
+                                        const std::function<std::string()> &read,
+                                        const ReadingRule                  &rule = {});
 
-  /// The same for any object that deal.II can pack.
+  /// The same for any value that ByteWriter takes.
   template <typename T>
   T read_in_separate_process(const std::string &file, const std::string &reader,
                              const std::function<T()> &read, const ReadingRule &rule = {})
   {
-    return dealii::Utilities::unpack<T>(
-        bytes_of_separate_process(
-            file, reader, [&read] { return dealii::Utilities::pack(read(), false); }, rule),
-        false);
+    return from_bytes<T>(bytes_of_separate_process(
+        file, reader, [&read] { return to_bytes(read()); }, rule));
   }
 } // namespace Signorini
 

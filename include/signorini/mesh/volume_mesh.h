@@ -30,13 +30,6 @@ namespace Signorini
       unsigned int                n_vertices;
       /// Index into volume_names.
       unsigned int volume;
-
-      template <class Archive>
-      /// For messages between ranks.
-      void serialize(Archive &archive, const unsigned int)
-      {
-        archive &vertices &n_vertices &volume;
-      }
     };
 
     /// A face that belongs to a named boundary.
@@ -46,13 +39,6 @@ namespace Signorini
       Face vertices;
       /// Index into boundary_names.
       unsigned int name;
-
-      template <class Archive>
-      /// For messages between ranks.
-      void serialize(Archive &archive, const unsigned int)
-      {
-        archive &vertices &name;
-      }
     };
 
     /// The mesh: positions (length), cells, and the faces of its boundaries.
@@ -74,17 +60,29 @@ namespace Signorini
     /// Remarks for the user, e.g. on mended cells.
     std::vector<std::string> notes;
 
-    template <class Archive>
-    /// For messages between ranks.
-    void serialize(Archive &archive, const unsigned int)
-    {
-      archive &vertices &cells &faces &boundary_names &volume_names &boundary_groups &node_sets &node_numbers
-          &notes;
-    }
-
     /// Positions of the vertices of a cell; the rest is zero.
     std::array<dealii::Point<3>, 8> corners(const Cell &cell) const;
   };
+
+  /// For messages between ranks and processes.
+  template <typename Archive>
+  void transfer(Archive &archive, VolumeMesh::Cell &cell)
+  {
+    archive(cell.vertices, cell.n_vertices, cell.volume);
+  }
+
+  template <typename Archive>
+  void transfer(Archive &archive, VolumeMesh::BoundaryFace &face)
+  {
+    archive(face.vertices, face.name);
+  }
+
+  template <typename Archive>
+  void transfer(Archive &archive, VolumeMesh &mesh)
+  {
+    archive(mesh.vertices, mesh.cells, mesh.faces, mesh.boundary_names, mesh.volume_names,
+            mesh.boundary_groups, mesh.node_sets, mesh.node_numbers, mesh.notes);
+  }
 
   /// The same vertices in ascending order: what identifies a face.
   VolumeMesh::Face face_key(VolumeMesh::Face face);

@@ -1,5 +1,6 @@
 signorini_add_unit_tests(algebra RANKS "1;2;4"
   block_row.cc
+  collectives.cc
   fixed_directions.cc
   node_block_matrix.cc
   replicated_data.cc

@@ -3,6 +3,7 @@
 
 // T at nodes with prescribed components and oblique normals (doc/algorithm.md, (23) to (27)).
 
+#include <signorini/algebra/collectives.h>
 #include <signorini/algebra/replicated_data.h>
 #include <signorini/discretization/basis_transformation.h>
 #include <signorini/discretization/elasticity.h>
@@ -38,7 +39,7 @@ namespace
           std::abs(x[2] - z) < 1e-12 && !space.hanging_nodes().is_constrained(node))
         mine.push_back({{x[0], x[1], x[2], static_cast<double>(node)}});
     std::vector<std::array<double, 4>> all;
-    for (const auto &list : Utilities::MPI::all_gather(MPI_COMM_WORLD, mine))
+    for (const auto &list : gather_values(mine, MPI_COMM_WORLD))
       all.insert(all.end(), list.begin(), list.end());
     std::sort(all.begin(), all.end());
     std::vector<std::pair<NodeIndex, Point<3>>> result;

@@ -3,6 +3,7 @@
 
 // The distributed forest against the serial one, on communicators of all sizes that there are ranks for.
 
+#include <signorini/algebra/collectives.h>
 #include <signorini/mesh/nodal_space.h>
 #include <signorini/mesh/tetrahedral_forest.h>
 
@@ -118,7 +119,7 @@ namespace
           mine.push_back({{forest.mesh(l).vertices[forest.mesh(l).cells[c].vertices[i]],
                            serial.cells(l)[forest.mesh(l).cell_numbers[c]].vertices[i]}});
     std::map<ForestMesh::Name, unsigned int> result;
-    for (const auto &list : dealii::Utilities::MPI::all_gather(forest.communicator(), mine))
+    for (const auto &list : gather_values(mine, forest.communicator()))
       for (const auto &[name, vertex] : list)
         {
           const auto it = result.insert({name, static_cast<unsigned int>(vertex)}).first;

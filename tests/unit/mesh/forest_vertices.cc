@@ -3,6 +3,7 @@
 
 // Moving vertices of a distributed mesh: the same bits as on one rank.
 
+#include <signorini/algebra/collectives.h>
 #include <signorini/mesh/forest_vertices.h>
 #include <signorini/mesh/tetrahedral_forest.h>
 
@@ -75,7 +76,7 @@ TEST(ForestVertices, MovementDoesNotDependOnTheNumberOfRanks)
         n_wrong += one.positions.at(name) != x;
       EXPECT_EQ(n_wrong, 0u) << depth;
       std::vector<ForestMesh::Name> late;
-      for (const auto &list : dealii::Utilities::MPI::all_gather(MPI_COMM_WORLD, mine.late))
+      for (const auto &list : gather_values(mine.late, MPI_COMM_WORLD))
         late.insert(late.end(), list.begin(), list.end());
       std::sort(late.begin(), late.end());
       EXPECT_EQ(late, one.late) << depth;

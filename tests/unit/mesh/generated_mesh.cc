@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/algebra/collectives.h>
 #include <signorini/algebra/input_error.h>
 #include <signorini/discretization/element.h>
 #include <signorini/mesh/bodies.h>
@@ -206,7 +207,7 @@ TEST(CoarseningSequence, HasTheMeshesOfDealII)
           if (cell->is_locally_owned())
             mine.emplace_back(cell->id().to_string(), cell->center().norm());
         std::vector<std::pair<std::string, double>> all;
-        for (const auto &part : Utilities::MPI::all_gather(MPI_COMM_WORLD, mine))
+        for (const auto &part : gather_values(mine, MPI_COMM_WORLD))
           all.insert(all.end(), part.begin(), part.end());
         std::sort(all.begin(), all.end());
         return all;

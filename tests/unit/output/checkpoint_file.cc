@@ -2,7 +2,6 @@
 // Copyright (C) 2026 by the Signorini authors
 
 #include <signorini/algebra/input_error.h>
-#include <signorini/output/byte_archive.h>
 #include <signorini/output/checkpoint_file.h>
 
 #include <deal.II/base/mpi.h>
@@ -11,7 +10,6 @@
 
 #include <filesystem>
 #include <fstream>
-#include <limits>
 
 #include <unistd.h>
 
@@ -257,31 +255,4 @@ TEST_F(Checkpoint, OfOthersIsNone)
   if (is_root())
     fs::remove(file);
   EXPECT_NE(refusal().find("cannot be opened"), std::string::npos);
-}
-
-TEST(ByteArchive, GivesBackWhatItWasGiven)
-{
-  const std::vector<double>        numbers = {1., std::numeric_limits<double>::infinity(), -0.};
-  const std::vector<bool>          flags   = {true, false, true};
-  const std::map<std::string, int> words   = {{"a", 1}, {"", -2}};
-  const std::optional<double>      none, some = 3.;
-  const Point<3>                   point(1., 2., 3.);
-  ByteWriter                       writer;
-  writer(numbers, flags, words, none, some, point, std::string("text"));
-  std::vector<double>        n;
-  std::vector<bool>          f;
-  std::map<std::string, int> w;
-  std::optional<double>      o, s;
-  Point<3>                   p;
-  std::string                t;
-  ByteReader(writer.bytes())(n, f, w, o, s, p, t);
-  EXPECT_EQ(n, numbers);
-  EXPECT_EQ(f, flags);
-  EXPECT_EQ(w, words);
-  EXPECT_EQ(o, none);
-  EXPECT_EQ(s, some);
-  EXPECT_EQ(p, point);
-  EXPECT_EQ(t, "text");
-  ByteReader short_one(writer.bytes().substr(0, 20));
-  EXPECT_THROW(short_one(n), InputError);
 }

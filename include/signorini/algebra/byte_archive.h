@@ -1,26 +1,37 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
-#ifndef signorini_output_byte_archive_h
-#define signorini_output_byte_archive_h
+#ifndef signorini_algebra_byte_archive_h
+#define signorini_algebra_byte_archive_h
 
 #include <signorini/algebra/input_error.h>
 
 #include <deal.II/base/point.h>
 
+#include <array>
+#include <cstdint>
 #include <cstring>
 #include <map>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
 namespace Signorini
 {
-  /// Values as bytes, one after the other. What a struct consists of says a function
-  /// `template <typename Archive> void transfer(Archive &archive, Struct &value)` beside it, which calls the
-  /// archive with all members: the same for both directions.
+  /// Whether a list of them is copied as a whole.
+  template <typename T>
+  constexpr bool is_bulk = std::is_arithmetic<T>::value && !std::is_same<T, bool>::value;
+
+  /// What a struct consists of: an overload for it, beside it, calls the archive with all members, the same
+  /// for both directions. There is none for all types.
+  template <typename Archive, typename T>
+  void transfer(Archive &archive, T &value) = delete;
+
+  /// Values as bytes, one after the other: numbers, texts, places, lists and the like, and structs with a
+  /// transfer().
   class ByteWriter
   {
   public:
@@ -68,8 +79,24 @@ namespace Signorini
     void write(const std::vector<T> &values)
     {
       write(static_cast<std::uint64_t>(values.size()));
-      for (const auto &value : values)
-        write(static_cast<const T &>(value));
+      if constexpr (is_bulk<T>)
+        text.append(reinterpret_cast<const char *>(values.data()), values.size() * sizeof(T));
+      else
+        for (const auto &value : values)
+          write(static_cast<const T &>(value));
+    }
+
+    template <typename T, std::size_t n>
+    void write(const std::array<T, n> &values)
+    {
+      for (const T &value : values)
+        write(value);
+    }
+
+    template <typename... Values>
+    void write(const std::tuple<Values...> &values)
+    {
+      std::apply(*this, values);
     }
 
     template <typename Key, typename T>
@@ -148,12 +175,33 @@ namespace Signorini
     {
       const std::size_t n = length();
       values.clear();
-      for (std::size_t i = 0; i < n; ++i)
+      if constexpr (is_bulk<T>)
         {
-          T value{};
-          read(value);
-          values.push_back(std::move(value));
+          if (n > (text.size() - position) / sizeof(T))
+            fail();
+          values.resize(n);
+          take(values.data(), n * sizeof(T));
         }
+      else
+        for (std::size_t i = 0; i < n; ++i)
+          {
+            T value{};
+            read(value);
+            values.push_back(std::move(value));
+          }
+    }
+
+    template <typename T, std::size_t n>
+    void read(std::array<T, n> &values)
+    {
+      for (T &value : values)
+        read(value);
+    }
+
+    template <typename... Values>
+    void read(std::tuple<Values...> &values)
+    {
+      std::apply(*this, values);
     }
 
     template <typename Key, typename T>
