@@ -1,4 +1,4 @@
-// Headers that nearly every source includes; precompiled once for all layers.
+// Headers that nearly every source includes; precompiled once for each level of optimization.
 #include <deal.II/base/index_set.h>
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/parameter_handler.h>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
-#include <signorini/algebra/collectives.h>
 #include <signorini/algebra/gathered_lists.h>
 #include <signorini/algebra/input_error.h>
 #include <signorini/application/deck_results.h>
@@ -14,6 +13,8 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/symmetric_tensor.h>
 
+#include <algorithm>
+#include <array>
 #include <fstream>
 #include <iomanip>
 #include <sstream>
@@ -64,13 +65,23 @@ namespace Signorini
       return rows;
     }
 
-    /// Nodes of the owned cells, eight numbers each (the rest of a tetrahedron invalid).
-    std::vector<std::vector<NodeIndex>> owned_cells(const NodalSpace &space)
+    /// The nodes of a cell, 8 or 4.
+    struct CellRow
     {
-      std::vector<std::vector<NodeIndex>> cells;
+      unsigned int             n_nodes;
+      std::array<NodeIndex, 8> nodes;
+    };
+
+    std::vector<CellRow> owned_cells(const NodalSpace &space)
+    {
+      std::vector<CellRow> cells;
       for (const NodalSpace::Cell &cell : space.cells())
         if (cell.is_owned)
-          cells.emplace_back(space.nodes(cell).begin(), space.nodes(cell).end());
+          {
+            CellRow row{cell.n_vertices, {}};
+            std::copy(space.nodes(cell).begin(), space.nodes(cell).end(), row.nodes.begin());
+            cells.push_back(row);
+          }
       return cells;
     }
 
@@ -133,9 +144,9 @@ namespace Signorini
     /// What the ranks have gathered.
     struct Gathered
     {
-      std::vector<NodeRow>                rows;
-      std::vector<std::vector<NodeIndex>> cells;
-      std::vector<ContactRow>             contact;
+      std::vector<NodeRow>    rows;
+      std::vector<CellRow>    cells;
+      std::vector<ContactRow> contact;
     };
 
     void write(std::ostream &out, const DeckProblem &deck, const ContactModel &model,
@@ -165,12 +176,12 @@ namespace Signorini
         for (const DeckProblem::BodyLabels &body : deck.labels)
           mesh.elements.insert(mesh.elements.end(), body.elements.begin(), body.elements.end());
       else
-        for (const std::vector<NodeIndex> &cell : cells)
+        for (const CellRow &cell : cells)
           {
             static constexpr unsigned int around[8] = {0, 1, 3, 2, 4, 5, 7, 6};
             mesh.elements.push_back({static_cast<long>(mesh.elements.size() + 1), {}});
-            for (unsigned int v = 0; v < cell.size(); ++v)
-              mesh.elements.back().nodes.push_back(labels.at(cell[cell.size() == 8 ? around[v] : v]));
+            for (unsigned int v = 0; v < cell.n_nodes; ++v)
+              mesh.elements.back().nodes.push_back(labels.at(cell.nodes[cell.n_nodes == 8 ? around[v] : v]));
           }
       std::vector<FrdField> fields = {displacement, stress};
       if (!contact.empty())
@@ -222,13 +233,11 @@ namespace Signorini
   {
     const MPI_Comm comm = model.communicator();
     Gathered       all;
-    all.rows         = gather_lists(owned_rows(model, d, solution), comm, Receivers::rank_zero);
-    const auto cells = gather_values(owned_cells(d.nodal()), comm, Receivers::rank_zero);
-    all.contact      = gather_contact(d, solution);
+    all.rows    = gather_lists(owned_rows(model, d, solution), comm, Receivers::rank_zero);
+    all.cells   = gather_lists(owned_cells(d.nodal()), comm, Receivers::rank_zero);
+    all.contact = gather_contact(d, solution);
     if (Utilities::MPI::this_mpi_process(comm) != 0)
       return;
-    for (const auto &part : cells)
-      all.cells.insert(all.cells.end(), part.begin(), part.end());
     std::ofstream out(folder + "results.frd");
     write(out, deck, model, all);
     out.close();

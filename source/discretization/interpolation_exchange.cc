@@ -7,8 +7,6 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <boost/serialization/array.hpp>
-
 namespace Signorini
 {
   using namespace dealii;

@@ -43,9 +43,15 @@ namespace Signorini
     }
 
     /// All so far.
-    const std::string &bytes() const
+    const std::string &bytes() const &
     {
       return text;
+    }
+
+    /// The same of a writer that is done.
+    std::string bytes() &&
+    {
+      return std::move(text);
     }
 
   private:
@@ -141,6 +147,12 @@ namespace Signorini
     void operator()(Values &...values)
     {
       (read(values), ...);
+    }
+
+    /// Whether nothing is left.
+    bool is_at_end() const
+    {
+      return position == text.size();
     }
 
   private:

@@ -9,6 +9,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <stdexcept>
+
 namespace Signorini
 {
   /// Lists by rank: of the one that they are for, or that they come from.
@@ -32,15 +34,18 @@ namespace Signorini
   {
     ByteWriter writer;
     writer(value);
-    return writer.bytes();
+    return std::move(writer).bytes();
   }
 
-  /// Such a value again.
+  /// Such a value again. Errors: InputError, std::logic_error if they are those of something else.
   template <typename T>
   T from_bytes(std::string bytes)
   {
-    T value{};
-    ByteReader(std::move(bytes))(value);
+    T          value{};
+    ByteReader reader(std::move(bytes));
+    reader(value);
+    if (!reader.is_at_end())
+      throw std::logic_error("More bytes than those of a value.");
     return value;
   }
 
@@ -50,10 +55,15 @@ namespace Signorini
   std::vector<T> gather_values(const T &mine, const MPI_Comm communicator,
                                const Receivers receivers = Receivers::all)
   {
-    std::vector<T> values;
-    for (std::string &bytes : gather_bytes(to_bytes(mine), communicator, receivers))
-      values.push_back(from_bytes<T>(std::move(bytes)));
-    return values;
+    if constexpr (is_bulk<T>)
+      return gather_lists(std::vector<T>{mine}, communicator, receivers);
+    else
+      {
+        std::vector<T> values;
+        for (std::string &bytes : gather_bytes(to_bytes(mine), communicator, receivers))
+          values.push_back(from_bytes<T>(std::move(bytes)));
+        return values;
+      }
   }
 
   /// Collective. The value of rank 0.

@@ -77,6 +77,7 @@ TEST(ByteArchive, GivesBackWhatItWasGiven)
       ByteReader short_one(writer.bytes().substr(0, length));
       EXPECT_THROW(short_one(n), InputError) << length;
     }
+  EXPECT_THROW(from_bytes<std::vector<double>>(writer.bytes()), std::logic_error);
   ByteReader long_one(to_bytes(std::numeric_limits<std::uint64_t>::max() / 8));
   EXPECT_THROW(long_one(n), InputError);
 }
