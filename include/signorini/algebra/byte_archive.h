@@ -13,6 +13,7 @@
 #include <cstring>
 #include <map>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <tuple>
 #include <type_traits>
@@ -271,6 +272,29 @@ namespace Signorini
     const std::string text;
     std::size_t       position = 0;
   };
+
+
+
+  /// A value as a ByteWriter has it.
+  template <typename T>
+  std::string to_bytes(const T &value)
+  {
+    ByteWriter writer;
+    writer(value);
+    return std::move(writer).bytes();
+  }
+
+  /// Such a value again. Errors: InputError, std::logic_error if they are those of something else.
+  template <typename T>
+  T from_bytes(std::string bytes)
+  {
+    T          value{};
+    ByteReader reader(std::move(bytes));
+    reader(value);
+    if (!reader.is_at_end())
+      throw std::logic_error("More bytes than those of a value.");
+    return value;
+  }
 } // namespace Signorini
 
 #endif

@@ -9,8 +9,6 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <stdexcept>
-
 namespace Signorini
 {
   /// Lists by rank: of the one that they are for, or that they come from.
@@ -27,27 +25,6 @@ namespace Signorini
   /// Collective. Sends bytes to each of some ranks and returns those that come, by sender. Ranks that have
   /// nothing for each other do not talk.
   ListsByRank<char> send_bytes(const ListsByRank<char> &bytes, const MPI_Comm communicator);
-
-  /// A value as a ByteWriter has it.
-  template <typename T>
-  std::string to_bytes(const T &value)
-  {
-    ByteWriter writer;
-    writer(value);
-    return std::move(writer).bytes();
-  }
-
-  /// Such a value again. Errors: InputError, std::logic_error if they are those of something else.
-  template <typename T>
-  T from_bytes(std::string bytes)
-  {
-    T          value{};
-    ByteReader reader(std::move(bytes));
-    reader(value);
-    if (!reader.is_at_end())
-      throw std::logic_error("More bytes than those of a value.");
-    return value;
-  }
 
   /// Collective. The values of all ranks, by rank; anything that ByteWriter takes. (deal.II's functions
   /// for this compile Boost's archives and streams into each source that calls them.)

@@ -4,7 +4,7 @@
 #ifndef signorini_mesh_separate_process_h
 #define signorini_mesh_separate_process_h
 
-#include <signorini/algebra/collectives.h>
+#include <signorini/algebra/byte_archive.h>
 
 #include <functional>
 #include <string>
