@@ -43,6 +43,7 @@ signorini_add_layer(application COLD
   pressure_rows.cc
   probes.cc
   pretension.cc
+  shank.cc
   problem_description.cc
   problem_identity.cc
   run_problem.cc

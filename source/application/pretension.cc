@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include "shank.h"
+
 #include <signorini/algebra/input_error.h>
 #include <signorini/application/journal.h>
 #include <signorini/application/pretension.h>
-#include <signorini/discretization/element.h>
-
-#include <deal.II/base/mpi.h>
 
 #include <Eigen/LU>
 
-#include <limits>
 #include <sstream>
 
 namespace Signorini
@@ -19,77 +17,12 @@ namespace Signorini
 
   namespace
   {
-    /// The cells that a pretension shortens.
-    struct Shank
+    /// Collective. By bolt.
+    std::vector<Shank> find_shanks(const ContactModel &model, const Discretization &d)
     {
-      /// Along the axis (length).
-      double low = std::numeric_limits<double>::max(), high = -std::numeric_limits<double>::max();
-      /// Integrals of Young's modulus and of the stress along the axis (force times length).
-      double modulus = 0., tension = 0.;
-
-      double length() const
-      {
-        return high - low;
-      }
-
-      /// E A: the force per strain between rigid plates.
-      double stiffness() const
-      {
-        return modulus / length();
-      }
-
-      /// The mean of the section force over the length.
-      double force() const
-      {
-        return tension / length();
-      }
-    };
-
-    void add_cell(Shank &shank, const Pretension &bolt, const CellDisplacement &displacement)
-    {
-      const Element &element = displacement.element;
-      for (unsigned int v = 0; v < element.n_vertices(); ++v)
-        {
-          const double z = bolt.axis * Vector3(element.corner(v));
-          shank.low      = std::min(shank.low, z);
-          shank.high     = std::max(shank.high, z);
-        }
-      for (unsigned int q = 0; q < element.n_points(); ++q)
-        {
-          const double weight = element.volume_element(q).first;
-          shank.modulus += weight * displacement.material.young;
-          shank.tension +=
-              weight * (bolt.axis * (displacement.stress(element.reference_point(q)) * bolt.axis));
-        }
-    }
-
-    /// Collective. By bolt; without stresses for an empty displacement.
-    std::vector<Shank> measure(const ContactModel &model, const Discretization &d, const Vector &displacement)
-    {
-      const auto        &bolts = model.loads().pretensions;
-      const NodalSpace  &space = d.nodal();
-      std::vector<Shank> shanks(bolts.size());
-      for (const NodalSpace::Cell &cell : space.cells())
-        for (std::size_t i = 0; i < bolts.size() && cell.is_owned; ++i)
-          if (is_in(bolts[i], space, cell))
-            {
-              std::array<Vector3, CellShape::max_vertices> u;
-              for (unsigned int v = 0; v < cell.n_vertices && displacement.size() > 0; ++v)
-                for (unsigned int c = 0; c < dim; ++c)
-                  u[v][c] =
-                      displacement.local_element(dim * d.partition().to_local(space.nodes(cell)[v]) + c);
-              add_cell(shanks[i], bolts[i],
-                       CellDisplacement(Element(space, cell), model.bodies().material(cell.material), u,
-                                        model.loads().eigenstrain(space, cell)));
-            }
-      const MPI_Comm comm = model.communicator();
-      for (Shank &shank : shanks)
-        {
-          shank.low     = Utilities::MPI::min(shank.low, comm);
-          shank.high    = Utilities::MPI::max(shank.high, comm);
-          shank.modulus = Utilities::MPI::sum(shank.modulus, comm);
-          shank.tension = Utilities::MPI::sum(shank.tension, comm);
-        }
+      std::vector<Shank> shanks;
+      for (std::size_t i = 0; i < model.loads().pretensions.size(); ++i)
+        shanks.emplace_back(model, d, i);
       return shanks;
     }
 
@@ -127,11 +60,12 @@ namespace Signorini
         }
     }
 
-    Eigen::VectorXd forces_of(const std::vector<Shank> &shanks)
+    /// Collective.
+    Eigen::VectorXd forces_of(const std::vector<Shank> &shanks, const Vector &displacement)
     {
       Eigen::VectorXd forces(static_cast<Eigen::Index>(shanks.size()));
       for (std::size_t i = 0; i < shanks.size(); ++i)
-        forces[i] = shanks[i].force();
+        forces[i] = shanks[i].force(displacement);
       return forces;
     }
 
@@ -160,6 +94,7 @@ namespace Signorini
     };
 
     std::vector<PretensionResult> results_of(const ContactModel &model, const std::vector<Shank> &shanks,
+                                             const Eigen::VectorXd           &forces,
                                              const std::vector<unsigned int> &iterations)
     {
       std::vector<PretensionResult> results;
@@ -167,8 +102,8 @@ namespace Signorini
         {
           const Pretension &bolt = model.loads().pretensions[i];
           results.push_back({model.bodies().body_name(bolt.body), bolt.name, wanted_force(model, bolt),
-                             shanks[i].force(), bolt.strain, shanks[i].length(),
-                             bolt.strain * shanks[i].length(), iterations});
+                             forces[i], bolt.strain, shanks[i].length(), bolt.strain * shanks[i].length(),
+                             iterations});
         }
       return results;
     }
@@ -181,12 +116,10 @@ namespace Signorini
     std::vector<Pretension> &bolts = model.pretensions();
     if (bolts.empty())
       return;
-    const std::vector<Shank> shanks = measure(model, d, Vector());
+    const std::vector<Shank> shanks = find_shanks(model, d);
     Eigen::VectorXd          missing(static_cast<Eigen::Index>(bolts.size()));
     for (std::size_t i = 0; i < bolts.size(); ++i)
       {
-        if (!(shanks[i].modulus > 0.))
-          throw InputError(bolts[i].where + ": there is no cell in the region.");
         const double wanted = wanted_force(model, bolts[i]);
         if (!(wanted >= 0.))
           throw InputError(bolts[i].where + ": the force " + std::to_string(wanted) +
@@ -214,9 +147,9 @@ namespace Signorini
     if (bolts.empty() || !solution.drifting.empty())
       return solution;
     std::vector<unsigned int> iterations = {solution.report.iterations};
-    std::vector<Shank>        shanks     = measure(model, d, solution.displacement);
+    const std::vector<Shank>  shanks     = find_shanks(model, d);
     Vector                    before;
-    Eigen::VectorXd           forces = forces_of(shanks), last_step;
+    Eigen::VectorXd           forces = forces_of(shanks, solution.displacement), last_step;
     Missing                   missing(model, forces);
     while (solution.report.converged && !missing.is_small && iterations.size() < rule.solutions)
       {
@@ -239,8 +172,7 @@ namespace Signorini
         if (!solution.drifting.empty())
           return solution;
         iterations.push_back(solution.report.iterations);
-        shanks                        = measure(model, d, solution.displacement);
-        const Eigen::VectorXd present = forces_of(shanks);
+        const Eigen::VectorXd present = forces_of(shanks, solution.displacement);
         update_slopes(bolts, step, present - forces);
         forces  = present;
         missing = Missing(model, forces);
@@ -253,7 +185,7 @@ namespace Signorini
         solution.report.note      = "the pretension was not reached in " + std::to_string(rule.solutions) +
                                " solutions: does anything hold the ends of the bolts?";
       }
-    solution.pretensions = results_of(model, shanks, iterations);
+    solution.pretensions = results_of(model, shanks, forces, iterations);
     return solution;
   }
 } // namespace Signorini

@@ -285,6 +285,16 @@ def pretension(p):
                         near(float(row['bolt: shank: section force']), 500 * float(row['t']), 1e-6, 'section force of a step')
                         near(abs(float(row['joint: force z'])), 500 * float(row['t']), 1e-6, 'clamping force of a step')
             # Other plates were softer in compression: the strain at which the section would carry the force between rigid plates is known.
+        # Ends that are no planes: stairs of hexahedra, also with hanging nodes, and the rugged ends of a region among tetrahedra.
+        for settings in (['Body bolt/Pretension=rugged: axis (0, 0, 1), force 500, region 1 - (z + 0.4*x - 0.3*y)^2'],
+                         ['Body bolt/Pretension=rugged: axis (0, 0, -1), force 500, region 1 - (z + 0.4*x - 0.3*y)^2', 'Refinement/Global cycles=0', 'Refinement/Adaptive cycles=1'],
+                         ['Body bolt/Pretension=rugged: axis (0, 0, 1), force 500, region 1.3 - z^2', 'Body bolt/Convert to tetrahedra=true']):
+            s = p.solve(prm, *loose, *settings)
+            bolt = s['pretension'][0]
+            print(settings, bolt, 'joint', s['pairs'][0]['force'][2])
+            near(bolt['force'], 500, 1e-6, f'{settings}: section force')
+            for pair in s['pairs']:
+                near(pair['load'], 500, 1e-6, f'{settings}: force of {pair["name"]}')
 
 
 # Two blocks, held together by straps that are glued to their ends, the middle of which is shortened.
