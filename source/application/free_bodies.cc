@@ -24,6 +24,9 @@ namespace Signorini
       /// The work of loads on a rotation that surfaces allow, relative to that of all loads with the size of
       /// the surfaces as their arm, which may come from facets: 1e-4 to 1e-2 for balls of tetrahedra.
       double work_of_facets = .05;
+      /// What there is of a motion of the size of 1 that should be zero: 1e-16 of matching surfaces of a
+      /// body.
+      double rounding = 1e-12;
     };
   } // namespace
 
@@ -79,6 +82,11 @@ namespace Signorini
         unknowns.reinit(result.back());
         transformation.from_displacement(result.back(), field);
         result.back() -= lift;
+        // Motions are of the size of 1. Those of a body that touches itself are zero at its contact nodes,
+        // and what is left of that by rounding is no energy that anything could be divided by.
+        for (double &x : result.back())
+          if (std::abs(x) < FreedomRule().rounding)
+            x = 0.;
       }
     return result;
   }

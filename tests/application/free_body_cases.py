@@ -6,6 +6,7 @@ import subprocess
 import tempfile
 
 from harness import TOP, certificate, check, near
+from heat_cases import write_grid
 
 SOCKET = '../tests/application/socket.prm'
 # Not the mesh of the socket turned about its axis.
@@ -322,3 +323,51 @@ def lug_by_force(p):
             check(n <= 1.5 * prescribed, f'force {force}: {n} iterations, prescribed displacement {prescribed}')
             near(abs(s['pairs'][0]['force'][0]), force, 1e-8, 'force')
             certificate(s)
+
+
+# A frame with a slit, pressed together: it touches itself.
+CLIP = '''set Bodies = clip
+set Contact pairs = slit
+subsection Body clip
+  set Mesh = clip.msh
+  set Dirichlet = {hold}
+  set Pressures = top: 0.002{more}
+end
+subsection Pair slit
+  set First = clip: upper lip
+  {second}
+end
+'''
+
+
+def write_clip(folder, low):
+    def boundary(centre, normal):
+        if abs(normal[1]) == 1 and abs(centre[1]) == 3:
+            return 'top' if centre[1] > 0 else 'bottom'
+        if abs(normal[1]) == 1 and abs(centre[1]) == .1 and centre[0] > 5:
+            return 'upper lip' if centre[1] > 0 else 'lower lip'
+        return 'back' if normal[0] < 0 and centre[0] == 0 else 'cut' if centre[1] == 0 else 'low' if normal[2] < 0 else 'rest'
+    y = [v for v in [-3, -2.5, -2, -1.4, -.8, -.4, -.1, 0, .1, .4, .8, 1.4, 2, 2.5, 3] if v >= low]
+    write_grid(os.path.join(folder, 'clip.msh'), [0, .5, 1, 2, 3, 4, 5, 5.5, 6], y, [0, .5, 1],
+               lambda c: None if 1 < c[0] < 5 and abs(c[1]) < 2 or c[0] > 5 and abs(c[1]) < .1 else 'clip', boundary)
+
+
+def own_gap(p):
+    """A body that touches itself: as one half of it touches a plane; what nothing holds may fly away, its own contact does not hold it."""
+    with tempfile.TemporaryDirectory() as folder:
+        def solve(low, **text):
+            write_clip(folder, low)
+            path = os.path.join(folder, 'clip.prm')
+            with open(path, 'w') as f:
+                f.write(CLIP.format(**text))
+            return path
+        exact = ['Solver/Tolerance=1e-11']
+        half = p.solve(solve(0, hold='cut: (*, 0, *); low: (*, *, 0)', more='', second='set Obstacle = plane: (0, 0, 0), (0, 1, 0)'), *exact)
+        whole = p.solve(solve(-3, hold='low: (*, *, 0)', more='; bottom: 0.002', second='set Second = clip: lower lip'), *exact)
+        for s in (half, whole):
+            check(s['converged'] and s['certificate']['contact_conditions_hold'], f'{s["certificate"]["objections"]}')
+        print(half["pairs"][0]["load"], whole["pairs"][0]["load"], [c["nonlinear"]["iterations"] for c in whole["cycles"]])
+        near(half['pairs'][0]['load'], whole['pairs'][0]['load'], 1e-6, 'force of the lips')
+        check(half['pairs'][0]['load'] > 0, 'the lips do not touch')
+        run = p.call(solve(-3, hold='low: (*, *, 0)', more='', second='set Second = clip: lower lip'), '--output', os.path.join(folder, 'out'))
+        check(run.returncode != 0 and 'fly away' in run.stderr and 'clip' in run.stderr, f'a clip that is pushed away: {run.returncode}, {run.stderr}')
