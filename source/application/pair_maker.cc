@@ -8,6 +8,7 @@
 #include <signorini/application/journal.h>
 #include <signorini/mesh/surface_extraction.h>
 #include <signorini/mortar/edge_normals.h>
+#include <signorini/mortar/face_claims.h>
 #include <signorini/mortar/face_shares.h>
 #include <signorini/surface/mapping_quality.h>
 
@@ -22,6 +23,12 @@ namespace Signorini
 
   namespace
   {
+    /// What sides differ by at most that are taken for alike, as ratios of the larger number to the smaller.
+    struct AlikeRule
+    {
+      double young = 2., face_area = 2.;
+    };
+
     double average_face_area(const ContactSurface &surface)
     {
       double area = 0.;
@@ -163,6 +170,18 @@ namespace Signorini
 
 
 
+  bool PairMaker::sides_are_alike(const unsigned int p) const
+  {
+    const auto is_alike = [](const double a, const double b, const double ratio) {
+      return std::max(a, b) < ratio * std::min(a, b);
+    };
+    return is_alike(sides[p][0].material.young, sides[p][1].material.young, AlikeRule().young) &&
+           is_alike(average_face_area(sides[p][0].surface), average_face_area(sides[p][1].surface),
+                    AlikeRule().face_area);
+  }
+
+
+
   ContactPair PairMaker::make(const unsigned int p, const bool second_is_nonmortar)
   {
     const PairDefinition &definition = model.pairs()[p].definition;
@@ -223,6 +242,24 @@ namespace Signorini
       area += triangle_area(pair.nonmortar.surface.mesh, t);
     // What is turned counts with a negative area in what is covered.
     return area > 0. ? area / std::max(area, report.area_covered) : 0.;
+  }
+
+
+
+  double PairMaker::cut_share(const ContactPair &pair) const
+  {
+    constexpr double rounding = 1e-6;
+    double           cut = 0., covered = 0.;
+    for (const FaceMoments &m : pair.moments)
+      if (pair.halo->owns_face(m.face) && m.covered > 0. && !is_far(m))
+        {
+          covered += m.covered;
+          if (m.covered < (1. - rounding) * m.area)
+            cut += m.covered;
+        }
+    covered = Utilities::MPI::sum(covered, model.communicator());
+    cut     = Utilities::MPI::sum(cut, model.communicator());
+    return covered > 0. ? cut / covered : 0.;
   }
 
 

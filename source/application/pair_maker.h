@@ -39,6 +39,13 @@ namespace Signorini
     /// beside torn edges; 1 where it covers something twice.
     double wrong_share(const ContactPair &pair) const;
 
+    /// Collective. Of what the pair covers and is not far from, the area of the nonmortar faces that it
+    /// covers only partly: the other surface ends over them.
+    double cut_share(const ContactPair &pair) const;
+
+    /// Whether both sides of a pair are about as soft and as fine as each other.
+    bool sides_are_alike(const unsigned int pair) const;
+
   private:
     void share(ContactPair &pair) const;
 

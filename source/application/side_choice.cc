@@ -57,6 +57,9 @@ namespace Signorini
       /// From this ratio of Young's moduli on, the stiffer side is nonmortar only where the pair would be
       /// refused.
       double much_stiffer = 10.;
+      /// Of the faces that the rim of the other surface cuts, what those of the other side have to be less
+      /// than.
+      double much_less_cut = .1;
     };
 
     /// Of all pairs.
@@ -257,6 +260,29 @@ namespace Signorini
 
 
 
+  void SideChoice::turn_for_rim(const unsigned int p)
+  {
+    const double cut = maker.cut_share(pairs[p]);
+    if (!(cut > 0.) || !maker.sides_are_alike(p))
+      return;
+    const TotalLoss         before(losses());
+    const std::vector<bool> now   = turned;
+    std::vector<bool>       other = turned;
+    other[p]                      = true;
+    turn(other);
+    if (!(maker.cut_share(pairs[p]) < SideRule().much_less_cut * cut) ||
+        maker.wrong_share(pairs[p]) > SideRule().least_share || before.is_less_than(TotalLoss(losses()), 0.))
+      {
+        turn(now);
+        return;
+      }
+    journal.note("pair " + pairs[p].name + ": its sides are swapped, because \"" + pairs[p].nonmortar.name +
+                 "\" ends over \"" + pairs[p].mortar.name + "\"; nonmortar is \"" +
+                 model.bodies().body_name(pairs[p].nonmortar.body) + "\".");
+  }
+
+
+
   void SideChoice::improve()
   {
     const auto time = journal.measure(Phase::mortar);
@@ -277,6 +303,9 @@ namespace Signorini
             journal.note("pair " + pairs[p].name + ": its sides are swapped, because " + now[p].reason +
                          "; nonmortar is \"" + model.bodies().body_name(pairs[p].nonmortar.body) + "\".");
       }
+    for (unsigned int p = 0; p < pairs.size() && is_first; ++p)
+      if (maker.is_open(p) && !turned[p])
+        turn_for_rim(p);
     others.clear();
     for (const ContactPair &pair : pairs)
       if (!pair.obstacle &&

@@ -42,6 +42,10 @@ namespace Signorini
     /// part lies over that of another one. Elsewhere errors are where surfaces turn away from each other, and
     /// the choice matters for other pairs.
     void turn_for_mapping(const unsigned int p);
+    /// Turns it if the mortar surface ends within the nonmortar one, but not the other way round, and the
+    /// sides are alike otherwise: of the faces that the rim of the mortar surface cuts, nodes outside of it
+    /// have a share in the weighted gaps, which then see little of where the bodies are.
+    void turn_for_rim(const unsigned int p);
     /// By pair.
     std::vector<LossOfChoice> losses() const;
     /// Changes to another choice and couples again.

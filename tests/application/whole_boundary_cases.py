@@ -444,3 +444,38 @@ def gear_teeth(p):
             width = 2. * math.sqrt(4. * math.hypot(along, across) / 6. * radius / (math.pi * modulus))
             near(pair['contact_area'], 6. * width, .15, 'contact area')
             check(pair['initial_penetration'] < 1e-3, f'initial penetration {pair["initial_penetration"]}')
+
+
+PUNCH = '''set Bodies        = base, punch
+set Contact pairs = seat
+subsection Body base
+  set Lower corner  = 0, 0, -1
+  set Upper corner  = 2, 2, 0
+  set Divisions     = {fine}, {fine}, 4
+  set Dirichlet     = bottom: (0, 0, 0)
+end
+subsection Body punch
+  set Lower corner  = 0.53, 0.47, 0
+  set Upper corner  = 1.49, 1.53, 1
+  set Divisions     = 3, 3, 3
+  set Young modulus = {young}
+  set Dirichlet     = top: (0, 0, -0.01)
+end
+subsection Pair seat
+  set First  = base: top
+  set Second = punch: bottom
+end
+'''
+
+
+def ending_side(p):
+    """Of two sides that are alike the one that ends over the other is nonmortar; not if it is much coarser, or stiffer."""
+    with tempfile.TemporaryDirectory() as folder:
+        prm = os.path.join(folder, 'punch.prm')
+        for fine, young, is_swapped in ((7, 1, True), (7, 5, False), (16, 1, False)):
+            with open(prm, 'w') as f:
+                f.write(PUNCH.format(fine=fine, young=young))
+            s = p.solve(prm)
+            check(any('ends over' in note for note in s['notes']) == is_swapped, f'{fine}, {young}: {s["notes"]}')
+            check(s['pairs'][0]['nonmortar'] == ('punch' if is_swapped else 'base') + (': bottom' if is_swapped else ': top'), f'nonmortar: {s["pairs"][0]["nonmortar"]}')
+            check(s['converged'] and s['certificate']['contact_conditions_hold'], f'{s["certificate"]["objections"]}')
