@@ -394,7 +394,8 @@ namespace Signorini
     how_to.compare_linear         = parameters.compare_linear && !has_tied_part && !d.pairs.empty();
     foretell_pretension(model, d);
     ContactSolver   solver(model, d, coarser, start, how_to, journal);
-    ContactSolution result = solve_with_pretension(model, solver, d, journal);
+    ContactSolution result = solve_with_locked_pretension(
+        model, solver, d, start != nullptr ? &start->displacement : nullptr, journal);
     if (result.displacement.size() == 0)
       return result;
     if (parameters.measure_sweeps)

@@ -10,6 +10,7 @@
 #include <signorini/mesh/cell_shape.h>
 
 #include <algorithm>
+#include <optional>
 
 namespace Signorini
 {
@@ -19,9 +20,8 @@ namespace Signorini
   {
     struct BoltRule
     {
-      /// Ends of the layer are planes up to this part of its thickness: coordinates in decks are rounded. The
-      /// section force is wrong by a part of this size.
-      double flat = 1e-5;
+      /// Cosine between the direction that is given and the normal of the section.
+      double along = .95;
     };
 
     VolumeMesh::Face face_of(const VolumeMesh::Cell &cell, const unsigned int f)
@@ -61,7 +61,7 @@ namespace Signorini
                 "its surface should be inside of a bolt, a section between elements, not on its boundary.");
         find_normal();
         find_layer();
-        check_ends();
+        check_sides();
       }
 
       /// Makes the layer a volume. Returns its name.
@@ -122,11 +122,6 @@ namespace Signorini
         normal /= normal.norm();
       }
 
-      double height(const unsigned int vertex) const
-      {
-        return axis() * Vector3(mesh.vertices[vertex]);
-      }
-
       /// The elements behind the section that touch it.
       void find_layer()
       {
@@ -150,36 +145,24 @@ namespace Signorini
           refuse("there are no elements behind its surface.");
       }
 
-      /// The force of a section is that of a layer between two planes whose other sides are free.
-      void check_ends() const
+      /// A layer of which other elements of the bolt lie beside the section carries only a part of the force.
+      void check_sides() const
       {
         std::map<VolumeMesh::Face, unsigned int> count;
-        double                                   low = height(mesh.cells[layer[0]].vertices[0]), high = low;
+        std::set<unsigned int>                   on_section;
+        for (const VolumeMesh::Face &face : faces)
+          on_section.insert(face.begin(), face.end());
+        on_section.erase(VolumeMesh::no_vertex);
         for (const unsigned int c : layer)
-          {
-            const VolumeMesh::Cell &cell = mesh.cells[c];
-            for (unsigned int v = 0; v < cell.n_vertices; ++v)
-              {
-                low  = std::min(low, height(cell.vertices[v]));
-                high = std::max(high, height(cell.vertices[v]));
-              }
-            for (unsigned int f = 0; f < CellShape::n_faces(cell.n_vertices); ++f)
-              ++count[face_key(face_of(cell, f))];
-          }
-        const double section = height((*faces.begin())[0]);
-        const double margin  = BoltRule().flat * (high - low);
+          for (unsigned int f = 0; f < CellShape::n_faces(mesh.cells[c].n_vertices); ++f)
+            ++count[face_key(face_of(mesh.cells[c], f))];
         for (const auto &[face, n] : count)
-          {
-            const auto is_at = [&, &corners = face](const double end) {
-              return std::all_of(corners.begin(), corners.end(), [&](const unsigned int v) {
-                return v == VolumeMesh::no_vertex || std::abs(height(v) - end) <= margin;
-              });
-            };
-            if (n == 1 && outer.count(face) == 0 &&
-                (is_at(section) ? faces.count(face) == 0 : !is_at(low) && !is_at(high)))
-              refuse("the elements behind the section should be a layer between two planes across the whole "
-                     "bolt; mesh it in layers there (extruded), or let the surface cross it wholly.");
-          }
+          if (n == 1 && outer.count(face) == 0 && faces.count(face) == 0 &&
+              std::any_of(face.begin(), face.end(),
+                          [&](const unsigned int v) { return on_section.count(v) > 0; }))
+            refuse("its surface should cross the whole bolt.");
+        if (axis() * normal < BoltRule().along)
+          refuse("its direction should be the normal of its surface, out of the elements that name it.");
       }
 
       DeckBody                  &body;
@@ -205,11 +188,33 @@ namespace Signorini
               std::find(condition.nodes.begin(), condition.nodes.end(), bolt.node) != condition.nodes.end())
             model.deck().text().fail(
                 condition.place, "BOUNDARY: the shortening of a PRE-TENSION SECTION cannot be given, only "
-                                 "its force: CLOAD at its node, direction 1.");
+                                 "its force (CLOAD at its node, direction 1), or that it stays (FIXED).");
       for (const auto &[where, force] : history.forces())
         if (where.first == bolt.node && where.second != 0 && !force.is_zero())
           model.deck().text().fail(bolt.place,
                                    "PRE-TENSION SECTION: the force at its node acts in direction 1.");
+    }
+
+    /// After which step a section keeps its shortening; none for never.
+    std::optional<unsigned int> locking_step(const DeckPretension &bolt, const DeckModel &model,
+                                             const DeckHistory &history)
+    {
+      std::optional<unsigned int> last;
+      for (unsigned int k = 0; k < history.n_steps(); ++k)
+        {
+          const bool is_locked = history.step(k).locked_nodes.count(bolt.node) > 0;
+          if (is_locked && k == 0)
+            model.deck().text().fail(
+                bolt.place, "PRE-TENSION SECTION: it is FIXED in the first step that is computed; there "
+                            "should be one before in which its force acts, with conditions in the same "
+                            "directions of the same nodes.");
+          if (last && !is_locked)
+            model.deck().text().fail(bolt.place, "PRE-TENSION SECTION: once FIXED, it should stay so in all "
+                                                 "steps that follow.");
+          if (is_locked && !last)
+            last = k - 1;
+        }
+      return last;
     }
   } // namespace
 
@@ -231,6 +236,9 @@ namespace Signorini
           if (f < 0.)
             model.deck().text().fail(
                 bolt.place, "PRE-TENSION SECTION: the force of its CLOAD is negative; bolts are pulled.");
+        const std::optional<unsigned int> locked = locking_step(bolt, model, history);
+        for (unsigned int k = locked ? *locked + 1 : history.n_steps(); k < history.n_steps(); ++k)
+          forces.back().values[k] = forces.back().values[*locked];
         bool is_anywhere = false;
         for (DeckBody &body : bodies)
           {
@@ -243,6 +251,8 @@ namespace Signorini
             Section           section(body, model, bolt);
             const std::string name = section.make_volume();
             body.loads.pretensions.push_back({name, section.axis(), forces.back().field()});
+            if (locked)
+              body.loads.pretensions.back().locked_after = (*locked + 1.) / history.n_steps();
           }
         if (!is_anywhere)
           model.deck().text().fail(bolt.place, "PRE-TENSION SECTION: its surface belongs to no body.");

@@ -216,7 +216,7 @@ namespace Signorini
 
   void DeckModelReader::read_boundary(const Keyword &keyword, const unsigned int instance)
   {
-    for (const char *const option : {"USER", "SUBMODEL", "FIXED", "BASE MOTION", "BLANKING"})
+    for (const char *const option : {"USER", "SUBMODEL", "BASE MOTION", "BLANKING"})
       if (keyword.has(option))
         model.refuse(keyword.place, "BOUNDARY", std::string(option) + " is not supported.");
     if (const std::string type = deck_upper(keyword.get("TYPE")); !type.empty() && type != "DISPLACEMENT")
@@ -225,9 +225,33 @@ namespace Signorini
       {
         state.boundaries.clear();
         state.rotations.clear();
+        state.locked_nodes.clear();
       }
     for (const DeckLine &line : keyword.lines)
-      add_boundary(keyword, line, instance);
+      if (keyword.has("FIXED"))
+        lock(line, instance);
+      else
+        add_boundary(keyword, line, instance);
+  }
+
+
+
+  void DeckModelReader::lock(const DeckLine &line, const unsigned int instance)
+  {
+    const Words                     words = deck_words(line.text);
+    const std::vector<unsigned int> nodes =
+        words.empty() ? std::vector<unsigned int>() : deck.nodes_of(words[0], line.place, instance);
+    const auto &bolts = model.pretensions();
+    for (const unsigned int node : nodes)
+      if (words.size() < 2 || words[1] != "1" ||
+          std::none_of(bolts.begin(), bolts.end(),
+                       [node](const DeckPretension &bolt) { return bolt.node == node; }))
+        {
+          model.refuse(line.place, "BOUNDARY",
+                       "FIXED is supported in direction 1 of nodes of a PRE-TENSION SECTION only.");
+          return;
+        }
+    state.locked_nodes.insert(nodes.begin(), nodes.end());
   }
 
 

@@ -91,6 +91,8 @@ namespace Signorini
     DeckMaterial &material(const Keyword &keyword);
     /// Directions and values of a line of BOUNDARY; nothing for rotations.
     void add_boundary(const Keyword &keyword, const DeckLine &line, const unsigned int instance);
+    /// FIXED: what stays as it is.
+    void lock(const DeckLine &line, const unsigned int instance);
     void add_volume_load(const Keyword &keyword, const DeckLine &line, const Words &words,
                          const unsigned int instance);
     /// Adds in the same step, replaces that of an earlier one.

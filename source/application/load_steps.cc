@@ -198,6 +198,9 @@ namespace Signorini
       void set_time(const double time)
       {
         model.set_time(time);
+        for (std::size_t i = 0; i < tightened.size(); ++i)
+          if (tightened[i].is_locked(time))
+            model.pretensions()[i].strain = tightened[i].strain;
         const Discretization &full = *last.discretization;
         discretization             = std::make_unique<const Discretization>(
             full, std::make_shared<const ConstrainedSpace>(*full.constrained, model));

@@ -9,7 +9,7 @@
 
 #include <Eigen/LU>
 
-#include <sstream>
+#include <set>
 
 namespace Signorini
 {
@@ -28,20 +28,36 @@ namespace Signorini
 
     double wanted_force(const ContactModel &model, const Pretension &bolt)
     {
-      return bolt.force(Point<3>(), model.loads().time);
+      return bolt.force(Point<3>(), std::min(model.loads().time, bolt.locked_after));
     }
 
     /// By how much the strains of all bolts have to change, times their stiffnesses E A (forces).
-    /// @param missing forces
-    Eigen::VectorXd secant_step(const std::vector<Pretension> &bolts, const Eigen::VectorXd &missing)
+    /// @param missing forces; zero for bolts that are locked
+    Eigen::VectorXd secant_step(const ContactModel &model, const Eigen::VectorXd &missing)
     {
-      const auto      n = static_cast<Eigen::Index>(bolts.size());
+      const auto               &bolts = model.loads().pretensions;
+      std::vector<Eigen::Index> open;
+      for (std::size_t i = 0; i < bolts.size(); ++i)
+        if (!bolts[i].is_locked(model.loads().time))
+          open.push_back(static_cast<Eigen::Index>(i));
+      const auto      n = static_cast<Eigen::Index>(open.size());
       Eigen::MatrixXd slopes(n, n);
+      Eigen::VectorXd forces(n);
       for (Eigen::Index i = 0; i < n; ++i)
-        for (Eigen::Index j = 0; j < n; ++j)
-          slopes(i, j) = bolts[i].slopes[j];
+        {
+          forces[i] = missing[open[i]];
+          for (Eigen::Index j = 0; j < n; ++j)
+            slopes(i, j) = bolts[open[i]].slopes[open[j]];
+        }
       const Eigen::FullPivLU<Eigen::MatrixXd> inverse(slopes);
-      return inverse.isInvertible() ? Eigen::VectorXd(inverse.solve(missing)) : missing;
+      Eigen::VectorXd                         step = missing;
+      if (inverse.isInvertible())
+        {
+          const Eigen::VectorXd of_open = inverse.solve(forces);
+          for (Eigen::Index i = 0; i < n; ++i)
+            step[open[i]] = of_open[i];
+        }
+      return step;
     }
 
     /// Broyden's: the matrix next to the old one that explains what the last step did.
@@ -84,6 +100,11 @@ namespace Signorini
           largest = std::max(largest, wanted_force(model, bolt));
         for (std::size_t i = 0; i < bolts.size(); ++i)
           {
+            if (bolts[i].is_locked(model.loads().time))
+              {
+                forces[i] = 0.;
+                continue;
+              }
             const double wanted = wanted_force(model, bolts[i]);
             forces[i]           = wanted - present[i];
             // Bolts that should be loose are compared with the others.
@@ -101,9 +122,17 @@ namespace Signorini
       for (std::size_t i = 0; i < shanks.size(); ++i)
         {
           const Pretension &bolt = model.loads().pretensions[i];
-          results.push_back({model.bodies().body_name(bolt.body), bolt.name, wanted_force(model, bolt),
-                             forces[i], bolt.strain, shanks[i].length(), bolt.strain * shanks[i].length(),
-                             iterations});
+          results.push_back({model.bodies().body_name(bolt.body),
+                             bolt.name,
+                             wanted_force(model, bolt),
+                             forces[i],
+                             bolt.strain,
+                             shanks[i].length(),
+                             bolt.strain * shanks[i].length(),
+                             iterations,
+                             {}});
+          if (bolt.is_locked(model.loads().time))
+            results.back().locked_after = bolt.locked_after;
         }
       return results;
     }
@@ -124,14 +153,14 @@ namespace Signorini
         if (!(wanted >= 0.))
           throw InputError(bolts[i].where + ": the force " + std::to_string(wanted) +
                            " is negative; a bolt is under tension.");
-        missing[i] = wanted - bolts[i].reached;
+        missing[i] = bolts[i].is_locked(model.loads().time) ? 0. : wanted - bolts[i].reached;
         if (bolts[i].slopes.empty())
           {
             bolts[i].slopes.assign(bolts.size(), 0.);
             bolts[i].slopes[i] = 1.;
           }
       }
-    const Eigen::VectorXd step = secant_step(bolts, missing);
+    const Eigen::VectorXd step = secant_step(model, missing);
     for (std::size_t i = 0; i < bolts.size(); ++i)
       bolts[i].strain += step[i] / shanks[i].stiffness();
   }
@@ -153,7 +182,7 @@ namespace Signorini
     Missing                   missing(model, forces);
     while (solution.report.converged && !missing.is_small && iterations.size() < rule.solutions)
       {
-        const Eigen::VectorXd step = secant_step(bolts, missing.forces);
+        const Eigen::VectorXd step = secant_step(model, missing.forces);
         for (std::size_t i = 0; i < bolts.size(); ++i)
           bolts[i].strain += step[i] / shanks[i].stiffness();
         // What the last step did to the displacement, this one will do in proportion.
@@ -178,7 +207,8 @@ namespace Signorini
         missing = Missing(model, forces);
       }
     for (std::size_t i = 0; i < bolts.size(); ++i)
-      bolts[i].reached = forces[i];
+      if (!bolts[i].is_locked(model.loads().time))
+        bolts[i].reached = forces[i];
     if (solution.report.converged && !missing.is_small)
       {
         solution.report.converged = false;
@@ -187,5 +217,68 @@ namespace Signorini
       }
     solution.pretensions = results_of(model, shanks, forces, iterations);
     return solution;
+  }
+
+
+
+  namespace
+  {
+    /// Those before the present one after which bolts are locked.
+    std::set<double> lock_times(const ContactModel &model)
+    {
+      std::set<double> times;
+      for (const Pretension &bolt : model.loads().pretensions)
+        if (bolt.is_locked(model.loads().time))
+          times.insert(bolt.locked_after);
+      return times;
+    }
+  } // namespace
+
+
+
+  ContactSolution solve_with_locked_pretension(ContactModel &model, ContactSolver &solver,
+                                               const Discretization &d, const Vector *const start,
+                                               Journal &journal)
+  {
+    const double                           now = model.loads().time;
+    std::vector<std::vector<unsigned int>> iterations(model.loads().pretensions.size());
+    Vector                                 displacement;
+    d.partition().reinit(displacement);
+    if (start != nullptr)
+      displacement = *start;
+    displacement.update_ghost_values();
+    const std::set<double> times = lock_times(model);
+    for (const Pretension &bolt : model.loads().pretensions)
+      if (bolt.locked_after < std::numeric_limits<double>::max() && !bolt.is_locked(now))
+        journal.note(bolt.where +
+                     ": it is not locked, as all ends at t = " + Patterns::Tools::to_string(now) + ".");
+    for (const double time : times)
+      {
+        model.set_time(time);
+        const Discretization there(d, std::make_shared<const ConstrainedSpace>(*d.constrained, model));
+        foretell_pretension(model, there);
+        solver.change_loads(there, displacement);
+        ContactSolution solution = solve_with_pretension(model, solver, there, journal);
+        if (!solution.report.converged || !solution.drifting.empty())
+          {
+            model.set_time(now);
+            return solution;
+          }
+        for (std::size_t i = 0; i < iterations.size(); ++i)
+          if (model.loads().pretensions[i].locked_after == time)
+            iterations[i] = solution.pretensions[i].iterations;
+        displacement = solution.displacement;
+      }
+    if (!times.empty())
+      {
+        model.set_time(now);
+        foretell_pretension(model, d);
+        solver.change_loads(d, displacement);
+      }
+    ContactSolution result = solve_with_pretension(model, solver, d, journal);
+    for (std::size_t i = 0; i < result.pretensions.size(); ++i)
+      if (!iterations[i].empty())
+        result.pretensions[i].iterations = iterations[i];
+    return result;
   }
 } // namespace Signorini

@@ -98,7 +98,7 @@ namespace Signorini
   template <typename Archive>
   void transfer(Archive &a, PretensionResult &r)
   {
-    a(r.body, r.name, r.wanted, r.force, r.strain, r.length, r.shortening, r.iterations);
+    a(r.body, r.name, r.wanted, r.force, r.strain, r.length, r.shortening, r.iterations, r.locked_after);
   }
 
   template <typename Archive>

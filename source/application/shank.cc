@@ -21,7 +21,7 @@ namespace Signorini
     {
       /// Where other cells of the body lie behind those of a shank, the cosine between normal and axis from
       /// which on the normal tells which end that is. Elsewhere, beside the spikes that ends have among
-      /// tetrahedra, the nearer one is meant.
+      /// tetrahedra, it is the nearer one.
       double facing = .5;
     };
 
@@ -94,67 +94,117 @@ namespace Signorini
 
 
 
-  double Shank::ramp_of(const double linear, const Vector3 &normal, const Vector3 &axis)
+  // By owned node: what lies around it, and what tells the ends.
+  struct Shank::Nodes
   {
-    const double along = normal * axis;
-    return (std::abs(along) < ShankRule().facing * normal.norm() ? linear > .5 : along > 0.) ? 1. : 0.;
-  }
+    /// Of each node the sum of the normals of the shank times area, pointing outward (zero within); how many
+    /// cells of the shank there are, and how many others.
+    Vector normals, around;
+    /// The extent along the axis.
+    double low = std::numeric_limits<double>::max(), high = -std::numeric_limits<double>::max();
+
+    Nodes(const Discretization &d, const Pretension &bolt)
+    {
+      const NodePartition &partition = d.partition();
+      partition.reinit(normals);
+      partition.reinit(around);
+      for (const NodalSpace::Cell &cell : d.nodal().cells())
+        if (cell.is_owned)
+          add(cell, d, bolt);
+      normals.compress(VectorOperation::add);
+      around.compress(VectorOperation::add);
+      low  = Utilities::MPI::min(low, partition.communicator());
+      high = Utilities::MPI::max(high, partition.communicator());
+    }
+
+    void add(const NodalSpace::Cell &cell, const Discretization &d, const Pretension &bolt)
+    {
+      const bool                                   is_part = is_in(bolt, d.nodal(), cell);
+      const auto                                   nodes   = d.nodal().nodes(cell);
+      const Element                                element(d.nodal(), cell);
+      std::array<Vector3, CellShape::max_vertices> area;
+      if (is_part)
+        integrate(element, [&](const double weight, const auto &gradients, const auto &) {
+          for (unsigned int v = 0; v < cell.n_vertices; ++v)
+            area[v] += weight * gradients[v];
+        });
+      for (unsigned int v = 0; v < cell.n_vertices; ++v)
+        {
+          const unsigned int i = d.partition().to_local(nodes[v]);
+          around.local_element(dim * i + (is_part ? 0 : 1)) += 1.;
+          for (unsigned int c = 0; c < dim; ++c)
+            normals.local_element(dim * i + c) += area[v][c];
+          if (is_part)
+            {
+              low  = std::min(low, bolt.axis * Vector3(element.corner(v)));
+              high = std::max(high, bolt.axis * Vector3(element.corner(v)));
+            }
+        }
+    }
+
+    bool is_within(const unsigned int i) const
+    {
+      return !(around.local_element(dim * i + 1) > 0.);
+    }
+
+    /// Whether the shank ends at a node, and which end that is as far as the normal tells: 1, -1, or 0.
+    int faces(const unsigned int i, const Vector3 &axis) const
+    {
+      if (is_within(i) || !(around.local_element(dim * i) > 0.))
+        return 0;
+      const Vector3 normal = nodal_value(normals, i);
+      const double  along  = normal * axis;
+      return std::abs(along) < ShankRule().facing * normal.norm() ? 0 : along > 0. ? 1 : -1;
+    }
+  };
 
 
 
   Vector Shank::find_ramp() const
   {
-    const NodalSpace    &space     = d.nodal();
     const NodePartition &partition = d.partition();
     const Vector3       &axis      = bolt().axis;
-    // Of each node at first the sum of the normals of the shank times area, pointing outward; in `around`,
-    // how many cells of the shank there are, and how many others.
-    Vector ramp, around;
+    const Nodes          nodes(d, bolt());
+    const auto           height = [&](const unsigned int i) {
+      return (axis * Vector3(d.nodal().position(partition.to_global(i))) - nodes.low) /
+             (nodes.high - nodes.low);
+    };
+    // Up to where the lower end comes, and down to where the upper one does.
+    double ends[2] = {0., 1.};
+    for (unsigned int i = 0; i < partition.n_owned(); ++i)
+      if (const int end = nodes.faces(i, axis); end < 0)
+        ends[0] = std::max(ends[0], height(i));
+      else if (end > 0)
+        ends[1] = std::min(ends[1], height(i));
+    const double middle = .5 * (Utilities::MPI::max(ends[0], partition.communicator()) +
+                                Utilities::MPI::min(ends[1], partition.communicator()));
+    Vector       ramp;
     partition.reinit(ramp);
-    partition.reinit(around);
-    double low = std::numeric_limits<double>::max(), high = -std::numeric_limits<double>::max();
-    for (const NodalSpace::Cell &cell : space.cells())
-      if (cell.is_owned)
-        {
-          const bool is_part = is_in(bolt(), space, cell);
-          for (const NodeIndex node : space.nodes(cell))
-            around.local_element(dim * partition.to_local(node) + (is_part ? 0 : 1)) += 1.;
-          if (is_part)
-            integrate(Element(space, cell), [&](const double weight, const auto &gradients, const auto &) {
-              for (unsigned int v = 0; v < cell.n_vertices; ++v)
-                for (unsigned int c = 0; c < dim; ++c)
-                  ramp.local_element(dim * partition.to_local(space.nodes(cell)[v]) + c) +=
-                      weight * gradients[v][c];
-            });
-          for (const NodeIndex node : space.nodes(cell))
-            if (is_part)
-              {
-                low  = std::min(low, axis * Vector3(space.position(node)));
-                high = std::max(high, axis * Vector3(space.position(node)));
-              }
-        }
-    ramp.compress(VectorOperation::add);
-    around.compress(VectorOperation::add);
-    low  = Utilities::MPI::min(low, model.communicator());
-    high = Utilities::MPI::max(high, model.communicator());
     for (unsigned int i = 0; i < partition.n_owned(); ++i)
       {
-        const double linear  = (axis * Vector3(space.position(partition.to_global(i))) - low) / (high - low);
-        const bool   is_part = around.local_element(dim * i) > 0.,
-                   is_other  = around.local_element(dim * i + 1) > 0.;
-        ramp.local_element(dim * i) =
-            !is_other ? linear : ramp_of(linear, is_part ? nodal_value(ramp, i) : Vector3(), axis);
+        const int end               = nodes.faces(i, axis);
+        ramp.local_element(dim * i) = nodes.is_within(i) ? height(i)
+                                      : end != 0         ? (end > 0 ? 1. : 0.)
+                                                         : (height(i) > middle ? 1. : 0.);
       }
+    interpolate_hanging_nodes(ramp);
+    return ramp;
+  }
+
+
+
+  void Shank::interpolate_hanging_nodes(Vector &ramp) const
+  {
+    const auto place = [this](const NodeIndex node) { return dim * d.partition().to_local(node); };
     ramp.update_ghost_values();
-    for (const NodeIndex node : space.owned())
-      if (const auto *const parents = space.hanging_nodes().get_constraint_entries(node))
+    for (const NodeIndex node : d.nodal().owned())
+      if (const auto *const parents = d.nodal().hanging_nodes().get_constraint_entries(node))
         {
           double mean = 0.;
           for (const auto &[parent, weight] : *parents)
-            mean += weight * ramp.local_element(dim * partition.to_local(parent));
-          ramp.local_element(dim * partition.to_local(node)) = mean;
+            mean += weight * ramp.local_element(place(parent));
+          ramp.local_element(place(node)) = mean;
         }
     ramp.update_ghost_values();
-    return ramp;
   }
 } // namespace Signorini

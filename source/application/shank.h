@@ -49,9 +49,11 @@ namespace Signorini
       return model.loads().pretensions[number];
     }
 
-    /// The ramp at all nodes that this rank sees, in the first component.
-    Vector        find_ramp() const;
-    static double ramp_of(const double linear, const Vector3 &normal, const Vector3 &axis);
+    struct Nodes;
+
+    /// Collective. The ramp at all nodes that this rank sees, in the first component.
+    Vector find_ramp() const;
+    void   interpolate_hanging_nodes(Vector &ramp) const;
 
     const ContactModel   &model;
     const Discretization &d;

@@ -70,8 +70,11 @@ namespace Signorini
             result.force = Expression(value, where);
           else if (word == "region")
             result.region = Expression(value, where);
+          else if (word == "locked" && value.compare(0, 6, "after ") == 0)
+            result.locked_after = parse_number(Utilities::trim(value.substr(6)), where);
           else
-            throw InputError(where + ": \"" + piece + "\" should begin with axis, force or region.");
+            throw InputError(where + ": \"" + piece +
+                             "\" should begin with axis, force, region or locked after.");
         }
       if (seen.count("axis") == 0 || seen.count("force") == 0)
         throw InputError(where + ": \"" + text + "\" should read \"axis (x, y, z), force F\".");
@@ -157,10 +160,12 @@ namespace Signorini
           throw InputError(where + ": the axis must not be zero.");
         if (!bolt.force)
           throw InputError(where + ": there is no force.");
+        if (!(bolt.locked_after > 0.))
+          throw InputError(where + ": the time after which it is locked should be positive.");
         const bool has_region = static_cast<bool>(bolt.region);
         pretensions.push_back({where, body, bolt.name,
                                bodies.material_ids(body, has_region ? "" : bolt.name, where), bolt.region,
-                               bolt.axis / bolt.axis.norm(), bolt.force});
+                               bolt.axis / bolt.axis.norm(), bolt.force, bolt.locked_after});
       }
   }
 

@@ -67,7 +67,10 @@ namespace Signorini
         "Bolts: \"volume: axis (x, y, z), force F; ...\". The strain of the volume (the shank between its "
         "ends) along the axis is found such that its section carries the force F (an expression in t). "
         "Without such a volume in the mesh \"name: axis (x, y, z), force F, region f(x,y,z)\" takes the "
-        "cells at whose centres f is positive.");
+        "cells at whose centres f is positive. With \", locked after t\" the strain that gives the force "
+        "under "
+        "the loads at the pseudo-time t is kept from there on: a bolt is tightened, and then the joint is "
+        "loaded (by what depends on t, like max(0, 2*t-1), which is 0 up to t = 0.5 and 1 in the end).");
   }
 
 

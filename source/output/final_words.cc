@@ -84,8 +84,11 @@ namespace Signorini
     void print_pretension(std::ostream &out, const PretensionResult &bolt)
     {
       out << "pretension " << bolt.body << ": " << bolt.name << ": section force " << bolt.force
-          << " (wanted " << bolt.wanted << "), shortening " << bolt.shortening << " = strain " << bolt.strain
-          << " times length " << bolt.length << "; solved " << bolt.iterations.size() << " times, iterations";
+          << " (wanted " << bolt.wanted;
+      if (bolt.locked_after)
+        out << " at t = " << *bolt.locked_after << ", locked since";
+      out << "), shortening " << bolt.shortening << " = strain " << bolt.strain << " times length "
+          << bolt.length << "; solved " << bolt.iterations.size() << " times, iterations";
       for (std::size_t i = 0; i < bolt.iterations.size(); ++i)
         out << (i > 0 ? ", " : " ") << bolt.iterations[i];
       out << '\n';

@@ -237,6 +237,8 @@ namespace Signorini
       json.text("body", bolt.body);
       json.text("name", bolt.name);
       json.number("wanted", bolt.wanted);
+      if (bolt.locked_after)
+        json.number("locked_after", *bolt.locked_after);
       json.number("force", bolt.force);
       json.number("strain", bolt.strain);
       json.number("length", bolt.length);

@@ -660,7 +660,7 @@ class Bolt:
     """A quarter of a bolt whose shank is held below and whose head presses a plate around it; section at z = 3."""
 
     def __init__(self, kind='C3D8', n=1):
-        self.kind, self.n, self.nodes, self.elements = kind, n, {}, {'BOLT': {}, 'PLATE': {}}
+        self.kind, self.n, self.nodes, self.elements, self.lift = kind, n, {}, {'BOLT': {}, 'PLATE': {}}, {}
         shank = [(i, j, k) for i in range(n) for j in range(n) for k in range(6)]
         ring = [(i, j) for i in range(3 * n) for j in range(3 * n) if i >= n or j >= n]
         self.add('BOLT', shank + [(i, j, 6) for i in range(3 * n) for j in range(3 * n)])
@@ -689,7 +689,7 @@ class Bolt:
         return result
 
     def text(self, load='*CLOAD\n90000, 1, 3.\n', section='*PRE-TENSION SECTION, SURFACE=CUT, NODE=90000\n0., 0., 1.\n', step=''):
-        text = '*NODE\n' + ''.join(f'{label}, {.5 * c[0] / self.n:.12g}, {.5 * c[1] / self.n:.12g}, {c[2]}.\n' for (_, c), label in self.nodes.items())
+        text = '*NODE\n' + ''.join(f'{label}, {.5 * c[0] / self.n:.12g}, {.5 * c[1] / self.n:.12g}, {c[2] + self.lift.get(c, 0.):.12g}\n' for (_, c), label in self.nodes.items())
         text += '90000, 0., 0., 9.\n'
         for body, elements in self.elements.items():
             text += f'*ELEMENT, TYPE={self.kind}, ELSET={body}\n' + ''.join(', '.join(map(str, [label] + nodes)) + '\n' for label, nodes in elements.items())
@@ -729,6 +729,25 @@ def deck_bolt(d):
     with open(os.path.join(d.folder, f'out{d.n}', 'curve.csv')) as f:
         for row, expected in zip(csv.DictReader(f), (1., 2.5)):
             near(float(row['HEAD-TOP: load']), expected, 1e-6, 'force of the joint in a step')
+    # The elements behind the section need not be a layer between planes.
+    for kind in ('C3D8', 'C3D4'):
+        rugged = Bolt(kind, n=2)
+        rugged.lift = {(0, 0, 4): .3, (1, 1, 4): -.4, (2, 0, 4): .2, (1, 2, 4): .35, (0, 1, 4): -.2}
+        same(rugged.text())
+    # Tightened and locked, and then the head is pulled: as with the force that the section has in the end.
+    pulled = '*CLOAD\n{}, 3, 2.\n'.format(bolt.nodes['BOLT', (0, 0, 7)])
+    locked = '*STEP\n*STATIC\n*BOUNDARY, FIXED\n90000, 1, 1\n'
+    s, _ = d.solve(bolt.text(step=locked + pulled + '*END STEP\n'))
+    section, joint = s['pretension'][0], s['pairs'][0]['load']
+    print('locked:', section, 'joint', joint)
+    near(section['wanted'], 3., 1e-12, 'force of tightening')
+    near(section['force'], joint + 2., 1e-6, 'balance of the head')
+    check(3.1 < section['force'] < 4.9 and section['locked_after'] == .5, f'locked: {section}')
+    s, _ = d.solve(bolt.text(f'*CLOAD\n90000, 1, {section["force"]:.15g}\n' + pulled))
+    near(s['pairs'][0]['load'], joint, 1e-6, 'force of the joint, not locked')
+    near(s['pretension'][0]['strain'], section['strain'], 1e-6, 'strain, not locked')
+    d.refuses(bolt.text('*BOUNDARY, FIXED\n90000, 1, 1\n'), '.inp, line ', 'FIXED in the first step')
+    d.refuses(bolt.text(step=locked + '*END STEP\n*STEP\n*STATIC\n*BOUNDARY, OP=NEW\nX0, 1, 1\nY0, 2, 2\nZ0, 3, 3\n*END STEP\n'), '.inp, line ', 'stay so')
     # What is refused.
     held = '*BOUNDARY\n90000, 1, 1, 0.01\n'
     section = '*PRE-TENSION SECTION, SURFACE=CUT, NODE=90000\n'
@@ -736,11 +755,11 @@ def deck_bolt(d):
                                ('90000, 1, 3.', '90000, 1, -3.', ['negative']), ('90000, 1, 3.', '90000, 3, 3.', ['direction 1']),
                                ('SURFACE=CUT', 'SURFACE=TOP', ['inside of a bolt']), (section, section.replace('90000', '1'), ['belongs to no element']),
                                (section, section.replace('SURFACE=CUT', 'ELEMENT=1'), ['between solid elements']),
-                               (section + '0., 0., 1.', section + '1., 0., 1.', ['layer between two planes'])):
+                               (section + '0., 0., 1.', section + '1., 0., 1.', ['normal of its surface'])):
         check(where in text, f'{words}: nothing was changed')
         d.refuses(text.replace(where, what), '.inp, line ', *words)
     fine = Bolt(n=2)
     cut = fine.text()
     d.refuses(cut.replace(surface('CUT', fine.sides('BOLT', 3, True)), surface('CUT', fine.sides('BOLT', 3, True)[:1])),
-              '.inp, line ', 'layer between two planes')
+              '.inp, line ', 'cross the whole bolt')
     same(cut)

@@ -297,6 +297,44 @@ def pretension(p):
                 near(pair['load'], 500, 1e-6, f'{settings}: force of {pair["name"]}')
 
 
+def locked_pretension(p):
+    """A bolt is tightened and locked, then the plate is pulled: with or without load steps as with the force that the section has in the end."""
+    with tempfile.TemporaryDirectory() as folder:
+        write_bolt(folder)
+        prm = os.path.join(folder, 'bolt.prm')
+        with open(prm, 'w') as f:
+            f.write(BOLT)
+        loose = [f'Pair {pair}/Contact=unilateral' for pair in ('head', 'nut')]
+        pulled = [*loose, 'Body upper/Forces=side: (0, 0, 300*max(0, 2*t-1))']
+        lock = lambda force: [f'Body bolt/Pretension=shank: axis (0, 0, 1), force {force}, locked after 0.5']
+        runs = []
+        for settings in ([], ['Load steps=2'], ['Load steps=0.3, 0.5, 0.8, 1'], ['Refinement/Global cycles=0', 'Refinement/Adaptive cycles=1', 'Refinement/Marking fraction=1']):
+            out = os.path.join(folder, f'out{len(runs)}')
+            s = p.solve(prm, *pulled, *lock(500), *settings, keep=out)
+            certificate(s)
+            bolt, joint = s['pretension'][0], s['pairs'][0]['load']
+            print(settings, bolt, 'joint', joint)
+            check(bolt['wanted'] == 500 and bolt['locked_after'] == .5, f'{settings}: {bolt}')
+            near(bolt['force'], joint + 300, 1e-6, f'{settings}: balance')
+            check(505 < bolt['force'] < 795, f'{settings}: {bolt}')
+            if len(settings) == 1:
+                with open(os.path.join(out, 'curve.csv')) as f:
+                    for row in csv.DictReader(f):
+                        t, force = float(row['t']), float(row['bolt: shank: section force'])
+                        near(force, float(row['joint: load']) + 300 * max(0, 2 * t - 1), 1e-6, f't = {t}: balance')
+                        check((abs(force - 500) < 1e-3) == (t <= .5), f't = {t}: {force}')
+            runs.append((bolt['force'], bolt['strain']))
+        for force, strain in runs[1:]:
+            near(force, runs[0][0], 1e-6, 'section force, other load steps or cycles')
+            near(strain, runs[0][1], 1e-6, 'strain, other load steps or cycles')
+        s = p.solve(prm, *pulled, f'Body bolt/Pretension=shank: axis (0, 0, 1), force {runs[0][0]!r}')
+        near(s['pretension'][0]['strain'], runs[0][1], 1e-6, 'strain, not locked')
+        s = p.solve(prm, 'Body bolt/Pretension=shank: axis (0, 0, 1), force 500, locked after 1', 'Refinement/Global cycles=0')
+        check(any('it is not locked' in note for note in s['notes']) and 'locked_after' not in s['pretension'][0], f'{s["notes"]}')
+        run = p.call(prm, '--output', os.path.join(folder, 'out'), '--set', 'Body bolt/Pretension=shank: axis (0, 0, 1), force 500, locked at 0.5')
+        check(run.returncode != 0 and 'locked after' in run.stderr, f'{run.returncode}, {run.stderr}')
+
+
 # Two blocks, held together by straps that are glued to their ends, the middle of which is shortened.
 STRAPS = '''set Bodies = left, right, upper, lower
 set Contact pairs = joint, lu, ll, ru, rl

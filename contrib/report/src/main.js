@@ -59,7 +59,7 @@ function problem(run, s) {
 function forces(s, {units}) {
   const f = inUnit(units.force), m = units.force && units.length ? ` [${units.force} ${units.length}]` : '';
   const l = inUnit(units.length), a = units.length ? ` [${units.length}²]` : '', p = inUnit(units.stress);
-  const bolts = s.pretension || [];
+  const bolts = s.pretension || [], isLocked = bolts.some(b => b.locked_after !== undefined);
   return section('forces', 'Forces',
     h('h3', {}, 'What acts on the bodies'),
     table(['body', `loads${f}`, `reactions${f}`, `contact${f}`, `moment of the loads${m}`], s.bodies.map((b, i) => [b.name, ...['load', 'reaction', 'contact_force', 'load_moment'].map(key => number(s, `bodies.${i}.${key}`))])),
@@ -74,7 +74,7 @@ function forces(s, {units}) {
     table(['body', `displacement${l}`, `where${l}`, `von Mises stress${p}`, `where${l}`, 'rotation [rad]', 'strain', 'estimated error of stresses'], s.bodies.map((b, i) => [b.name,
       ...['largest_displacement', 'largest_displacement_at', 'largest_von_mises', 'largest_von_mises_at', 'largest_rotation', 'largest_strain', 'stress_error'].map(key => number(s, `bodies.${i}.${key}`))])),
     bolts.length > 0 && h('h3', {}, 'Bolts'),
-    bolts.length > 0 && table(['bolt', `wanted${f}`, `force${f}`, `shortening${l}`, 'strain'], bolts.map((b, i) => [`${b.body}: ${b.name}`, ...['wanted', 'force', 'shortening', 'strain'].map(key => number(s, `pretension.${i}.${key}`))])),
+    bolts.length > 0 && table(['bolt', `wanted${f}`, `force${f}`, `shortening${l}`, 'strain', ...isLocked ? ['locked after t'] : []], bolts.map((b, i) => [`${b.body}: ${b.name}`, ...['wanted', 'force', 'shortening', 'strain', ...isLocked ? ['locked_after'] : []].map(key => number(s, `pretension.${i}.${key}`))])),
     s.probes.length > 0 && h('h3', {}, 'Probes'),
     s.probes.length > 0 && table(['probe', `at${l}`, `displacement${l}`], s.probes.map((b, i) => [b.name, number(s, `probes.${i}.point`), number(s, `probes.${i}.displacement`)])));
 }

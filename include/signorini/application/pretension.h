@@ -30,6 +30,15 @@ namespace Signorini
   /// @param solver of the model, set up or changed after foretell_pretension()
   ContactSolution solve_with_pretension(ContactModel &model, ContactSolver &solver,
                                         const Discretization &discretization, Journal &journal);
+
+  /// Collective. The same where some bolts are locked before the present time: first their strains are found,
+  /// one time after the other, with the conditions and loads of those. What a bolt is locked with depends on
+  /// no load step, as nothing depends on its history.
+  /// @param start a displacement to begin with; null for none
+  /// @return the solution of an earlier time where that has failed
+  ContactSolution solve_with_locked_pretension(ContactModel &model, ContactSolver &solver,
+                                               const Discretization &discretization, const Vector *start,
+                                               Journal &journal);
 } // namespace Signorini
 
 #endif

@@ -12,6 +12,7 @@
 #include <signorini/mesh/nodal_space.h>
 
 #include <array>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -86,10 +87,18 @@ namespace Signorini
     /// A unit vector.
     Vector3     axis;
     ScalarField force;
+    /// As in LoadDefinition::Pretension.
+    double locked_after = std::numeric_limits<double>::max();
     /// The shortening per length without stress; the section force with it, and by how much that grows with
     /// the strains of all of them (force; empty before the first solution).
     double              strain = 0., reached = 0.;
     std::vector<double> slopes = {};
+
+    /// Whether its strain is no longer sought at a pseudo-time.
+    bool is_locked(const double time) const
+    {
+      return time > locked_after;
+    }
   };
 
   /// All conditions and loads of all bodies.

@@ -10,6 +10,7 @@
 #include <deal.II/base/parameter_handler.h>
 
 #include <array>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -91,6 +92,9 @@ namespace Signorini
       ScalarField force;
       /// Positive at the centres of its cells; empty for the volume.
       ScalarField region = ScalarField();
+      /// The pseudo-time after which the strain that was found at it stays as it is, whatever the section
+      /// carries then.
+      double locked_after = std::numeric_limits<double>::max();
     };
 
     /// Where conditions overlap, the later one counts.

@@ -15,6 +15,7 @@
 #include <deal.II/base/point.h>
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -222,6 +223,8 @@ namespace Signorini
     double strain = 0., length = 0., shortening = 0.;
     /// Of each of the solutions by which the strain was found on the last mesh.
     std::vector<unsigned int> iterations;
+    /// The pseudo-time at which the strain was found that is kept; none where it is sought.
+    std::optional<double> locked_after;
   };
 
   /// One load step.
