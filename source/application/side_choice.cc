@@ -263,7 +263,7 @@ namespace Signorini
   void SideChoice::turn_for_rim(const unsigned int p)
   {
     const double cut = maker.cut_share(pairs[p]);
-    if (!(cut > 0.) || !maker.sides_are_alike(p))
+    if (!(cut > 0.) || !maker.sides_are_alike(p) || has_sharp_edges(pairs[p]))
       return;
     const TotalLoss         before(losses());
     const std::vector<bool> now   = turned;

@@ -44,7 +44,8 @@ namespace Signorini
     void turn_for_mapping(const unsigned int p);
     /// Turns it if the mortar surface ends within the nonmortar one, but not the other way round, and the
     /// sides are alike otherwise: of the faces that the rim of the mortar surface cuts, nodes outside of it
-    /// have a share in the weighted gaps, which then see little of where the bodies are.
+    /// have a share in the weighted gaps, which then see little of where the bodies are. Not where surfaces
+    /// have sharp edges: which side is better there is a matter of the mapping.
     void turn_for_rim(const unsigned int p);
     /// By pair.
     std::vector<LossOfChoice> losses() const;
