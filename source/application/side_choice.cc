@@ -7,6 +7,7 @@
 #include <signorini/mesh/facing_parts.h>
 #include <signorini/mortar/face_claims.h>
 #include <signorini/mortar/pair_conflicts.h>
+#include <signorini/output/final_words.h>
 
 #include <algorithm>
 #include <cmath>
@@ -57,8 +58,10 @@ namespace Signorini
       /// From this ratio of Young's moduli on, the stiffer side is nonmortar only where the pair would be
       /// refused.
       double much_stiffer = 10.;
-      /// Of the faces that the rim of the other surface cuts, what those of the other side have to be less
-      /// than.
+      /// Of what a pair covers, faces that the rim of the other surface cuts: less than this is no reason to
+      /// swap sides.
+      double least_cut = .25;
+      /// Of that, what faces of the other side are cut has to be less than.
       double much_less_cut = .1;
     };
 
@@ -263,7 +266,7 @@ namespace Signorini
   void SideChoice::turn_for_rim(const unsigned int p)
   {
     const double cut = maker.cut_share(pairs[p]);
-    if (!(cut > 0.) || !maker.sides_are_alike(p) || has_sharp_edges(pairs[p]))
+    if (cut < SideRule().least_cut || !maker.sides_are_alike(p) || has_sharp_edges(pairs[p]))
       return;
     const TotalLoss         before(losses());
     const std::vector<bool> now   = turned;
@@ -277,7 +280,8 @@ namespace Signorini
         return;
       }
     journal.note("pair " + pairs[p].name + ": its sides are swapped, because \"" + pairs[p].nonmortar.name +
-                 "\" ends over \"" + pairs[p].mortar.name + "\"; nonmortar is \"" +
+                 "\" ends over \"" + pairs[p].mortar.name + "\" (" + percent_text(cut, 3) +
+                 " of the faces are cut there); nonmortar is \"" +
                  model.bodies().body_name(pairs[p].nonmortar.body) + "\".");
   }
 
