@@ -281,9 +281,9 @@ namespace Signorini
       }
     const std::string share = percent_text(cut, 3);
     journal.note("pair " + pairs[p].name + ": its sides are swapped, because \"" + pairs[p].nonmortar.name +
-                 "\" ends over \"" + pairs[p].mortar.name + "\" (" + share +
-                 " of the faces are cut there); nonmortar is \"" +
-                 model.bodies().body_name(pairs[p].nonmortar.body) + "\".");
+                 "\" ends over \"" + pairs[p].mortar.name + "\" and cuts " + share +
+                 " of its faces; nonmortar is \"" + model.bodies().body_name(pairs[p].nonmortar.body) +
+                 "\".");
   }
 
 
