@@ -20,8 +20,9 @@ namespace Signorini
   {
     struct BoltRule
     {
-      /// Cosine between the direction that is given and the normal of the section.
-      double along = .95;
+      /// Cosine between the direction that is given and the normal of the section: within 2.6 degrees the
+      /// ends of a layer, however thin, do not overlap along the axis.
+      double along = .999;
     };
 
     VolumeMesh::Face face_of(const VolumeMesh::Cell &cell, const unsigned int f)

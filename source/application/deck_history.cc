@@ -9,6 +9,7 @@
 #include <signorini/mesh/deck_elements.h>
 
 #include <algorithm>
+#include <iterator>
 
 namespace Signorini
 {
@@ -223,9 +224,13 @@ namespace Signorini
       model.refuse(keyword.place, "BOUNDARY", "TYPE=" + type + " is not supported.");
     if (is_new(keyword))
       {
-        state.boundaries.clear();
-        state.rotations.clear();
-        state.locked_nodes.clear();
+        for (auto node = state.locked_nodes.begin(); node != state.locked_nodes.end();)
+          node = node->second < step ? state.locked_nodes.erase(node) : std::next(node);
+        if (!keyword.has("FIXED"))
+          {
+            state.boundaries.clear();
+            state.rotations.clear();
+          }
       }
     for (const DeckLine &line : keyword.lines)
       if (keyword.has("FIXED"))
@@ -243,7 +248,7 @@ namespace Signorini
         words.empty() ? std::vector<unsigned int>() : deck.nodes_of(words[0], line.place, instance);
     const auto &bolts = model.pretensions();
     for (const unsigned int node : nodes)
-      if (words.size() < 2 || words[1] != "1" ||
+      if (words.size() < 2 || words[1] != "1" || (words.size() > 2 && !words[2].empty() && words[2] != "1") ||
           std::none_of(bolts.begin(), bolts.end(),
                        [node](const DeckPretension &bolt) { return bolt.node == node; }))
         {
@@ -251,7 +256,8 @@ namespace Signorini
                        "FIXED is supported in direction 1 of nodes of a PRE-TENSION SECTION only.");
           return;
         }
-    state.locked_nodes.insert(nodes.begin(), nodes.end());
+    for (const unsigned int node : nodes)
+      state.locked_nodes.insert({node, step});
   }
 
 

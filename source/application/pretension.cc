@@ -40,6 +40,8 @@ namespace Signorini
       for (std::size_t i = 0; i < bolts.size(); ++i)
         if (!bolts[i].is_locked(model.loads().time))
           open.push_back(static_cast<Eigen::Index>(i));
+      if (open.empty())
+        return missing;
       const auto      n = static_cast<Eigen::Index>(open.size());
       Eigen::MatrixXd slopes(n, n);
       Eigen::VectorXd forces(n);
@@ -261,7 +263,11 @@ namespace Signorini
         ContactSolution solution = solve_with_pretension(model, solver, there, journal);
         if (!solution.report.converged || !solution.drifting.empty())
           {
+            // It is no solution of the present time.
             model.set_time(now);
+            solution.report.converged = false;
+            solution.report.note +=
+                " (at t = " + Patterns::Tools::to_string(time) + ", when bolts are locked)";
             return solution;
           }
         for (std::size_t i = 0; i < iterations.size(); ++i)

@@ -265,8 +265,10 @@ namespace Signorini
 
   void SideChoice::turn_for_rim(const unsigned int p)
   {
-    const double cut = maker.cut_share(pairs[p]);
-    if (cut < SideRule().least_cut || !maker.sides_are_alike(p) || has_sharp_edges(pairs[p]))
+    const double     cut      = maker.cut_share(pairs[p]);
+    constexpr double rounding = 1e-6;
+    if (cut < (1. + rounding) * SideRule().least_cut || !maker.sides_are_alike(p) ||
+        has_sharp_edges(pairs[p]))
       return;
     const TotalLoss         before(losses());
     const std::vector<bool> now   = turned;

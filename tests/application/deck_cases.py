@@ -746,6 +746,11 @@ def deck_bolt(d):
     s, _ = d.solve(bolt.text(f'*CLOAD\n90000, 1, {section["force"]:.15g}\n' + pulled))
     near(s['pairs'][0]['load'], joint, 1e-6, 'force of the joint, not locked')
     near(s['pretension'][0]['strain'], section['strain'], 1e-6, 'strain, not locked')
+    # The order in which a step says what holds does not matter.
+    again = '*BOUNDARY, OP=NEW\nX0, 1, 1\nY0, 2, 2\nZ0, 3, 3\n'
+    for order in (locked.replace('FIXED', 'OP=NEW, FIXED') + again, locked.replace('*BOUNDARY, FIXED', again + '*BOUNDARY, OP=NEW, FIXED')):
+        s, _ = d.solve(bolt.text(step=order + pulled + '*END STEP\n'))
+        near(s['pretension'][0]['force'], section['force'], 1e-6, f'{order}: section force')
     d.refuses(bolt.text('*BOUNDARY, FIXED\n90000, 1, 1\n'), '.inp, line ', 'FIXED in the first step')
     d.refuses(bolt.text(step=locked + '*END STEP\n*STEP\n*STATIC\n*BOUNDARY, OP=NEW\nX0, 1, 1\nY0, 2, 2\nZ0, 3, 3\n*END STEP\n'), '.inp, line ', 'stay so')
     # What is refused.

@@ -100,8 +100,9 @@ namespace Signorini
   {
     /// Where two overlap, the later one counts.
     std::vector<DeckBoundary> boundaries;
-    /// Whose displacement in direction 1 stays as it is: those of pretension sections.
-    std::set<unsigned int> locked_nodes;
+    /// Whose displacement in direction 1 stays as it is, with the step that says so: those of pretension
+    /// sections.
+    std::map<unsigned int, unsigned int> locked_nodes;
     /// By node and direction: force; directions 3 to 5 of reference nodes are moments.
     std::map<std::pair<unsigned int, unsigned int>, DeckLoad> forces;
     /// By reference node and axis: rotation (radian).
