@@ -77,6 +77,27 @@ namespace Signorini
 
 
 
+  void DeckModelReader::lock(const DeckLine &line, const unsigned int instance)
+  {
+    const Words                     words = deck_words(line.text);
+    const std::vector<unsigned int> nodes =
+        words.empty() ? std::vector<unsigned int>() : deck.nodes_of(words[0], line.place, instance);
+    const auto &bolts = model.pretensions();
+    for (const unsigned int node : nodes)
+      if (words.size() < 2 || words[1] != "1" || (words.size() > 2 && !words[2].empty() && words[2] != "1") ||
+          std::none_of(bolts.begin(), bolts.end(),
+                       [node](const DeckPretension &bolt) { return bolt.node == node; }))
+        {
+          model.refuse(line.place, "BOUNDARY",
+                       "FIXED is supported in direction 1 of nodes of a PRE-TENSION SECTION only.");
+          return;
+        }
+    for (const unsigned int node : nodes)
+      state.locked_nodes.insert({node, step});
+  }
+
+
+
   void DeckModelReader::read_kinematic_coupling(const Keyword &keyword, const unsigned int instance)
   {
     DeckRigid rigid;

@@ -253,16 +253,24 @@ def write_bolt(folder):
                    'side' if normal[2] == 0 and max(centre[:2]) == 4 else plane_name(centre, normal))
 
 
-def pretension(p):
-    """A bolt of two plates: its section carries the force, and so does the joint."""
+# Nothing but the head moves the upper plate.
+LOOSE = [f'Pair {pair}/Contact=unilateral' for pair in ('head', 'nut')]
+
+
+@contextlib.contextmanager
+def bolt_of_plates():
     with tempfile.TemporaryDirectory() as folder:
         write_bolt(folder)
         prm = os.path.join(folder, 'bolt.prm')
         with open(prm, 'w') as f:
             f.write(BOLT)
-        # Nothing but the head moves the upper plate.
-        loose = [f'Pair {pair}/Contact=unilateral' for pair in ('head', 'nut')]
-        kinds = ([], loose, ['Load steps=3'], [f'Body {b}/Convert to tetrahedra=true' for b in ('bolt', 'upper', 'lower')])
+        yield folder, prm
+
+
+def pretension(p):
+    """A bolt of two plates: its section carries the force, and so does the joint."""
+    with bolt_of_plates() as (folder, prm):
+        kinds = ([], LOOSE, ['Load steps=3'], [f'Body {b}/Convert to tetrahedra=true' for b in ('bolt', 'upper', 'lower')])
         for settings in kinds:
             out = os.path.join(folder, f'out{len(os.listdir(folder))}')
             s = p.solve(prm, *settings, keep=out)
@@ -289,7 +297,7 @@ def pretension(p):
         for settings in (['Body bolt/Pretension=rugged: axis (0, 0, 1), force 500, region 1 - (z + 0.4*x - 0.3*y)^2'],
                          ['Body bolt/Pretension=rugged: axis (0, 0, -1), force 500, region 1 - (z + 0.4*x - 0.3*y)^2', 'Refinement/Global cycles=0', 'Refinement/Adaptive cycles=1'],
                          ['Body bolt/Pretension=rugged: axis (0, 0, 1), force 500, region 1.3 - z^2', 'Body bolt/Convert to tetrahedra=true']):
-            s = p.solve(prm, *loose, *settings)
+            s = p.solve(prm, *LOOSE, *settings)
             bolt = s['pretension'][0]
             print(settings, bolt, 'joint', s['pairs'][0]['force'][2])
             near(bolt['force'], 500, 1e-6, f'{settings}: section force')
@@ -299,13 +307,8 @@ def pretension(p):
 
 def locked_pretension(p):
     """A bolt is tightened and locked, then the plate is pulled: with or without load steps as with the force that the section has in the end."""
-    with tempfile.TemporaryDirectory() as folder:
-        write_bolt(folder)
-        prm = os.path.join(folder, 'bolt.prm')
-        with open(prm, 'w') as f:
-            f.write(BOLT)
-        loose = [f'Pair {pair}/Contact=unilateral' for pair in ('head', 'nut')]
-        pulled = [*loose, 'Body upper/Forces=side: (0, 0, 300*max(0, 2*t-1))']
+    with bolt_of_plates() as (folder, prm):
+        pulled = [*LOOSE, 'Body upper/Forces=side: (0, 0, 300*max(0, 2*t-1))']
         lock = lambda force: [f'Body bolt/Pretension=shank: axis (0, 0, 1), force {force}, locked after 0.5']
         runs = []
         for settings in ([], ['Load steps=2'], ['Load steps=0.3, 0.5, 0.8, 1'], ['Refinement/Global cycles=0', 'Refinement/Adaptive cycles=1', 'Refinement/Marking fraction=1']):
