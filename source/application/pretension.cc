@@ -164,7 +164,11 @@ namespace Signorini
       }
     const Eigen::VectorXd step = secant_step(model, missing);
     for (std::size_t i = 0; i < bolts.size(); ++i)
-      bolts[i].strain += step[i] / shanks[i].stiffness();
+      {
+        bolts[i].strain += step[i] / shanks[i].stiffness();
+        // Foretold again before it is solved, it stays.
+        bolts[i].reached += missing[i];
+      }
   }
 
 
