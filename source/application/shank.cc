@@ -187,24 +187,8 @@ namespace Signorini
                                       : end != 0         ? (end > 0 ? 1. : 0.)
                                                          : (height(i) > middle ? 1. : 0.);
       }
-    interpolate_hanging_nodes(ramp);
+    d.transformation->interpolate_hanging_nodes(ramp);
     return ramp;
   }
 
-
-
-  void Shank::interpolate_hanging_nodes(Vector &ramp) const
-  {
-    const auto place = [this](const NodeIndex node) { return dim * d.partition().to_local(node); };
-    ramp.update_ghost_values();
-    for (const NodeIndex node : d.nodal().owned())
-      if (const auto *const parents = d.nodal().hanging_nodes().get_constraint_entries(node))
-        {
-          double mean = 0.;
-          for (const auto &[parent, weight] : *parents)
-            mean += weight * ramp.local_element(place(parent));
-          ramp.local_element(place(node)) = mean;
-        }
-    ramp.update_ghost_values();
-  }
 } // namespace Signorini

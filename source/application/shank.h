@@ -53,7 +53,6 @@ namespace Signorini
 
     /// Collective. The ramp at all nodes that this rank sees, in the first component.
     Vector find_ramp() const;
-    void   interpolate_hanging_nodes(Vector &ramp) const;
 
     const ContactModel   &model;
     const Discretization &d;

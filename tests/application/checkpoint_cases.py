@@ -34,6 +34,7 @@ CASES = [
     ('both kinds and steps', HERTZ, ADAPTIVE + [f'Body block/{TETRAHEDRA}', DOWN, 'Refinement/Adaptive cycles=4', 'Refinement/Final global cycles=1',
                                                 'Load steps=6']),
     ('bolts and steps', STRAPS, ['Load steps=5', 'Refinement/Global cycles=1', 'Solver/Compare linear multigrid=false',
+                                 'Body left/Pretension=strap: region 0.25 - z^2, axis (0, 0, 1), force 3*t, locked after 0.4',
                                  'Body upper/Probes=a: (1, 1, 0.5); b: (3, 0, 1)']),
     ('stamp and steps', PATCH_TEST, STAMP + ['Load steps=0.2, 0.5, 0.7, 1.1, 2', 'Refinement/Adaptive cycles=3']),
 ]

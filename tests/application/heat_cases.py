@@ -378,3 +378,29 @@ def pretension_of_two(p):
         near(bolt['force'], force, 1e-6, 'section force')
         check(len(bolt['iterations']) <= 12, f'{bolt["iterations"]}')
     near(abs(s['pairs'][0]['force'][2]), 8, 1e-6, 'clamping force')
+    # Locked one after the other, then the joint is pressed together; the one that is still to be tightened loosens the other.
+    strap = lambda body, axis, force, lock: f'Body {body}/Pretension=strap: region 0.25 - z^2, axis (0, 0, {axis}), force {force}{lock}'
+    pressed = ['Refinement/Global cycles=0', 'Body upper/Forces=top: (0, 0, -4*max(0, t - 0.6))']
+    for last, locks in (('locked', (', locked after 0.3', ', locked after 0.6')), ('open', (', locked after 0.3', ''))):
+        bolts = [strap('left', 1, '3*t', locks[0]), strap('right', -1, '5*t', locks[1])]
+        ends = []
+        for steps in ([], ['Load steps=0.3, 0.6, 1'], ['Load steps=0.2, 0.5, 0.8, 1']):
+            with tempfile.TemporaryDirectory() as folder:
+                out = os.path.join(folder, 'out')
+                s = solve(p, STRAPS, *pressed, *bolts, *steps, keep=out)
+                certificate(s)
+                print(last, steps, s['pretension'], s['pairs'][0]['load'])
+                ends.append([bolt['force'] for bolt in s['pretension']])
+                near(s['pairs'][0]['load'], sum(ends[-1]) + 1.6, 1e-6, f'{last}, {steps}: balance')
+                if steps:
+                    with open(os.path.join(out, 'curve.csv')) as f:
+                        forces = {float(row['t']): [float(row[f'{body}: strap: section force']) for body in ('left', 'right')] for row in csv.DictReader(f)}
+                    for a, b in zip(forces[1], ends[0]):
+                        near(a, b, 1e-6, f'{last}, {steps}: section force of the last step')
+                    for t, (left, right) in forces.items():
+                        check((abs(left - 3 * t) < 1e-5) == (t <= .3), f'{last}, {steps}: left {left} at t = {t}')
+                        check((abs(right - 5 * t) < 1e-5) == (last == 'open' or t <= .6), f'{last}, {steps}: right {right} at t = {t}')
+        check(ends[0][0] < .9 and (last == 'open') == (abs(ends[0][1] - 5) < 1e-5), f'{last}: {ends[0]}')
+        for end in ends[1:]:
+            for a, b in zip(end, ends[0]):
+                near(a, b, 1e-6, f'{last}: section force, other load steps')
