@@ -73,6 +73,18 @@ namespace Signorini
       return result;
     }
 
+    bool share_faces(const DeckBody &body, const std::string &a, const std::string &b)
+    {
+      const auto faces_of = [&](const std::string &name) -> const auto & {
+        return std::find_if(body.named.begin(), body.named.end(),
+                            [&](const auto &named) { return named.first == name; })
+          ->second;
+      };
+      const auto &first = faces_of(a), &second = faces_of(b);
+      return std::any_of(first.begin(), first.end(),
+                         [&](const VolumeMesh::Face &face) { return second.count(face) > 0; });
+    }
+
     void add_pair(ProblemDefinition &problem, std::vector<DeckBody> &bodies, const DeckModel &model,
                   const DeckPair &pair, std::vector<std::string> &remarks)
     {
@@ -87,11 +99,11 @@ namespace Signorini
             if (first.size() * second.size() > 1 &&
                 (a == b || !Box(bodies[a], pair.slave->name).meets(Box(bodies[b], pair.master->name))))
               continue;
-            if (a == b)
+            if (a == b && share_faces(bodies[a], pair.slave->name, pair.master->name))
               deck.text().fail(pair.place, "the surfaces \"" + pair.slave->name + "\" and \"" +
                                                pair.master->name +
-                                               "\" belong to one body: contact of a body with itself is not "
-                                               "supported.");
+                                               "\" have faces in common: a body may touch itself where two "
+                                               "surfaces of it face each other.");
             PairDefinition definition;
             definition.name      = plain_name(pair.name) + (++n == 1 ? "" : "-" + std::to_string(n));
             definition.first     = {bodies[a].name, pair.slave->name, {}};

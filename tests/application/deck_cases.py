@@ -1,5 +1,6 @@
 """Decks of Abaqus and CalculiX: what is computed, refused and written."""
 import csv
+import itertools
 import json
 import math
 import os
@@ -8,6 +9,7 @@ import subprocess
 import tempfile
 
 from decks import EDGES, HEX, INTERACTION, KINDS, LOAD, MATERIAL, PARTS, SIDES, Block, nset, surface, two_blocks
+from free_body_cases import CLIP, write_clip
 from harness import certificate, check, constant_pressure, near
 
 
@@ -768,3 +770,40 @@ def deck_bolt(d):
     d.refuses(cut.replace(surface('CUT', fine.sides('BOLT', 3, True)), surface('CUT', fine.sides('BOLT', 3, True)[:1])),
               '.inp, line ', 'cross the whole bolt')
     same(cut)
+
+
+@in_folder
+def deck_slit(d):
+    """Two surfaces of one body touch: as in a parameter file with the same mesh. A surface with itself is refused."""
+    x, y, z = [0, .5, 1, 2, 3, 4, 5, 5.5, 6], [-3, -2.5, -2, -1.4, -.8, -.4, -.1, 0, .1, .4, .8, 1.4, 2, 2.5, 3], [0, .5, 1]
+    label = lambda i, j, k: 1 + i + len(x) * (j + len(y) * k)
+    elements, low, top, bottom, upper_lip, lower_lip = {}, set(), [], [], [], []
+    for i, j, k in itertools.product(range(len(x) - 1), range(len(y) - 1), range(len(z) - 1)):
+        cx, cy = (x[i] + x[i + 1]) / 2, (y[j] + y[j + 1]) / 2
+        if 1 < cx < 5 and abs(cy) < 2 or cx > 5 and abs(cy) < .1:
+            continue
+        n = len(elements) + 1
+        elements[n] = [label(i + a, j + b, k + c) for c in (0, 1) for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))]
+        if k == 0:
+            low.update(elements[n][:4])
+        for sides, there, side in ((top, y[j + 1] == 3, 'S5'), (bottom, y[j] == -3, 'S3'), (upper_lip, y[j] == .1 and cx > 5, 'S3'), (lower_lip, y[j + 1] == -.1 and cx > 5, 'S5')):
+            if there:
+                sides.append((n, side))
+    used = {n for nodes in elements.values() for n in nodes}
+    text = '*NODE, NSET=ALL\n' + ''.join(f'{label(i, j, k)}, {x[i]}, {y[j]}, {z[k]}\n' for i, j, k in itertools.product(range(len(x)), range(len(y)), range(len(z)))
+                                         if label(i, j, k) in used)
+    text += '*ELEMENT, TYPE=C3D8, ELSET=clip\n' + ''.join(f'{n}, {", ".join(map(str, nodes))}\n' for n, nodes in elements.items())
+    text += nset('LOW', sorted(low)) + ''.join(f'*SURFACE, NAME={name}\n' + ''.join(f'{n}, {side}\n' for n, side in sides)
+                                               for name, sides in (('TOP', top), ('BOTTOM', bottom), ('UPPER', upper_lip), ('LOWER', lower_lip)))
+    text += '*MATERIAL, NAME=m\n*ELASTIC\n1., 0.3\n*SOLID SECTION, ELSET=clip, MATERIAL=m\n' + INTERACTION
+    text += '*CONTACT PAIR, INTERACTION=hard, TYPE=SURFACE TO SURFACE\nUPPER, LOWER\n*BOUNDARY\nLOW, 3, 3\n'
+    text += '*STEP\n*STATIC\n*DSLOAD\nTOP, P, 0.002\nBOTTOM, P, 0.002\n*END STEP\n'
+    s, _ = d.solve(text)
+    certificate(s)
+    write_clip(d.folder, -3)
+    prm = d.path('clip.prm', CLIP.format(hold='low: (*, *, 0)', more='; bottom: 0.002', second='set Second = clip: lower lip\n  set Nonmortar = first'))
+    theirs = d.p.solve(prm, 'Body clip/Young modulus=1', 'Body clip/Poisson ratio=0.3')
+    print(s['pairs'][0]['load'], theirs['pairs'][0]['load'])
+    check(s['pairs'][0]['load'] > 0, 'the lips do not touch')
+    near(s['pairs'][0]['load'], theirs['pairs'][0]['load'], 1e-6, 'force of the lips')
+    d.refuses(text.replace('UPPER, LOWER', 'UPPER, UPPER'), 'faces in common', '"UPPER"')
