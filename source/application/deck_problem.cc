@@ -75,10 +75,11 @@ namespace Signorini
 
     bool share_faces(const DeckBody &body, const std::string &a, const std::string &b)
     {
-      const auto faces_of = [&](const std::string &name) -> const auto & {
+      const auto faces_of = [&](const std::string &name) -> const auto &
+      {
         return std::find_if(body.named.begin(), body.named.end(),
                             [&](const auto &named) { return named.first == name; })
-          ->second;
+            ->second;
       };
       const auto &first = faces_of(a), &second = faces_of(b);
       return std::any_of(first.begin(), first.end(),
