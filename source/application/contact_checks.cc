@@ -428,11 +428,13 @@ namespace Signorini
   {
     SmallestGap result;
     bool        overlaps = false;
+    double      farthest = 0.;
     for_each_gap(pair, [&](const Point<3> &x, const Vector3 &n, const double gap, const double heights) {
       const double doubt = ContactRule().touching * heights;
       overlaps           = overlaps || -gap > doubt;
+      farthest           = std::max(farthest, x.norm());
       if (gap < result.value)
-        result = {gap, x, n, doubt, false};
+        result = {gap, x, n, doubt, false, 0.};
     });
     const auto all =
         gather_values(std::make_tuple(result.value, result.place, result.normal, result.doubt), comm);
@@ -442,6 +444,7 @@ namespace Signorini
           return std::get<0>(one) < std::get<0>(two);
         });
     result.overlaps = Utilities::MPI::max(static_cast<int>(overlaps), comm) != 0;
+    result.rounding = 16. * std::numeric_limits<double>::epsilon() * Utilities::MPI::max(farthest, comm);
     return result;
   }
 

@@ -26,11 +26,6 @@ namespace Signorini
       return shanks;
     }
 
-    double wanted_force(const ContactModel &model, const Pretension &bolt)
-    {
-      return bolt.force(Point<3>(), std::min(model.loads().time, bolt.locked_after));
-    }
-
     /// By how much the strains of all bolts have to change, times their stiffnesses E A (forces).
     /// @param missing forces; zero for bolts that are locked
     Eigen::VectorXd secant_step(const ContactModel &model, const Eigen::VectorXd &missing)
@@ -99,7 +94,7 @@ namespace Signorini
         const auto &bolts   = model.loads().pretensions;
         double      largest = 0.;
         for (const Pretension &bolt : bolts)
-          largest = std::max(largest, wanted_force(model, bolt));
+          largest = std::max(largest, bolt.wanted(model.loads().time));
         for (std::size_t i = 0; i < bolts.size(); ++i)
           {
             if (bolts[i].is_locked(model.loads().time))
@@ -107,7 +102,7 @@ namespace Signorini
                 forces[i] = 0.;
                 continue;
               }
-            const double wanted = wanted_force(model, bolts[i]);
+            const double wanted = bolts[i].wanted(model.loads().time);
             forces[i]           = wanted - present[i];
             // Bolts that should be loose are compared with the others.
             const double scale = wanted > 0. ? wanted : largest;
@@ -126,7 +121,7 @@ namespace Signorini
           const Pretension &bolt = model.loads().pretensions[i];
           results.push_back({model.bodies().body_name(bolt.body),
                              bolt.name,
-                             wanted_force(model, bolt),
+                             bolt.wanted(model.loads().time),
                              forces[i],
                              bolt.strain,
                              shanks[i].length(),
@@ -151,7 +146,7 @@ namespace Signorini
     Eigen::VectorXd          missing(static_cast<Eigen::Index>(bolts.size()));
     for (std::size_t i = 0; i < bolts.size(); ++i)
       {
-        const double wanted = wanted_force(model, bolts[i]);
+        const double wanted = bolts[i].wanted(model.loads().time);
         if (!(wanted >= 0.))
           throw InputError(bolts[i].where + ": the force " + std::to_string(wanted) +
                            " is negative; a bolt is under tension.");

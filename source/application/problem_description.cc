@@ -7,6 +7,7 @@
 #include <signorini/discretization/element.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/base/patterns.h>
 
 namespace Signorini
 {
@@ -66,16 +67,17 @@ namespace Signorini
           least   = std::min(least, coupling.mean_gap(row, coupling.gaps[row]));
           largest = std::max(largest, coupling.mean_gap(row, coupling.gaps[row]));
         }
-      least   = Utilities::MPI::min(least, comm);
-      largest = Utilities::MPI::max(largest, comm);
+      least             = Utilities::MPI::min(least, comm);
+      largest           = Utilities::MPI::max(largest, comm);
+      const auto length = [&](const double x) { return std::abs(x) > smallest.rounding ? x : 0.; };
       out << "pair " << pair.name << ": nonmortar " << pair.nonmortar.name << ", mortar " << pair.mortar.name
-          << ", " << coupling.n_rows_of_all << " contact nodes, gap " << least << " to " << largest
-          << ", coverage " << coupling.covered_area / coupling.area << std::endl;
+          << ", " << coupling.n_rows_of_all << " contact nodes, gap " << length(least) << " to "
+          << length(largest) << ", coverage " << coupling.covered_area / coupling.area << std::endl;
       if (smallest.value < std::numeric_limits<double>::max())
-        out << "  smallest distance of the true surfaces: " << smallest.value
-            << (smallest.value >= 0. ? ""
-                : smallest.overlaps  ? " (they overlap)"
-                                     : " (less than their facets leave open)")
+        out << "  smallest distance of the true surfaces: " << length(smallest.value)
+            << (length(smallest.value) >= 0. ? ""
+                : smallest.overlaps          ? " (they overlap)"
+                                             : " (less than their facets leave open)")
             << ", at (" << smallest.place << ")" << std::endl;
     }
 
@@ -129,7 +131,11 @@ namespace Signorini
       describe_loads_of_rigid_faces(out, model, d);
       for (const Pretension &bolt : model.loads().pretensions)
         out << "pretension of body " << bodies.body_name(bolt.body) << ", " << bolt.name << ": section force "
-            << bolt.force(Point<3>(), model.loads().time) << " along " << text(bolt.axis) << std::endl;
+            << bolt.wanted(model.loads().time) << " along " << text(bolt.axis)
+            << (bolt.is_locked(model.loads().time)
+                    ? ", locked after t = " + Patterns::Tools::to_string(bolt.locked_after)
+                    : "")
+            << std::endl;
       if (!model.loads().eigenstrains.empty())
         out << "temperatures or initial strains, which have no resultant" << std::endl;
       const auto all = all_loads(model, d);

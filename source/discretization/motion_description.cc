@@ -57,6 +57,10 @@ namespace Signorini
     /// What is left of a translation or a rotation beside one this much larger is rounding.
     constexpr double negligible = 1e-3;
 
+    /// A part that turns by no more than this share of its translation is said to move: the axis lies twenty
+    /// of its sizes away.
+    constexpr double little_turn = .05;
+
     /// The translation along the axis of the rotation.
     Vector3 along_axis(const FreeMotion &motion)
     {
@@ -100,6 +104,12 @@ namespace Signorini
         return !is_translation && along_axis(motion).norm() <= negligible * motion.rotation.norm();
       }
 
+      /// Whether it moves the part much more than it turns it.
+      bool is_mostly_translation() const
+      {
+        return motion.rotation.norm() <= little_turn * motion.translation.norm();
+      }
+
       /// On the axis of a rotation.
       Point<3> point() const
       {
@@ -126,7 +136,7 @@ namespace Signorini
     /// direction, or the first of those, is positive.
     PartMotion oriented(PartMotion part)
     {
-      Vector3 &direction = part.is_translation ? part.motion.translation : part.motion.rotation;
+      Vector3 &direction = part.is_mostly_translation() ? part.motion.translation : part.motion.rotation;
       double   largest   = 0.;
       for (unsigned int c = 0; c < dim; ++c)
         if (std::abs(direction[c]) > (1. + negligible) * std::abs(largest))
@@ -147,8 +157,9 @@ namespace Signorini
     std::string describe(const PartMotion &part)
     {
       const Vector3 &rotation = part.motion.rotation;
-      if (part.is_translation)
-        return "translation " + print_direction(part.motion.translation);
+      if (part.is_mostly_translation())
+        return "translation " + print_direction(part.motion.translation) +
+               (part.is_translation ? "" : ", turning a little about " + print_direction(rotation));
       const std::string turning =
           "rotation about the axis through " + print_axis_point(part) + " along " + print_direction(rotation);
       return part.is_pure_rotation()

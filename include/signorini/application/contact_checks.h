@@ -57,6 +57,8 @@ namespace Signorini
     double doubt = 0.;
     /// Whether surfaces overlap by more than that anywhere, not only here.
     bool overlaps = false;
+    /// What is less may be rounding of the coordinates (length).
+    double rounding = 0.;
   };
 
   /// Collective. That of the true surfaces before anything moves, at the corners of the overlay (with an

@@ -11,6 +11,7 @@
 #include <signorini/mesh/bodies.h>
 #include <signorini/mesh/nodal_space.h>
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <map>
@@ -98,6 +99,12 @@ namespace Signorini
     bool is_locked(const double time) const
     {
       return time > locked_after;
+    }
+
+    /// The section force that its strain is sought for (force).
+    double wanted(const double time) const
+    {
+      return force(dealii::Point<3>(), std::min(time, locked_after));
     }
   };
 
