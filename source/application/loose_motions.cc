@@ -61,6 +61,26 @@ namespace Signorini
       sum_over_ranks(sums, fields[0].get_mpi_communicator());
       return {sums.leftCols(n), sums.middleCols(n, n), sums.rightCols(n)};
     }
+
+    /// Collective. The sum of products of the normal parts of combinations of motions (columns) over active
+    /// nodes. Where these are small they are exact, unlike those of the sums of products.
+    Eigen::MatrixXd normal_products(const Eigen::MatrixXd &combinations, const std::vector<Vector> &fields,
+                                    const HalfSpaces &spaces, const std::vector<unsigned char> &active)
+    {
+      const Eigen::Index n      = combinations.cols();
+      Eigen::MatrixXd    result = Eigen::MatrixXd::Zero(n, n);
+      Eigen::VectorXd    normal(combinations.rows());
+      for (std::size_t p = 0; p < spaces.size(); ++p)
+        if (active[p])
+          {
+            for (Eigen::Index i = 0; i < normal.size(); ++i)
+              normal[i] = spaces.normal_part(p, fields[i]);
+            const Eigen::VectorXd parts = combinations.transpose() * normal;
+            result += parts * parts.transpose();
+          }
+      sum_over_ranks(result, fields[0].get_mpi_communicator());
+      return result;
+    }
   } // namespace
 
 
@@ -72,16 +92,25 @@ namespace Signorini
     const SymmetricEigen   eigen = symmetric_eigen(sums.normal);
     const double           scale = sums.whole.diagonal().maxCoeff();
     const LooseMotionRule  rule;
-    LooseMotions           result;
-    for (Eigen::Index k = 0; k < eigen.values.size(); ++k)
+    // Eigenvalues ascend.
+    const auto   count = [&](const double bound) { return (eigen.values.array() <= bound * scale).count(); };
+    LooseMotions result;
+    const auto   add = [](std::vector<std::vector<double>> &list, const Eigen::VectorXd &motion) {
+      list.emplace_back(motion.begin(), motion.end());
+    };
+    const Eigen::Index n_undetermined = count(rule.next_to_nothing);
+    for (Eigen::Index k = 0; k < n_undetermined; ++k)
+      add(result.undetermined, eigen.vectors.col(k));
+    for (Eigen::Index k = n_undetermined; k < count(rule.hardly_opposed); ++k)
+      add(result.hardly_held, eigen.vectors.col(k));
+    result.opposed_by_facets = result.hardly_held;
+    if (n_undetermined > 0)
       {
-        const double              opposed = eigen.values[k];
-        const Eigen::VectorXd     column  = eigen.vectors.col(k);
-        const std::vector<double> motion(column.begin(), column.end());
-        if (opposed <= rule.not_opposed * scale)
-          result.undetermined.push_back(motion);
-        else if (opposed <= rule.hardly_opposed * scale)
-          result.hardly_held.push_back(motion);
+        const Eigen::MatrixXd span  = eigen.vectors.leftCols(n_undetermined);
+        const SymmetricEigen  exact = symmetric_eigen(normal_products(span, fields, spaces, active));
+        for (Eigen::Index k = 0; k < n_undetermined; ++k)
+          if (exact.values[k] > rule.not_opposed * scale)
+            add(result.opposed_by_facets, span * exact.vectors.col(k));
       }
     result.undetermined = separate_motions(motions, result.undetermined);
     return result;
@@ -132,13 +161,17 @@ namespace Signorini
                                               const std::vector<Vector> &fields, const HalfSpaces &spaces,
                                               const LooseMotions &loose, const Vector &v, const double width)
   {
-    if (loose.hardly_held.empty() ||
-        slip_along(loose.hardly_held, fields, spaces, v) <= LooseMotionRule().slip * width)
+    if (loose.opposed_by_facets.empty() ||
+        slip_along(loose.opposed_by_facets, fields, spaces, v) <= LooseMotionRule().slip * width)
       return {};
     // Few nodes may be active in a solution that drifts: these need not show what the surfaces allow.
     const LooseMotions anywhere =
         find_loose_motions(motions, fields, spaces, std::vector<unsigned char>(spaces.size(), 1));
-    return anywhere.hardly_held.empty() ? loose.hardly_held : anywhere.hardly_held;
+    const LooseMotions &where = anywhere.opposed_by_facets.empty() ? loose : anywhere;
+    // What is held in a point turns about it with what nothing determines.
+    std::vector<std::vector<double>> result = where.hardly_held;
+    result.insert(result.end(), where.undetermined.begin(), where.undetermined.end());
+    return result;
   }
 
 
@@ -172,7 +205,7 @@ namespace Signorini
                 rotation += x[i] / motions[own[i]].length * motions[own[i]].rotation;
               }
             const double elsewhere = nodes * std::pow(rule.offset * width * rotation.norm(), 2);
-            if (opposed > rule.not_opposed * whole.diagonal().maxCoeff() &&
+            if (opposed > rule.next_to_nothing * whole.diagonal().maxCoeff() &&
                 opposed <= std::min(rule.slides * x.dot(whole * x), elsewhere) &&
                 slip_along({motion}, fields, spaces, v) > rule.slip * width)
               result.push_back(motion);

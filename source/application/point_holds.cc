@@ -13,6 +13,8 @@
 #include <signorini/discretization/motion_description.h>
 
 #include <iomanip>
+#include <map>
+#include <set>
 #include <sstream>
 
 namespace Signorini
@@ -250,27 +252,81 @@ namespace Signorini
 
 
 
+  namespace
+  {
+    /// What the points carry that a body is held in.
+    struct HeldBody
+    {
+      std::vector<const PointHold *> points;
+      /// The largest force; the largest moment, relative to contact force and size of the surfaces.
+      double reaction = 0., share = 0.;
+
+      /// For a note.
+      std::string describe(const std::string &body) const
+      {
+        std::ostringstream text;
+        text << std::setprecision(2);
+        if (points.size() == 1)
+          text << points[0]->motion
+               << ": frictionless contact of round surfaces does not hold it, so the point "
+               << place(*points[0]) << " is held in " << component(*points[0]) << " and carries a force of "
+               << reaction << ", whose moment is " << share
+               << " of contact force times size of the surfaces: an error of the facets, or a moment of the "
+                  "loads.";
+        else
+          {
+            text << body << ": frictionless contact of round surfaces does not hold " << points.size()
+                 << " of its motions, so points are held: ";
+            for (const PointHold *const point : points)
+              text << (point == points[0] ? "" : ", ") << place(*point) << " in " << component(*point);
+            text << ". They carry forces of at most " << reaction << ", whose moments are at most " << share
+                 << " of contact force times size of the surfaces: errors of the facets, or moments of the "
+                    "loads.";
+          }
+        return text.str();
+      }
+
+    private:
+      static char component(const PointHold &point)
+      {
+        return "xyz"[point.component];
+      }
+
+      static std::string place(const PointHold &point)
+      {
+        std::ostringstream text;
+        text << std::setprecision(4);
+        for (unsigned int c = 0; c < dim; ++c)
+          text << (c == 0 ? "(" : " ")
+               << (std::abs(point.position[c]) > 1e-12 * point.position.norm() ? point.position[c] : 0.);
+        return text.str() + ")";
+      }
+    };
+  } // namespace
+
+
+
   std::vector<std::string> check_point_holds(const ContactModel &model, const Discretization &d,
                                              const ContactSolution &solution)
   {
-    constexpr PointHoldRule  rule;
-    std::vector<std::string> remarks;
-    std::set<std::string>    idle;
+    constexpr PointHoldRule rule;
     if (model.point_holds().empty())
-      return remarks;
+      return {};
     const Equilibrium         equilibrium   = evaluate_equilibrium(model, d, solution);
     const std::vector<double> forces        = contact_forces(model, d, solution);
     const double              largest_force = *std::max_element(forces.begin(), forces.end());
+    // By body.
+    std::map<unsigned int, HeldBody> held;
+    std::set<std::string>            idle;
     for (const PointHold &hold : model.point_holds())
       {
-        const double       reaction = equilibrium.reactions[hold.condition].reaction.norm();
-        const double       force    = std::max({forces[hold.body], reaction, rule.idle * largest_force});
-        const double       share    = reaction * hold.arm / force;
-        std::ostringstream text;
-        text << std::setprecision(2);
+        const double reaction = equilibrium.reactions[hold.condition].reaction.norm();
+        const double force    = std::max({forces[hold.body], reaction, rule.idle * largest_force});
+        const double share    = reaction * hold.arm / force;
         if (share > rule.largest_share)
           {
-            text << "The loads move " << hold.motion
+            std::ostringstream text;
+            text << std::setprecision(2) << "The loads move " << hold.motion
                  << ", which frictionless contact does not hold. A point that was held instead carries a "
                     "moment of "
                  << share
@@ -283,15 +339,14 @@ namespace Signorini
             idle.insert("body " + model.bodies().body_name(hold.body));
             continue;
           }
-        text << hold.motion << ": frictionless contact of round surfaces does not hold it, so the point ("
-             << std::setprecision(4) << hold.position[0] << " " << hold.position[1] << " " << hold.position[2]
-             << ") is held in "
-             << "xyz"[hold.component] << " and carries a force of " << std::setprecision(2) << reaction
-             << ", whose moment is " << share
-             << " of contact force times size of the surfaces: an error of the facets, or a moment of the "
-                "loads.";
-        remarks.push_back(text.str());
+        HeldBody &body = held[hold.body];
+        body.points.push_back(&hold);
+        body.reaction = std::max(body.reaction, reaction);
+        body.share    = std::max(body.share, share);
       }
+    std::vector<std::string> remarks;
+    for (const auto &[body, what] : held)
+      remarks.push_back(what.describe("body " + model.bodies().body_name(body)));
     if (!idle.empty())
       remarks.push_back("nothing presses " + Patterns::Tools::to_string(idle) +
                         " against another body: points that are held there carry nothing.");

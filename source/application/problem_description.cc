@@ -88,6 +88,35 @@ namespace Signorini
       return out.str();
     }
 
+    void describe_body(std::ostream &out, const std::string &name,
+                       const std::vector<std::pair<IsotropicMaterial, std::size_t>> &materials)
+    {
+      std::size_t n_cells = 0;
+      for (const auto &[material, n] : materials)
+        n_cells += n;
+      out << name << ": " << n_cells << " cells";
+      const char *separator = ", ";
+      for (const auto &[material, n] : materials)
+        {
+          out << separator << "E = " << material.young << ", nu = " << material.poisson;
+          if (materials.size() > 1)
+            out << " (" << n << " cells)";
+          separator = "; ";
+        }
+      out << std::endl;
+    }
+
+    /// "body NAME, boundary NAME + NAME".
+    std::string names_of(const Bodies &bodies, const std::set<types::boundary_id> &ids)
+    {
+      std::string names;
+      for (unsigned int b = 0; b < bodies.n_bodies(); ++b)
+        for (unsigned int i = 0; i < bodies.boundary_names(b).size(); ++i)
+          if (const auto id = bodies.boundary_id(b, i); ids.count(id) > 0)
+            names += names.empty() ? bodies.boundary_name(id) : " + \"" + bodies.boundary_names(b)[i] + "\"";
+      return names;
+    }
+
     /// Collective. One line for each load that acts on a body.
     void describe_load(std::ostream &out, const ContactModel &model, const Discretization &d,
                        const Loads &loads, const std::string &what)
@@ -118,7 +147,7 @@ namespace Signorini
       for (const Traction &traction : model.loads().tractions)
         {
           one.tractions = {traction};
-          describe_load(out, model, d, one, bodies.boundary_name(*traction.ids.begin()));
+          describe_load(out, model, d, one, names_of(bodies, traction.ids));
         }
       one.tractions.clear();
       for (unsigned int b = 0; b < bodies.n_bodies(); ++b)
@@ -228,20 +257,41 @@ namespace Signorini
 
 
 
+  std::vector<std::vector<std::pair<IsotropicMaterial, std::size_t>>> used_materials(const Bodies     &bodies,
+                                                                                     const NodalSpace &space)
+  {
+    std::vector<std::uint64_t> cells(bodies.n_materials(), 0);
+    for (const NodalSpace::Cell &cell : space.cells())
+      if (cell.is_owned)
+        ++cells[cell.material];
+    Utilities::MPI::sum(cells, space.communicator(), cells);
+    std::vector<std::vector<std::pair<IsotropicMaterial, std::size_t>>> result(bodies.n_bodies());
+    for (types::material_id id = 0; id < cells.size(); ++id)
+      {
+        const Material &material = bodies.material(id);
+        auto           &own      = result[material.body];
+        const auto      same     = std::find_if(own.begin(), own.end(), [&](const auto &other) {
+          return other.first.young == material.young && other.first.poisson == material.poisson;
+        });
+        if (same != own.end())
+          same->second += cells[id];
+        else if (cells[id] > 0)
+          own.emplace_back(material, cells[id]);
+      }
+    return result;
+  }
+
+
+
   void describe(std::ostream &out, const ContactModel &model, const Discretization &d)
   {
-    const MPI_Comm           comm    = model.communicator();
-    const Bodies            &bodies  = model.bodies();
-    auto                     extents = measure_boundaries(d.nodal());
-    std::vector<std::size_t> cells(bodies.n_bodies(), 0);
-    for (const NodalSpace::Cell &cell : d.nodal().cells())
-      if (cell.is_owned)
-        ++cells[bodies.body_of_material(cell.material)];
+    const MPI_Comm comm      = model.communicator();
+    const Bodies  &bodies    = model.bodies();
+    auto           extents   = measure_boundaries(d.nodal());
+    const auto     materials = used_materials(bodies, d.nodal());
     for (unsigned int b = 0; b < bodies.n_bodies(); ++b)
       {
-        const IsotropicMaterial &material = bodies.material_of_body(b);
-        out << "body " << bodies.body_name(b) << ": " << Utilities::MPI::sum(cells[b], comm)
-            << " cells, E = " << material.young << ", nu = " << material.poisson << std::endl;
+        describe_body(out, "body " + bodies.body_name(b), materials[b]);
         for (unsigned int i = 0; i < bodies.boundary_names(b).size(); ++i)
           {
             Extent &extent = extents[bodies.boundary_id(b, i)];

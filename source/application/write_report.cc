@@ -81,15 +81,24 @@ namespace Signorini
       surfaces.write_state(blocks, state, d.nodal(), of_bodies, sides);
     }
 
-    void write_materials(JsonWriter &json, const Bodies &bodies)
+    /// @param materials of used_materials()
+    void write_bodies(JsonWriter &json, const Bodies &bodies,
+                      const std::vector<std::vector<std::pair<IsotropicMaterial, std::size_t>>> &materials)
     {
       json.begin('[', "bodies");
       for (unsigned int b = 0; b < bodies.n_bodies(); ++b)
         {
           json.begin('{');
           json.text("name", bodies.body_name(b));
-          json.number("young", bodies.material_of_body(b).young);
-          json.number("poisson", bodies.material_of_body(b).poisson);
+          json.begin('[', "materials");
+          for (const auto &[material, n_cells] : materials[b])
+            {
+              json.begin('{');
+              json.number("young", material.young);
+              json.number("poisson", material.poisson);
+              json.end('}');
+            }
+          json.end(']');
           json.begin('[', "boundaries");
           for (const std::string &name : bodies.boundary_names(b))
             json.text("", name);
@@ -126,7 +135,8 @@ namespace Signorini
 
     /// What is in no other file of the results.
     void write_run(std::ostream &out, const Results &results, const ContactModel &model,
-                   const ParameterFile &file, const std::string &problem)
+                   const ParameterFile &file, const std::string &problem,
+                   const std::vector<std::vector<std::pair<IsotropicMaterial, std::size_t>>> &materials)
     {
       const OutputParameters output = file.output();
       JsonWriter             json(out);
@@ -137,7 +147,7 @@ namespace Signorini
       json.text("stress", output.stress_unit);
       json.end('}');
       json.text("time", Utilities::System::get_date() + " " + Utilities::System::get_time());
-      write_materials(json, model.bodies());
+      write_bodies(json, model.bodies(), materials);
       json.begin('[', "pairs");
       for (const PairModel &pair : model.pairs())
         {
@@ -231,6 +241,7 @@ namespace Signorini
     const bool            has_steps = !results.steps.empty();
     std::ostringstream    problem;
     describe(problem, model, d);
+    const auto           materials = used_materials(model.bodies(), d.nodal());
     const ReportSurfaces surfaces(d.nodal(), model.bodies(), sides_of(d),
                                   ReportSteps::n_drawn(file.load_steps().size()));
     const auto           write = [&](ReportBlocks *const blocks) {
@@ -246,7 +257,8 @@ namespace Signorini
     write_file(folder.path() + "report.html", [&](std::ostream &out) {
       write_report_page(out, "Signorini: " + title, [&](ReportBlocks &blocks) {
         blocks.json("summary", [&](std::ostream &o) { write_summary(o, results); });
-        blocks.json("run", [&](std::ostream &o) { write_run(o, results, model, file, problem.str()); });
+        blocks.json("run",
+                    [&](std::ostream &o) { write_run(o, results, model, file, problem.str(), materials); });
         surfaces.write_geometry(blocks);
         if (!has_steps)
           write(&blocks);

@@ -12,6 +12,7 @@
 #include <deque>
 #include <map>
 #include <memory>
+#include <tuple>
 #include <vector>
 
 namespace Signorini
@@ -275,10 +276,41 @@ namespace Signorini
             return;
           const double way = middle.norm() / n;
           any              = true;
-          all_rise =
-              all_rise && distance / n >= here.distance() + least_rise(v, t, way) - EdgeRule().rounding * way;
+          all_rise         = all_rise &&
+                     (distance / n >= here.distance() + least_rise(v, t, way) - EdgeRule().rounding * way ||
+                      rises_across_edge(v, a, b, t));
         });
         return all_rise && any;
+      }
+
+      /// The same of a facet v, a, b of which one side is a long piece of an edge: along that the other side
+      /// comes nearer and goes farther as its facets lie. What counts is the slope where the facet is
+      /// steepest, if the edge does not fall by much of that.
+      bool rises_across_edge(const unsigned int v, const unsigned int a, const unsigned int b,
+                             const unsigned int triangle)
+      {
+        const Corner &here = corner(v);
+        for (const unsigned int w : {a, b})
+          if (!corner(w).meets_anything())
+            return false;
+        const Vector3 n = facet_normal(surface, triangle), to_a = x[a] - x[v], to_b = x[b] - x[v];
+        const Vector3 up    = (here.normal() * n) * n - here.normal();
+        const double  slope = (n - here.normal()).norm();
+        if (!(slope > EdgeRule().rounding) || !(up.norm() > 0.))
+          return false;
+        const double rise_a = corner(a).distance() - here.distance(),
+                     rise_b = corner(b).distance() - here.distance();
+        for (const auto &[w, rise, way] :
+             {std::make_tuple(a, rise_a, to_a.norm()), std::make_tuple(b, rise_b, to_b.norm())})
+          if (corner(w).is_edge() && -rise > EdgeRule().change * slope * way)
+            return false;
+        // up / |up| = p to_a + q to_b.
+        const double aa = to_a * to_a, ab = to_a * to_b, bb = to_b * to_b, determinant = aa * bb - ab * ab;
+        if (!(determinant > 0.))
+          return false;
+        const double ua = up * to_a / up.norm(), ub = up * to_b / up.norm();
+        const double p = (ua * bb - ub * ab) / determinant, q = (ub * aa - ua * ab) / determinant;
+        return p * rise_a + q * rise_b >= EdgeRule().least_rise * slope;
       }
 
       /// Whether a turn is that of a face that rises from an edge, as far as a neighbour tells: not that of

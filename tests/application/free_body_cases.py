@@ -79,8 +79,9 @@ end
 
 
 def held_points(s):
-    """The shares of the moments that points carry, from the notes."""
-    words = (re.search(r'is held in [xyz] and carries a force of \S+, whose moment is (\S+) of contact force', note) for note in s['notes'])
+    """The largest shares of the moments that points carry, by body, from the notes."""
+    words = (re.search(r'(?:is held in [xyz] and carries a force of \S+, whose moment is|points are held: .* whose moments are at most) (\S+) of contact force', note)
+             for note in s['notes'])
     return [float(w.group(1)) for w in words if w]
 
 
@@ -124,7 +125,8 @@ def turning_ball(p):
     s = p.solve(SOCKET, *TETRAHEDRA)
     shares = held_points(s)
     print('moments of held points:', shares)
-    check(s['converged'] and len(shares) == 3 and max(shares) <= 1e-3, f'notes: {s["notes"]}')
+    check(s['converged'] and len(shares) == 1 and max(shares) <= 1e-3, f'notes: {s["notes"]}')
+    check(any('does not hold 3 of its motions' in note for note in s['notes']), f'notes: {s["notes"]}')
     certificate(s)
     check(s['bodies'][0]['largest_displacement'] <= .1, f'displacement {s["bodies"][0]["largest_displacement"]}')
     near(s['pairs'][0]['force'][2], .3911, 1e-3, 'weight')
@@ -139,6 +141,58 @@ def turning_ball(p):
     text = refused(p, os.path.join(TOP, 'prm', 'patch_test/patch_test.prm'), 'Body upper/Dirichlet=', 'Body upper/Pressures=top: 1',
                    'Body upper/Tractions=-x: (1e-3, 0, 0)')
     check('body upper, translation (1, 0, 0), would fly away' in text, text)
+
+
+RINGS = """set Bodies = disc, ring
+set Contact pairs = fit
+subsection Body disc
+  set Mesh = rings.msh
+  set Volumes = disc
+  set Young modulus = 70e3
+  set Poisson ratio = 0.3
+  set Initial strain = (1e-3, 1e-3, 0, 0, 0, 0)
+  set Dirichlet = disc ends: (*, *, 0)
+end
+subsection Body ring
+  set Mesh = rings.msh
+  set Volumes = ring
+  set Young modulus = 210e3
+  set Poisson ratio = 0.3
+  set Dirichlet = ring ends: (*, *, 0)
+end
+subsection Pair fit
+  set First = disc: disc rim
+  set Second = ring: ring bore
+end
+"""
+
+
+def free_rings(p):
+    """A disc that grows into the ring around it. The facets of an unstructured mesh oppose their turning in each other by 1e-7 only: it turned by 36 degrees."""
+    with tempfile.TemporaryDirectory() as folder:
+        make_mesh(os.path.join(TOP, 'tests', 'application', 'rings.geo'), os.path.join(folder, 'rings.msh'))
+        path = os.path.join(folder, 'rings.prm')
+        with open(path, 'w') as f:
+            f.write(RINGS)
+        # Lame, plane strain: it grows by 0.03 into a gap of 0.02.
+        a, b, c, (disc, nu_disc), (ring, nu_ring) = 10, 30, 45, (70e3 / .91, .3 / .7), (210e3 / .91, .3 / .7)
+        pressure = .01 / b / (((b**2 + a**2) / (b**2 - a**2) - nu_disc) / disc + ((c**2 + b**2) / (c**2 - b**2) + nu_ring) / ring)
+        for side in ('first', 'second'):
+            s = p.solve(path, f'Pair fit/Nonmortar={side}')
+            certificate(s)
+            mean = s['pairs'][0]['load'] / s['pairs'][0]['contact_area']
+            largest = [body['largest_displacement'] for body in s['bodies']]
+            print(side, 'mean pressure', mean, 'Lame', pressure, 'displacements', largest, 'iterations', s['cycles'][0]['nonlinear']['iterations'])
+            near(mean, pressure, .03, f'{side}: mean pressure')
+            check(max(largest) < .05, f'{side}: displacements {largest}')
+            check(len(held_points(s)) == 2 and max(held_points(s)) < 1e-6, f'{side}: {s["notes"]}')
+            check(s['cycles'][0]['nonlinear']['iterations'] <= 18, f'{side}: {s["cycles"][0]["nonlinear"]}')
+        # And with nothing that holds anything.
+        s = p.solve(path, 'Body disc/Dirichlet=', 'Body ring/Dirichlet=')
+        certificate(s)
+        largest = [body['largest_displacement'] for body in s['bodies']]
+        print('nothing held:', largest, s['notes'])
+        check(max(largest) < .06, f'nothing held: displacements {largest}')
 
 
 def ball_joint(p):

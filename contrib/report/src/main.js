@@ -49,7 +49,7 @@ function problem(run, s) {
   const {units} = run, u = inUnit(units.stress), lines = run.problem.split('\n').filter(line => line.trim());
   const isBody = line => /^body .*: \d+ cells/.test(line) || /^  boundary /.test(line);
   return section('problem', 'The problem as understood',
-    table(['body', `Young's modulus E${u}`, "Poisson's ratio ν", 'boundaries'], run.bodies.map(b => [b.name, format(b.young), format(b.poisson), b.boundaries.join(', ')])),
+    table(['body', `Young's modulus E${u}`, "Poisson's ratio ν", 'boundaries'], run.bodies.map(b => [b.name, b.materials.map(m => format(m.young)).join('; '), b.materials.map(m => format(m.poisson)).join('; '), b.boundaries.join(', ')])),
     s.pairs.length > 0 && table(['contact pair', 'kind', 'with multipliers (nonmortar)', 'partner (mortar)'], s.pairs.map((pair, p) => [pair.name, (run.pairs[p] || {}).is_tied ? 'tied' : 'contact', pair.nonmortar, pair.mortar])),
     h('h3', {}, 'Loads, constraints, pairs'),
     h('ul', {class: 'lines'}, lines.filter(line => !isBody(line)).map(line => h('li', {class: /^  /.test(line) ? 'inner' : null}, line.trim()))),

@@ -17,8 +17,9 @@ namespace Signorini
   struct LooseMotionRule
   {
     /// The mean square of the normal parts of a motion at active nodes, relative to that of the motion that
-    /// moves these most: zero to rounding; what facets of round surfaces give.
-    double not_opposed = 1e-10, hardly_opposed = 1e-4;
+    /// moves these most. Rounding: 1e-24 on a plate on balls. So little that no solution shows how far bodies
+    /// move: 6e-14 of a disc of tetrahedra that turns in a ring. What facets of round surfaces give.
+    double not_opposed = 1e-18, next_to_nothing = 1e-10, hardly_opposed = 1e-4;
     /// How far from the active nodes, in widths of a face, the surfaces may touch in truth. A coarse shaft in
     /// a V-block turns by 3 degrees until two rows of nodes are active, half a face to either side of where
     /// it would touch.
@@ -37,10 +38,12 @@ namespace Signorini
   /// Motions that slide along active contacts, as coefficients of the free motions.
   struct LooseMotions
   {
-    /// No active contact opposes them.
+    /// No active contact opposes them by more than next to nothing.
     std::vector<std::vector<double>> undetermined;
-    /// Next to nothing does: facets of round surfaces.
+    /// Facets of round surfaces do.
     std::vector<std::vector<double>> hardly_held;
+    /// These, and of the span of the others what is opposed by more than rounding.
+    std::vector<std::vector<double>> opposed_by_facets;
   };
 
   /// Collective. Those of a solution.
@@ -48,8 +51,8 @@ namespace Signorini
   LooseMotions find_loose_motions(const std::vector<FreeMotion> &motions, const std::vector<Vector> &fields,
                                   const HalfSpaces &half_spaces, const std::vector<unsigned char> &active);
 
-  /// Collective. Those motions that the surfaces hardly oppose, wherever they touch, if a solution slides
-  /// along hardly held ones by more than a tenth of a face; else none.
+  /// Collective. All motions that the surfaces oppose hardly or not at all, wherever they touch, if a
+  /// solution slides along what facets oppose by more than a tenth of a face; else none.
   /// @param loose of the solution
   /// @param v the solution; its values at contact nodes are relative displacements
   /// @param width of a face (length)

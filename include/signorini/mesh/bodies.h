@@ -106,13 +106,6 @@ namespace Signorini
       return materials[id];
     }
 
-    /// The material of a body where its volumes have none of their own.
-    const IsotropicMaterial &material_of_body(const unsigned int body) const
-    {
-      return *std::find_if(materials.begin(), materials.end(),
-                           [body](const Material &m) { return m.body == body; });
-    }
-
     /// Young's modulus of the stiffest material of all cells.
     double largest_modulus() const
     {

@@ -282,6 +282,25 @@ TEST(EdgeNormals, SharpEdgesBetweenFacesOfTheSurface)
     }
 }
 
+// The lip of a seal on a shaft: facets of the other side bulge along the edge, by more than short cells rise
+// across it.
+TEST(EdgeNormals, LongPiecesOfAnEdgeOverFacets)
+{
+  ContactSurface surface = prism(PI / 4.);
+  for (Point<3> &x : surface.mesh.vertices)
+    x[1] *= 10.;
+  turn_edges(surface, [](MetPartner &met, const Point<3> &place, const Vector3 &normal, double) {
+    met.normal   = down;
+    met.distance = (place[2] + .2 + .03 * std::sin(place[1])) / -normal[2];
+    return true;
+  });
+  for (unsigned int v = 0; v < surface.mesh.vertices.size(); ++v)
+    if (std::abs(surface.mesh.vertices[v][2]) < 1e-10)
+      {
+        EXPECT_TRUE(surface.has_partner_normal[v]) << surface.mesh.vertices[v];
+      }
+}
+
 // Of the faces beside a groove one is along a plane before it; the other one looks elsewhere.
 TEST(EdgeNormals, GroovesPressOnNothing)
 {
