@@ -184,9 +184,9 @@ namespace Signorini
             name + "the gap may be wrong by " + text_of(pair.gap_doubt) + ", " +
             text_of(pair.gap_doubt / pair.approach) + " of what contact does there, for the facets of the " +
             "mesh stand for the surface; give Boundary shapes" +
-            (surface == SurfaceKind::smooth      ? " or a finer mesh"
-             : surface == SurfaceKind::automatic ? ", a finer mesh, or Surface = smooth"
-                                                 : ", a finer mesh, or Surface = automatic"));
+            (surface == SurfaceKind::smooth      ? " or a finer start mesh"
+             : surface == SurfaceKind::automatic ? ", a finer start mesh, or Surface = smooth"
+                                                 : ", a finer start mesh, or Surface = automatic"));
       if (pair.max_penetration > rule.geometric_penetration * pair.approach)
         c.objections.push_back(
             name + "between the nodes the true surfaces penetrate by " + text_of(pair.max_penetration) +

@@ -324,11 +324,10 @@ namespace Signorini
     const NodeBlockMatrix &matrix  = algebraic->hierarchy->finest().matrix;
     PhaseTimes::Scope      solving = journal.measure(Phase::solve);
     if (!d.free_motions().empty())
-      if (const auto turning =
-              settle_free_parts(algebraic->v, model, d, matrix.partition(), algebraic->problem);
+      if (auto turning = settle_free_parts(algebraic->v, model, d, matrix.partition(), algebraic->problem);
           !turning.empty())
         {
-          result.drifting = {turning};
+          result.drifting = std::move(turning);
           return result;
         }
     const auto active = Signorini::solve(result, *algebraic, model, d, parameters, journal);

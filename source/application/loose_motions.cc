@@ -11,6 +11,8 @@
 
 #include <Eigen/Cholesky>
 
+#include <set>
+
 namespace Signorini
 {
   using namespace dealii;
@@ -157,6 +159,45 @@ namespace Signorini
 
 
 
+  namespace
+  {
+    /// The parts that motions move.
+    std::set<unsigned int> moved_parts(const std::vector<FreeMotion>          &motions,
+                                       const std::vector<std::vector<double>> &moving)
+    {
+      std::set<unsigned int> parts;
+      for (const std::vector<double> &motion : moving)
+        for (std::size_t m = 0; m < motions.size(); ++m)
+          if (std::abs(motion[m]) > LooseMotionRule().moves)
+            parts.insert(motions[m].part);
+      return parts;
+    }
+  } // namespace
+
+
+
+  std::vector<std::vector<double>> all_to_be_held(const std::vector<FreeMotion> &motions,
+                                                  const std::vector<Vector> &fields, const HalfSpaces &spaces,
+                                                  const std::vector<std::vector<double>> &drifting)
+  {
+    // Few nodes may be active in a solution that drifts: these need not show what the surfaces allow.
+    const LooseMotions anywhere =
+        find_loose_motions(motions, fields, spaces, std::vector<unsigned char>(spaces.size(), 1));
+    const std::set<unsigned int>     parts = moved_parts(motions, drifting);
+    std::vector<std::vector<double>> result;
+    for (const auto *const list : {&anywhere.hardly_held, &anywhere.undetermined})
+      for (const std::vector<double> &motion : *list)
+        for (const unsigned int part : moved_parts(motions, {motion}))
+          if (parts.count(part) > 0)
+            {
+              result.push_back(motion);
+              break;
+            }
+    return result.empty() ? drifting : result;
+  }
+
+
+
   std::vector<std::vector<double>> find_drift(const std::vector<FreeMotion> &motions,
                                               const std::vector<Vector> &fields, const HalfSpaces &spaces,
                                               const LooseMotions &loose, const Vector &v, const double width)
@@ -164,14 +205,7 @@ namespace Signorini
     if (loose.opposed_by_facets.empty() ||
         slip_along(loose.opposed_by_facets, fields, spaces, v) <= LooseMotionRule().slip * width)
       return {};
-    // Few nodes may be active in a solution that drifts: these need not show what the surfaces allow.
-    const LooseMotions anywhere =
-        find_loose_motions(motions, fields, spaces, std::vector<unsigned char>(spaces.size(), 1));
-    const LooseMotions &where = anywhere.opposed_by_facets.empty() ? loose : anywhere;
-    // What is held in a point turns about it with what nothing determines.
-    std::vector<std::vector<double>> result = where.hardly_held;
-    result.insert(result.end(), where.undetermined.begin(), where.undetermined.end());
-    return result;
+    return all_to_be_held(motions, fields, spaces, loose.opposed_by_facets);
   }
 
 

@@ -267,15 +267,14 @@ namespace Signorini
         std::ostringstream text;
         text << std::setprecision(2);
         if (points.size() == 1)
-          text << points[0]->motion
-               << ": frictionless contact of round surfaces does not hold it, so the point "
+          text << points[0]->motion << ": frictionless contact does not hold it, so the point "
                << place(*points[0]) << " is held in " << component(*points[0]) << " and carries a force of "
                << reaction << ", whose moment is " << share
                << " of contact force times size of the surfaces: an error of the facets, or a moment of the "
                   "loads.";
         else
           {
-            text << body << ": frictionless contact of round surfaces does not hold " << points.size()
+            text << body << ": frictionless contact does not hold " << points.size()
                  << " of its motions, so points are held: ";
             for (const PointHold *const point : points)
               text << (point == points[0] ? "" : ", ") << place(*point) << " in " << component(*point);

@@ -807,3 +807,27 @@ def deck_slit(d):
     check(s['pairs'][0]['load'] > 0, 'the lips do not touch')
     near(s['pairs'][0]['load'], theirs['pairs'][0]['load'], 1e-6, 'force of the lips')
     d.refuses(text.replace('UPPER, LOWER', 'UPPER, UPPER'), 'faces in common', '"UPPER"')
+
+
+@in_folder
+def deck_few_digits(d):
+    """A block on a block, held by nothing but contact with a plane that no axis goes along, in coordinates of few digits: it slid away over what rounding had left."""
+    reference = None
+    for digits in (14, 9, 7, 6, 5, 4, 3):
+        def move(x, digits=digits):
+            y, z = math.cos(.3) * x[1] - math.sin(.3) * x[2], math.sin(.3) * x[1] + math.cos(.3) * x[2]
+            return [round(c, digits) for c in (math.cos(.4) * x[0] + math.sin(.4) * z, y, -math.sin(.4) * x[0] + math.cos(.4) * z)]
+        upper = Block('C3D8', (1.1, 1.2, 0), (2.7, 2.9, 1), (6, 6, 4), move=move)
+        lower = Block('C3D8', (0, 0, -1), (4, 4, 0), (9, 10, 4), 10000, 10000, move=move)
+        text = upper.text_nodes() + lower.text_nodes() + upper.text_elements('Upper') + lower.text_elements('Lower')
+        text += nset('BOTTOM', lower.plane(2, -1)) + surface('SU', upper.sides(2, 0)) + surface('SL', lower.sides(2, 0)) + surface('STOP', upper.sides(2, 1))
+        text += MATERIAL + '*SOLID SECTION, ELSET=Upper, MATERIAL=steel\n*SOLID SECTION, ELSET=Lower, MATERIAL=steel\n' + INTERACTION
+        text += '*CONTACT PAIR, INTERACTION=hard, TYPE=SURFACE TO SURFACE\nSU, SL\n*BOUNDARY\nBOTTOM, 1, 3\n*STEP\n*STATIC\n' + LOAD.format(1.) + '*END STEP\n'
+        s, _ = d.solve(text)
+        certificate(s)
+        iterations, largest = s['cycles'][0]['nonlinear']['iterations'], [body['largest_displacement'] for body in s['bodies']]
+        print(digits, 'digits:', iterations, 'iterations, displacements', largest, 'pressure', s['pairs'][0]['max_recovered_pressure'])
+        near(s['pairs'][0]['load'], 1.6 * 1.7, 10 * 10.**-digits + 1e-9, f'{digits} digits: load')
+        check(iterations <= 25 and max(largest) < .0025, f'{digits} digits: {iterations} iterations, displacements {largest}')
+        reference = reference or s['pairs'][0]['max_recovered_pressure']
+        near(s['pairs'][0]['max_recovered_pressure'], reference, .03 if digits > 3 else .2, f'{digits} digits: largest pressure')

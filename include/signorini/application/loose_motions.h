@@ -30,6 +30,8 @@ namespace Signorini
     /// How far surfaces may slide along a motion that facets oppose, in widths of a face: on a radius of
     /// ten faces that is a hundredth of a radian. Solutions that drift slide by 1e2 to 1e6 of them.
     double slip = .1;
+    /// The coefficient of a motion of a part with which it takes part in another one.
+    double moves = 1e-3;
     /// The normal part of a motion at a node, relative to the motion, that does not oppose it: rounding of
     /// eigenvectors (2e-12 on a plate on balls, whose facets make 1e-5).
     double rounding = 1e-9;
@@ -51,8 +53,16 @@ namespace Signorini
   LooseMotions find_loose_motions(const std::vector<FreeMotion> &motions, const std::vector<Vector> &fields,
                                   const HalfSpaces &half_spaces, const std::vector<unsigned char> &active);
 
-  /// Collective. All motions that the surfaces oppose hardly or not at all, wherever they touch, if a
-  /// solution slides along what facets oppose by more than a tenth of a face; else none.
+  /// Collective. What has to be held where something drifts: all motions of the same parts that the surfaces
+  /// oppose hardly or not at all, wherever they touch, for what is held in a point turns about it with the
+  /// others. What drifts itself if there are none.
+  std::vector<std::vector<double>> all_to_be_held(const std::vector<FreeMotion>          &motions,
+                                                  const std::vector<Vector>              &fields,
+                                                  const HalfSpaces                       &half_spaces,
+                                                  const std::vector<std::vector<double>> &drifting);
+
+  /// Collective. The same if a solution slides along what facets oppose by more than a tenth of a face; else
+  /// none.
   /// @param loose of the solution
   /// @param v the solution; its values at contact nodes are relative displacements
   /// @param width of a face (length)
