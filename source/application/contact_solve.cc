@@ -381,6 +381,21 @@ namespace Signorini
 
 
 
+  std::vector<std::vector<double>> find_unopposed_motions(const ContactModel &model, const Discretization &d)
+  {
+    if (d.free_motions().empty())
+      return {};
+    const HalfSpaces   spaces = make_half_spaces(d, d.partition(), d.gaps);
+    const auto         fields = motions_of_unknowns(model, *d.constrained, d.partition(), *d.transformation);
+    const LooseMotions loose =
+        find_loose_motions(d.free_motions(), fields, spaces, std::vector<unsigned char>(spaces.size(), 1));
+    if (loose.next_to_undetermined.empty())
+      return {};
+    return all_to_be_held(d.free_motions(), fields, spaces, loose.next_to_undetermined);
+  }
+
+
+
   ContactSolution solve_contact(ContactModel &model, const Discretization &d, CoarserSpaces &coarser,
                                 const NestedStart *const start, const SolveParameters &parameters,
                                 Journal &journal)

@@ -105,14 +105,13 @@ namespace Signorini
       add(result.undetermined, eigen.vectors.col(k));
     for (Eigen::Index k = n_undetermined; k < count(rule.hardly_opposed); ++k)
       add(result.hardly_held, eigen.vectors.col(k));
-    result.opposed_by_facets = result.hardly_held;
     if (n_undetermined > 0)
       {
         const Eigen::MatrixXd span  = eigen.vectors.leftCols(n_undetermined);
         const SymmetricEigen  exact = symmetric_eigen(normal_products(span, fields, spaces, active));
         for (Eigen::Index k = 0; k < n_undetermined; ++k)
           if (exact.values[k] > rule.not_opposed * scale)
-            add(result.opposed_by_facets, span * exact.vectors.col(k));
+            add(result.next_to_undetermined, span * exact.vectors.col(k));
       }
     result.undetermined = separate_motions(motions, result.undetermined);
     return result;
@@ -202,10 +201,11 @@ namespace Signorini
                                               const std::vector<Vector> &fields, const HalfSpaces &spaces,
                                               const LooseMotions &loose, const Vector &v, const double width)
   {
-    if (loose.opposed_by_facets.empty() ||
-        slip_along(loose.opposed_by_facets, fields, spaces, v) <= LooseMotionRule().slip * width)
+    std::vector<std::vector<double>> by_facets = loose.hardly_held;
+    by_facets.insert(by_facets.end(), loose.next_to_undetermined.begin(), loose.next_to_undetermined.end());
+    if (by_facets.empty() || slip_along(by_facets, fields, spaces, v) <= LooseMotionRule().slip * width)
       return {};
-    return all_to_be_held(motions, fields, spaces, loose.opposed_by_facets);
+    return all_to_be_held(motions, fields, spaces, by_facets);
   }
 
 

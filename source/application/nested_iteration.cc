@@ -143,15 +143,22 @@ namespace Signorini
           journal.print("cycle " + std::to_string(cycle) + ": " + std::to_string(result.cells) + " cells, " +
                         std::to_string(result.dofs) + " unknowns");
         journal.show("contact mapping and mortar integrals");
-        last.discretization     = discretize(model, space, sides, cycle, journal);
-        sides                   = last.discretization->sides;
+        last.discretization = discretize(model, space, sides, cycle, journal);
+        sides               = last.discretization->sides;
+        if (const auto motions = find_unopposed_motions(model, *last.discretization); !motions.empty())
+          hold_points(motions);
         SolveParameters how_to  = parameters.solve;
         how_to.measure_sweeps   = how_to.measure_sweeps && cycle == refinement.n_cycles();
         const NestedStart *from = cycle > 0 ? &start : nullptr;
         last.solution           = solve_contact(model, *last.discretization, coarser, from, how_to, journal);
         unsigned int before_holds = 0;
-        while (!last.solution.drifting.empty() && hold_points())
+        while (!last.solution.drifting.empty())
           {
+            if (!hold_points(last.solution.drifting))
+              {
+                leave_drift(model, *last.discretization, last.solution, journal);
+                break;
+              }
             before_holds += last.solution.report.iterations;
             last.solution = solve_contact(model, *last.discretization, coarser, nullptr, how_to, journal);
           }
@@ -182,16 +189,12 @@ namespace Signorini
         last.results.cycles.push_back(result);
       }
 
-      /// Holds what the solution drifts along; false if there is no point for that.
-      bool hold_points()
+      /// False if there is no point for that.
+      bool hold_points(const std::vector<std::vector<double>> &motions)
       {
-        const std::vector<std::vector<double>> &drifting = last.solution.drifting;
-        const std::vector<PointHold> holds = choose_point_holds(model, *last.discretization, drifting);
+        const std::vector<PointHold> holds = choose_point_holds(model, *last.discretization, motions);
         if (holds.empty())
-          {
-            leave_drift(model, *last.discretization, last.solution, journal);
-            return false;
-          }
+          return false;
         for (const PointHold &hold : holds)
           model.hold(hold);
         space               = ConstrainedSpace::with_more_conditions(*space, model);

@@ -813,7 +813,7 @@ def deck_slit(d):
 def deck_few_digits(d):
     """A block on a block, held by nothing but contact with a plane that no axis goes along, in coordinates of few digits: it slid away over what rounding had left."""
     reference = None
-    for digits in (14, 9, 7, 6, 5, 4, 3):
+    for digits in (14, 10, 9, 8, 7, 6, 5, 4):
         def move(x, digits=digits):
             y, z = math.cos(.3) * x[1] - math.sin(.3) * x[2], math.sin(.3) * x[1] + math.cos(.3) * x[2]
             return [round(c, digits) for c in (math.cos(.4) * x[0] + math.sin(.4) * z, y, -math.sin(.4) * x[0] + math.cos(.4) * z)]
@@ -828,6 +828,6 @@ def deck_few_digits(d):
         iterations, largest = s['cycles'][0]['nonlinear']['iterations'], [body['largest_displacement'] for body in s['bodies']]
         print(digits, 'digits:', iterations, 'iterations, displacements', largest, 'pressure', s['pairs'][0]['max_recovered_pressure'])
         near(s['pairs'][0]['load'], 1.6 * 1.7, 10 * 10.**-digits + 1e-9, f'{digits} digits: load')
-        check(iterations <= 25 and max(largest) < .0025, f'{digits} digits: {iterations} iterations, displacements {largest}')
+        check(iterations <= 12 and max(largest) < .0025, f'{digits} digits: {iterations} iterations, displacements {largest}')
         reference = reference or s['pairs'][0]['max_recovered_pressure']
-        near(s['pairs'][0]['max_recovered_pressure'], reference, .03 if digits > 3 else .2, f'{digits} digits: largest pressure')
+        near(s['pairs'][0]['max_recovered_pressure'], reference, .03, f'{digits} digits: largest pressure')

@@ -128,6 +128,11 @@ namespace Signorini
     std::unique_ptr<AlgebraicProblem> algebraic;
   };
 
+  /// Collective. Free motions that the surfaces oppose by next to nothing, wherever they touch, with what has
+  /// to be held with them (all_to_be_held()): no solution shows how far bodies move along these.
+  std::vector<std::vector<double>> find_unopposed_motions(const ContactModel   &model,
+                                                          const Discretization &discretization);
+
   /// Collective. Solves the contact problem of one mesh, the strains of bolts too, which the model keeps.
   /// @param coarser the spaces below, kept from mesh to mesh
   /// @param start null on the first mesh

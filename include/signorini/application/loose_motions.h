@@ -19,7 +19,7 @@ namespace Signorini
     /// The mean square of the normal parts of a motion at active nodes, relative to that of the motion that
     /// moves these most. Rounding: 1e-24 on a plate on balls. So little that no solution shows how far bodies
     /// move: 6e-14 of a disc of tetrahedra that turns in a ring. What facets of round surfaces give.
-    double not_opposed = 1e-18, next_to_nothing = 1e-10, hardly_opposed = 1e-4;
+    double not_opposed = 1e-22, next_to_nothing = 1e-10, hardly_opposed = 1e-4;
     /// How far from the active nodes, in widths of a face, the surfaces may touch in truth. A coarse shaft in
     /// a V-block turns by 3 degrees until two rows of nodes are active, half a face to either side of where
     /// it would touch.
@@ -44,8 +44,8 @@ namespace Signorini
     std::vector<std::vector<double>> undetermined;
     /// Facets of round surfaces do.
     std::vector<std::vector<double>> hardly_held;
-    /// These, and of the span of the others what is opposed by more than rounding.
-    std::vector<std::vector<double>> opposed_by_facets;
+    /// Of the span of those that are undetermined what is opposed by more than rounding.
+    std::vector<std::vector<double>> next_to_undetermined;
   };
 
   /// Collective. Those of a solution.
