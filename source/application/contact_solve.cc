@@ -324,10 +324,11 @@ namespace Signorini
     const NodeBlockMatrix &matrix  = algebraic->hierarchy->finest().matrix;
     PhaseTimes::Scope      solving = journal.measure(Phase::solve);
     if (!d.free_motions().empty())
-      if (auto turning = settle_free_parts(algebraic->v, model, d, matrix.partition(), algebraic->problem);
+      if (const auto turning =
+              settle_free_parts(algebraic->v, model, d, matrix.partition(), algebraic->problem);
           !turning.empty())
         {
-          result.drifting = std::move(turning);
+          result.drifting = {turning};
           return result;
         }
     const auto active = Signorini::solve(result, *algebraic, model, d, parameters, journal);
@@ -391,7 +392,7 @@ namespace Signorini
         find_loose_motions(d.free_motions(), fields, spaces, std::vector<unsigned char>(spaces.size(), 1));
     if (loose.next_to_undetermined.empty())
       return {};
-    return all_to_be_held(d.free_motions(), fields, spaces, loose.next_to_undetermined);
+    return of_same_parts(d.free_motions(), loose.undetermined, loose.next_to_undetermined);
   }
 
 

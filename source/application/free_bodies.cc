@@ -170,9 +170,8 @@ namespace Signorini
 
 
 
-  std::vector<std::vector<double>> settle_free_parts(Vector &v, const ContactModel &model,
-                                                     const Discretization &d, const NodePartition &unknowns,
-                                                     const ObstacleProblem &problem)
+  std::vector<double> settle_free_parts(Vector &v, const ContactModel &model, const Discretization &d,
+                                        const NodePartition &unknowns, const ObstacleProblem &problem)
   {
     const RigidProblem  rigid(model, d, unknowns, problem);
     const std::size_t   n      = rigid.fields.size();
@@ -194,7 +193,7 @@ namespace Signorini
       return {};
     const RigidBalance balance = balance_rigid_motions(rows, bounds, rigid.work);
     if (!balance.is_held && rigid.turns_freely(d.free_motions(), balance.flight))
-      return all_to_be_held(d.free_motions(), rigid.fields, problem.half_spaces, {balance.flight});
+      return balance.flight;
     if (!balance.is_held)
       refuse_flight(model, d.free_motions(), balance.flight);
     for (std::size_t m = 0; m < n; ++m)

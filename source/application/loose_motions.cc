@@ -65,7 +65,7 @@ namespace Signorini
     }
 
     /// Collective. The sum of products of the normal parts of combinations of motions (columns) over active
-    /// nodes. Where these are small they are exact, unlike those of the sums of products.
+    /// nodes: to rounding of the normal parts, which the sum of products of all motions is not.
     Eigen::MatrixXd normal_products(const Eigen::MatrixXd &combinations, const std::vector<Vector> &fields,
                                     const HalfSpaces &spaces, const std::vector<unsigned char> &active)
     {
@@ -175,24 +175,20 @@ namespace Signorini
 
 
 
-  std::vector<std::vector<double>> all_to_be_held(const std::vector<FreeMotion> &motions,
-                                                  const std::vector<Vector> &fields, const HalfSpaces &spaces,
-                                                  const std::vector<std::vector<double>> &drifting)
+  std::vector<std::vector<double>> of_same_parts(const std::vector<FreeMotion>          &motions,
+                                                 const std::vector<std::vector<double>> &candidates,
+                                                 const std::vector<std::vector<double>> &moving)
   {
-    // Few nodes may be active in a solution that drifts: these need not show what the surfaces allow.
-    const LooseMotions anywhere =
-        find_loose_motions(motions, fields, spaces, std::vector<unsigned char>(spaces.size(), 1));
-    const std::set<unsigned int>     parts = moved_parts(motions, drifting);
+    const std::set<unsigned int>     parts = moved_parts(motions, moving);
     std::vector<std::vector<double>> result;
-    for (const auto *const list : {&anywhere.hardly_held, &anywhere.undetermined})
-      for (const std::vector<double> &motion : *list)
-        for (const unsigned int part : moved_parts(motions, {motion}))
-          if (parts.count(part) > 0)
-            {
-              result.push_back(motion);
-              break;
-            }
-    return result.empty() ? drifting : result;
+    for (const std::vector<double> &motion : candidates)
+      {
+        const std::set<unsigned int> own = moved_parts(motions, {motion});
+        if (std::any_of(own.begin(), own.end(),
+                        [&](const unsigned int part) { return parts.count(part) > 0; }))
+          result.push_back(motion);
+      }
+    return result;
   }
 
 
@@ -201,11 +197,22 @@ namespace Signorini
                                               const std::vector<Vector> &fields, const HalfSpaces &spaces,
                                               const LooseMotions &loose, const Vector &v, const double width)
   {
-    std::vector<std::vector<double>> by_facets = loose.hardly_held;
-    by_facets.insert(by_facets.end(), loose.next_to_undetermined.begin(), loose.next_to_undetermined.end());
-    if (by_facets.empty() || slip_along(by_facets, fields, spaces, v) <= LooseMotionRule().slip * width)
+    const auto drifts = [&](const std::vector<std::vector<double>> &along) {
+      return !along.empty() && slip_along(along, fields, spaces, v) > LooseMotionRule().slip * width;
+    };
+    const bool drifts_on_facets = drifts(loose.hardly_held);
+    if (!drifts_on_facets && !drifts(loose.next_to_undetermined))
       return {};
-    return all_to_be_held(motions, fields, spaces, by_facets);
+    // Few nodes may be active in a solution that drifts: these need not show what the surfaces allow.
+    const LooseMotions anywhere =
+        find_loose_motions(motions, fields, spaces, std::vector<unsigned char>(spaces.size(), 1));
+    std::vector<std::vector<double>> result;
+    if (drifts_on_facets)
+      result = anywhere.hardly_held.empty() ? loose.hardly_held : anywhere.hardly_held;
+    const auto undetermined =
+        of_same_parts(motions, anywhere.undetermined, drifts_on_facets ? result : loose.next_to_undetermined);
+    result.insert(result.end(), undetermined.begin(), undetermined.end());
+    return result.empty() ? loose.next_to_undetermined : result;
   }
 
 

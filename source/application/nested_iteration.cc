@@ -145,16 +145,17 @@ namespace Signorini
         journal.show("contact mapping and mortar integrals");
         last.discretization = discretize(model, space, sides, cycle, journal);
         sides               = last.discretization->sides;
-        if (const auto motions = find_unopposed_motions(model, *last.discretization); !motions.empty())
-          hold_points(motions);
-        SolveParameters how_to  = parameters.solve;
-        how_to.measure_sweeps   = how_to.measure_sweeps && cycle == refinement.n_cycles();
-        const NestedStart *from = cycle > 0 ? &start : nullptr;
-        last.solution           = solve_contact(model, *last.discretization, coarser, from, how_to, journal);
+        // Without points for that the solution shows whether it drifts.
+        const auto      unopposed = find_unopposed_motions(model, *last.discretization);
+        const bool      holds_now = !unopposed.empty() && hold_points(unopposed, HoldReason::unopposed);
+        SolveParameters how_to    = parameters.solve;
+        how_to.measure_sweeps     = how_to.measure_sweeps && cycle == refinement.n_cycles();
+        const NestedStart *from   = cycle > 0 && !holds_now ? &start : nullptr;
+        last.solution = solve_contact(model, *last.discretization, coarser, from, how_to, journal);
         unsigned int before_holds = 0;
         while (!last.solution.drifting.empty())
           {
-            if (!hold_points(last.solution.drifting))
+            if (!hold_points(last.solution.drifting, HoldReason::drifting))
               {
                 leave_drift(model, *last.discretization, last.solution, journal);
                 break;
@@ -190,9 +191,9 @@ namespace Signorini
       }
 
       /// False if there is no point for that.
-      bool hold_points(const std::vector<std::vector<double>> &motions)
+      bool hold_points(const std::vector<std::vector<double>> &motions, const HoldReason reason)
       {
-        const std::vector<PointHold> holds = choose_point_holds(model, *last.discretization, motions);
+        const std::vector<PointHold> holds = choose_point_holds(model, *last.discretization, motions, reason);
         if (holds.empty())
           return false;
         for (const PointHold &hold : holds)

@@ -31,7 +31,10 @@ namespace Signorini
       /// The largest moment of a hold, relative to that of the contact force with the size of the surfaces as
       /// its arm. A ball in a socket: 1.3e-2 with 12 faces around it, 3e-3 with 40; a force that misses the
       /// centre of the ball: its arm over the radius.
-      double largest_share = .05;
+      double drifting = .05;
+      /// The same of motions that the surfaces oppose by next to nothing: normal parts are 1e-5 of these at
+      /// most (LooseMotionRule::next_to_nothing), and so are tangential parts of the contact forces.
+      double unopposed = 1e-4;
       /// Contact forces below this share of the largest one of all bodies count as that: nothing loads the
       /// balls of a bearing opposite to its load, and what is held there carries what rounding leaves
       /// (4.8e-10 beside 890).
@@ -192,7 +195,8 @@ namespace Signorini
 
 
   std::vector<PointHold> choose_point_holds(const ContactModel &model, const Discretization &d,
-                                            const std::vector<std::vector<double>> &motions)
+                                            const std::vector<std::vector<double>> &motions,
+                                            const HoldReason                        reason)
   {
     const std::vector<FreeMotion> &free       = d.free_motions();
     const std::vector<Candidate>   candidates = find_candidates(model, d);
@@ -213,6 +217,8 @@ namespace Signorini
         hold.motion       = describe_motion(free, std::vector<double>(held.data(), held.data() + held.size()),
                                             model.bodies());
         hold.arm          = size > 0. ? choice->row.norm() / size : 0.;
+        hold.largest_share =
+            reason == HoldReason::unopposed ? PointHoldRule().unopposed : PointHoldRule().drifting;
         result.push_back(hold);
         basis = without(basis, choice->row);
       }
@@ -294,7 +300,7 @@ namespace Signorini
       static std::string place(const PointHold &point)
       {
         std::ostringstream text;
-        text << std::setprecision(4);
+        text << std::setprecision(6);
         for (unsigned int c = 0; c < dim; ++c)
           text << (c == 0 ? "(" : " ")
                << (std::abs(point.position[c]) > 1e-12 * point.position.norm() ? point.position[c] : 0.);
@@ -322,7 +328,7 @@ namespace Signorini
         const double reaction = equilibrium.reactions[hold.condition].reaction.norm();
         const double force    = std::max({forces[hold.body], reaction, rule.idle * largest_force});
         const double share    = reaction * hold.arm / force;
-        if (share > rule.largest_share)
+        if (share > hold.largest_share)
           {
             std::ostringstream text;
             text << std::setprecision(2) << "The loads move " << hold.motion

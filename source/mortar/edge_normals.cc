@@ -293,6 +293,8 @@ namespace Signorini
         for (const unsigned int w : {a, b})
           if (!corner(w).meets_anything())
             return false;
+        if (!corner(a).is_edge() && !corner(b).is_edge())
+          return false;
         const Vector3 n = facet_normal(surface, triangle), to_a = x[a] - x[v], to_b = x[b] - x[v];
         const Vector3 up    = (here.normal() * n) * n - here.normal();
         const double  slope = (n - here.normal()).norm();

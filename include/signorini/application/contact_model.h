@@ -53,6 +53,9 @@ namespace Signorini
     std::string motion;
     /// The displacement of that motion there, relative to its mean size on the contact surfaces.
     double arm = 0.;
+    /// The largest moment that it may carry, relative to that of the contact force with the size of the
+    /// surfaces as its arm: more than facets make of loads that do not move the body.
+    double largest_share = 0.;
     /// Index into Loads::dirichlet, of a model that has it.
     std::size_t condition = 0;
   };

@@ -129,7 +129,7 @@ namespace Signorini
   };
 
   /// Collective. Free motions that the surfaces oppose by next to nothing, wherever they touch, with what has
-  /// to be held with them (all_to_be_held()): no solution shows how far bodies move along these.
+  /// to be held with them (of_same_parts()): no solution shows how far bodies move along these.
   std::vector<std::vector<double>> find_unopposed_motions(const ContactModel   &model,
                                                           const Discretization &discretization);
 

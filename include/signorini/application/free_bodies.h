@@ -23,14 +23,13 @@ namespace Signorini
                                           const BasisTransformation &transformation);
 
   /// Collective. Adds to a start the motion that brings free parts into the contacts that hold them. Returns
-  /// motions (coefficients) that have to be held before: one by which round surfaces turn in each other, if
-  /// the loads turn it no more than facets may, and what goes with it; then the start is as it was. Errors:
-  /// InputError for loads that no contact can hold.
+  /// a motion (coefficients) that has to be held before: one by which round surfaces turn in each other, if
+  /// the loads turn it no more than facets may; then the start is as it was. Errors: InputError for loads
+  /// that no contact can hold.
   /// @param unknowns partition of v
-  std::vector<std::vector<double>> settle_free_parts(Vector &v, const ContactModel &model,
-                                                     const Discretization  &discretization,
-                                                     const NodePartition   &unknowns,
-                                                     const ObstacleProblem &problem);
+  std::vector<double> settle_free_parts(Vector &v, const ContactModel &model,
+                                        const Discretization &discretization, const NodePartition &unknowns,
+                                        const ObstacleProblem &problem);
 
   /// Ends the run for loads that no contact can hold. Errors: InputError, always.
   [[noreturn]] void refuse_flight(const ContactModel &model, const std::vector<FreeMotion> &motions,

@@ -17,8 +17,9 @@ namespace Signorini
   struct LooseMotionRule
   {
     /// The mean square of the normal parts of a motion at active nodes, relative to that of the motion that
-    /// moves these most. Rounding: 1e-24 on a plate on balls. So little that no solution shows how far bodies
-    /// move: 6e-14 of a disc of tetrahedra that turns in a ring. What facets of round surfaces give.
+    /// moves these most. Rounding: 1e-24 on a plate on balls (more far from the origin, and held then: the
+    /// iteration would not end there either). So little that no solution shows how far bodies move: 6e-14 of
+    /// a disc of tetrahedra that turns in a ring. What facets of round surfaces give.
     double not_opposed = 1e-22, next_to_nothing = 1e-10, hardly_opposed = 1e-4;
     /// How far from the active nodes, in widths of a face, the surfaces may touch in truth. A coarse shaft in
     /// a V-block turns by 3 degrees until two rows of nodes are active, half a face to either side of where
@@ -44,7 +45,7 @@ namespace Signorini
     std::vector<std::vector<double>> undetermined;
     /// Facets of round surfaces do.
     std::vector<std::vector<double>> hardly_held;
-    /// Of the span of those that are undetermined what is opposed by more than rounding.
+    /// What is opposed by more than rounding in the span of those that are undetermined.
     std::vector<std::vector<double>> next_to_undetermined;
   };
 
@@ -53,16 +54,15 @@ namespace Signorini
   LooseMotions find_loose_motions(const std::vector<FreeMotion> &motions, const std::vector<Vector> &fields,
                                   const HalfSpaces &half_spaces, const std::vector<unsigned char> &active);
 
-  /// Collective. What has to be held where something drifts: all motions of the same parts that the surfaces
-  /// oppose hardly or not at all, wherever they touch, for what is held in a point turns about it with the
-  /// others. What drifts itself if there are none.
-  std::vector<std::vector<double>> all_to_be_held(const std::vector<FreeMotion>          &motions,
-                                                  const std::vector<Vector>              &fields,
-                                                  const HalfSpaces                       &half_spaces,
-                                                  const std::vector<std::vector<double>> &drifting);
+  /// Those of some motions that move a part which others move: what is held in a point for one of them turns
+  /// about it with the rest.
+  std::vector<std::vector<double>> of_same_parts(const std::vector<FreeMotion>          &motions,
+                                                 const std::vector<std::vector<double>> &candidates,
+                                                 const std::vector<std::vector<double>> &moving);
 
-  /// Collective. The same if a solution slides along what facets oppose by more than a tenth of a face; else
-  /// none.
+  /// Collective. What has to be held if a solution slides along what facets oppose by more than a tenth of a
+  /// face: that, as far as the surfaces oppose it hardly wherever they touch, and what is undetermined there
+  /// of the same parts; else none.
   /// @param loose of the solution
   /// @param v the solution; its values at contact nodes are relative displacements
   /// @param width of a face (length)
