@@ -58,7 +58,8 @@ namespace Signorini
     std::set<std::string> names;
     for (const FreeMotion &motion : motions)
       names.insert(model.bodies().part_name(motion.part));
-    if (!names.empty())
+    // Said before points were held.
+    if (!names.empty() && model.point_holds().empty())
       journal.note("contact must hold " + Patterns::Tools::to_string(names) +
                    ": Dirichlet conditions alone do not.");
   }
