@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
-#include <signorini/algebra/input_error.h>
 #include <signorini/application/constrained_space.h>
+
+#include <map>
+#include <numeric>
 
 namespace Signorini
 {
@@ -10,12 +12,11 @@ namespace Signorini
 
   namespace
   {
-    /// For each part of the bodies a number that all parts have that are tied to it.
-    std::vector<unsigned int> tied_groups(const ContactModel &model)
+    /// All parts of the bodies, those together that ties make move as one.
+    std::vector<TiedParts> groups_of_ties(const ContactModel &model)
     {
       std::vector<unsigned int> group(model.bodies().n_parts());
-      for (unsigned int part = 0; part < group.size(); ++part)
-        group[part] = part;
+      std::iota(group.begin(), group.end(), 0);
       for (const PairModel &pair : model.pairs())
         if (pair.is_tied())
           {
@@ -27,7 +28,13 @@ namespace Signorini
                   std::replace(group.begin(), group.end(), from, to);
                 }
           }
-      return group;
+      std::map<unsigned int, TiedParts> parts;
+      for (unsigned int part = 0; part < group.size(); ++part)
+        parts[group[part]].push_back(part);
+      std::vector<TiedParts> result;
+      for (const auto &[number, tied] : parts)
+        result.push_back(tied);
+      return result;
     }
   } // namespace
 
@@ -36,25 +43,16 @@ namespace Signorini
   FreeParts find_free_parts(const ContactModel &model, const NodalSpace &space,
                             const DirichletData &dirichlet)
   {
-    const std::vector<FreeMotion>   motions = free_motions(model.bodies(), space, dirichlet);
-    const std::vector<unsigned int> group   = tied_groups(model);
-    std::set<unsigned int>          moving, held;
-    for (const FreeMotion &motion : motions)
-      moving.insert(motion.part);
-    for (unsigned int part = 0; part < group.size(); ++part)
-      if (moving.count(part) == 0)
-        held.insert(group[part]);
-    FreeParts result;
-    for (const FreeMotion &motion : motions)
-      if (std::count(group.begin(), group.end(), group[motion.part]) == 1)
-        result.motions.push_back(motion);
-      else if (held.count(group[motion.part]) > 0)
-        result.has_tied_part = true;
-      else
-        throw InputError(
-            "Body " + model.bodies().body_name(motion.body) +
-            "/Dirichlet: the conditions do not exclude rigid motions, and neither do those of any body that "
-            "it is tied to. One body of a tied group must be held by conditions of its own.");
+    const std::vector<TiedParts> groups = groups_of_ties(model);
+    FreeParts                    result;
+    result.motions = free_motions(model.bodies(), space, dirichlet, groups);
+    if (groups.size() < model.bodies().n_parts())
+      for (const FreeMotion &motion :
+           free_motions(model.bodies(), space, dirichlet, separate_parts(model.bodies())))
+        for (const TiedParts &group : groups)
+          result.has_tied_part =
+              result.has_tied_part ||
+              (group.size() > 1 && std::binary_search(group.begin(), group.end(), motion.first_part()));
     return result;
   }
 

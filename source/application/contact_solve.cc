@@ -172,6 +172,12 @@ namespace Signorini
       Vector                    rigid;
     };
 
+    /// Of these, the others solve with A what has to be solved with A'.
+    bool takes_invariant_products(const SolverMethod method)
+    {
+      return method == SolverMethod::accelerated || method == SolverMethod::truncated_newton_multigrid;
+    }
+
     AlgebraicProblem build_problem(const ContactModel &model, const Discretization &d, CoarserSpaces &coarser,
                                    const NestedStart *const start, const SolveParameters &parameters,
                                    Journal &journal)
@@ -199,16 +205,21 @@ namespace Signorini
       problem.semidefinite          = !d.free_motions().empty();
       if (problem.semidefinite)
         {
-          problem.free_motions = motions_of_unknowns(model, *d.constrained, partition, *d.transformation);
+          problem.free_motions = motions_of_unknowns(model, d, partition);
           orthonormalize(problem.free_motions);
         }
       partition.reinit(result.v);
       if (start != nullptr)
-        d.transformation->from_displacement(result.v, start->displacement);
+        {
+          d.transformation->from_displacement(result.v, start->displacement);
+          clear_tied_unknowns(result.v, partition, d);
+        }
       HierarchyOptions options;
       options.problem  = &problem;
       options.start    = start != nullptr ? &result.v : nullptr;
       result.hierarchy = make_hierarchy(std::move(system), *result.levels, d, parameters.solver, options);
+      if (d.has_ties() && !problem.free_motions.empty() && takes_invariant_products(parameters.solver.method))
+        problem.invariant = InvariantProducts(result.hierarchy->finest().matrix, problem.free_motions);
       return result;
     }
 
@@ -241,7 +252,7 @@ namespace Signorini
     {
       const HalfSpaces    &spaces   = algebraic.problem.half_spaces;
       const NodePartition &unknowns = algebraic.hierarchy->finest().matrix.partition();
-      const auto           fields   = motions_of_unknowns(model, *d.constrained, unknowns, *d.transformation);
+      const auto           fields   = motions_of_unknowns(model, d, unknowns);
       const LooseMotions   loose    = find_loose_motions(d.free_motions(), fields, spaces, active);
       const double         width    = mean_width(d);
       auto                 drifting = find_drift(d.free_motions(), fields, spaces, loose, algebraic.v, width);
@@ -276,6 +287,7 @@ namespace Signorini
       result.report = solver->solve(algebraic.v, problem, make_monitor(parameters.tolerance, journal));
       partition.reinit(algebraic.residual);
       hierarchy.finest().matrix.symmetric_residual(algebraic.residual, algebraic.v, problem.rhs);
+      problem.invariant.correct_residual(algebraic.residual, problem.rhs);
       deformation.restore();
       if (!d.free_motions().empty())
         result.drifting = settle_loose_motions(algebraic, solver->active(), model, d, journal);
@@ -341,7 +353,7 @@ namespace Signorini
     for (std::size_t row = 0; row < d.coupling.n_rows(); ++row)
       n_active += d.owns_row(row) && result.stress.active[row];
     result.n_active     = Utilities::MPI::sum(n_active, model.communicator());
-    result.displacement = d.transformation->to_displacement(algebraic->v, matrix.partition());
+    result.displacement = displacement_of(algebraic->v, model, d, matrix.partition(), algebraic->problem);
     set_tie_stress(result.stress, model, d, result.displacement);
     return result;
   }
@@ -363,6 +375,7 @@ namespace Signorini
       project_free(finest.fixed[i], problem.rhs, i);
     problem.half_spaces = make_half_spaces(d, unknowns, d.transformation->reduce_gaps(d.gaps));
     d.transformation->from_displacement(algebraic->v, displacement);
+    clear_tied_unknowns(algebraic->v, unknowns, d);
   }
 
 
@@ -387,7 +400,7 @@ namespace Signorini
     if (d.free_motions().empty())
       return {};
     const HalfSpaces   spaces = make_half_spaces(d, d.partition(), d.gaps);
-    const auto         fields = motions_of_unknowns(model, *d.constrained, d.partition(), *d.transformation);
+    const auto         fields = motions_of_unknowns(model, d, d.partition());
     const LooseMotions loose =
         find_loose_motions(d.free_motions(), fields, spaces, std::vector<unsigned char>(spaces.size(), 1));
     if (loose.next_to_undetermined.empty())

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/algebra/dense_matrix.h>
 #include <signorini/algebra/gathered_lists.h>
 #include <signorini/algebra/input_error.h>
 #include <signorini/algebra/interface_rows.h>
@@ -9,6 +10,7 @@
 #include <signorini/application/journal.h>
 #include <signorini/application/loose_motions.h>
 #include <signorini/application/nodal_sums.h>
+#include <signorini/application/ties.h>
 #include <signorini/discretization/motion_description.h>
 
 #include <Eigen/Dense>
@@ -35,29 +37,32 @@ namespace Signorini
   void check_free_parts(const ContactModel &model, const FreeParts &parts, const SolverMethod method,
                         Journal &journal)
   {
+    // Ties hold parts to each other, and none that contact must hold.
     std::set<unsigned int> in_contact;
     for (const PairModel &pair : model.pairs())
-      for (const PairModel::Side &side : pair.sides)
-        in_contact.merge(model.parts_of(side));
+      if (!pair.is_tied())
+        for (const PairModel::Side &side : pair.sides)
+          in_contact.merge(model.parts_of(side));
     const auto &motions = parts.motions;
     for (std::size_t m = 0; m < motions.size(); ++m)
-      if (in_contact.count(motions[m].part) == 0 || method == SolverMethod::active_set_amg)
+      if (const bool touches = std::any_of(in_contact.begin(), in_contact.end(),
+                                           [&](const unsigned int part) { return motions[m].moves(part); });
+          !touches || method == SolverMethod::active_set_amg)
         {
           std::vector<double> coefficients(motions.size(), 0.);
           coefficients[m] = 1.;
-          throw InputError("Body " + model.bodies().body_name(motions[m].body) +
+          throw InputError("Body " + model.bodies().body_name(motions[m].bodies[0]) +
                            "/Dirichlet: the conditions do not exclude a rigid motion (" +
                            describe_motion(motions, coefficients, model.bodies()) + ")" +
-                           (in_contact.count(motions[m].part) == 0
-                                ? " and no boundary of what moves belongs to a contact pair"
-                                : ", which \"Solver/Method = active set amg\" needs") +
+                           (!touches ? " and no boundary of what moves belongs to a contact pair"
+                                     : ", which \"Solver/Method = active set amg\" needs") +
                            ". Prescribe displacements on more of its boundaries, e.g. a symmetry plane "
                            "\"name: (0, *, *)\"." +
-                           model.bodies().hint_at_volumes(motions[m].body));
+                           model.bodies().hint_at_volumes(motions[m].bodies[0]));
         }
     std::set<std::string> names;
     for (const FreeMotion &motion : motions)
-      names.insert(model.bodies().part_name(motion.part));
+      names.insert(name_of_moving(motion, model.bodies()));
     // Said before points were held.
     if (!names.empty() && model.point_holds().empty())
       journal.note("contact must hold " + Patterns::Tools::to_string(names) +
@@ -94,6 +99,64 @@ namespace Signorini
 
 
 
+  std::vector<Vector> motions_of_unknowns(const ContactModel &model, const Discretization &d,
+                                          const NodePartition &unknowns)
+  {
+    std::vector<Vector> result = motions_of_unknowns(model, *d.constrained, unknowns, *d.transformation);
+    for (Vector &motion : result)
+      clear_tied_unknowns(motion, unknowns, d);
+    return result;
+  }
+
+
+
+  namespace
+  {
+    /// Collective. The coefficients of some motions in a vector of their span.
+    Eigen::VectorXd coefficients_in(const std::vector<Vector> &motions, const Vector &v)
+    {
+      const auto      n = static_cast<Eigen::Index>(motions.size());
+      Eigen::MatrixXd products(n, n);
+      Eigen::VectorXd rhs(n);
+      for (Eigen::Index i = 0; i < n; ++i)
+        {
+          for (Eigen::Index j = 0; j <= i; ++j)
+            products(i, j) = products(j, i) = motions[i] * motions[j];
+          rhs[i] = motions[i] * v;
+        }
+      return least_squares(products, rhs);
+    }
+  } // namespace
+
+
+
+  Vector displacement_of(Vector v, const ContactModel &model, const Discretization &d,
+                         const NodePartition &unknowns, const ObstacleProblem &problem)
+  {
+    const std::vector<Vector> &opposed = problem.invariant.opposed_motions();
+    if (opposed.empty())
+      return d.transformation->to_displacement(v, unknowns);
+    const std::vector<Vector> fields = motions_of_unknowns(model, d, unknowns);
+    const std::vector<double> theta  = problem.invariant.coefficients(v);
+    Eigen::VectorXd           shares = Eigen::VectorXd::Zero(fields.size());
+    v.zero_out_ghost_values();
+    for (std::size_t k = 0; k < opposed.size(); ++k)
+      {
+        v.add(-theta[k], opposed[k]);
+        shares += theta[k] * coefficients_in(fields, opposed[k]);
+      }
+    Vector                    result = d.transformation->to_displacement(v, unknowns);
+    const std::vector<Vector> rigid =
+        motion_fields(d.free_motions(), model.bodies(), d.nodal(), d.partition());
+    result.zero_out_ghost_values();
+    for (std::size_t m = 0; m < rigid.size(); ++m)
+      result.add(shares[m], rigid[m]);
+    result.update_ghost_values();
+    return result;
+  }
+
+
+
   void refuse_flight(const ContactModel &model, const std::vector<FreeMotion> &motions,
                      const std::vector<double> &flight)
   {
@@ -111,7 +174,7 @@ namespace Signorini
     {
       RigidProblem(const ContactModel &model, const Discretization &d, const NodePartition &unknowns,
                    const ObstacleProblem &problem)
-        : fields(motions_of_unknowns(model, *d.constrained, unknowns, *d.transformation))
+        : fields(motions_of_unknowns(model, d, unknowns))
         , work(fields.size())
         , loads(problem.rhs.l1_norm())
         , own(owned_rows(d.coupling, d.partition()))

@@ -168,7 +168,7 @@ namespace Signorini
       for (const std::vector<double> &motion : moving)
         for (std::size_t m = 0; m < motions.size(); ++m)
           if (std::abs(motion[m]) > LooseMotionRule().moves)
-            parts.insert(motions[m].part);
+            parts.insert(motions[m].first_part());
       return parts;
     }
   } // namespace
@@ -226,7 +226,7 @@ namespace Signorini
     constexpr LooseMotionRule                         rule;
     std::map<unsigned int, std::vector<Eigen::Index>> parts;
     for (std::size_t m = 0; m < motions.size(); ++m)
-      parts[motions[m].part].push_back(m);
+      parts[motions[m].first_part()].push_back(m);
     const MotionsAtContact           sums = at_contact(fields, spaces, active);
     std::vector<std::vector<double>> result;
     for (const auto &[part, own] : parts)

@@ -106,7 +106,7 @@ namespace Signorini
     {
       Eigen::MatrixXd each = Eigen::MatrixXd::Zero(dim, basis.rows());
       for (Eigen::Index m = 0; m < basis.rows(); ++m)
-        if (static_cast<int>(motions[m].part) == part)
+        if (motions[m].moves(part))
           for (unsigned int c = 0; c < dim; ++c)
             each(c, m) = motions[m](x)[c];
       return each * basis;

@@ -244,12 +244,12 @@ namespace Signorini
 
     void describe_free_motions(std::ostream &out, const ContactModel &model, const Discretization &d)
     {
-      std::map<unsigned int, unsigned int> n_free;
+      std::map<std::string, unsigned int> n_free;
       for (const FreeMotion &motion : d.free_motions())
-        ++n_free[motion.part];
-      for (const auto &[part, n] : n_free)
-        out << model.bodies().part_name(part) << ": the constraints leave " << n
-            << " rigid motion(s) free, which contact must hold" << std::endl;
+        ++n_free[name_of_moving(motion, model.bodies())];
+      for (const auto &[moving, n] : n_free)
+        out << moving << ": the constraints leave " << n << " rigid motion(s) free, which contact must hold"
+            << std::endl;
       if (n_free.empty())
         out << "free motions: none, the constraints hold all bodies" << std::endl;
     }

@@ -54,6 +54,16 @@ namespace Signorini
 
 
 
+  void clear_tied_unknowns(Vector &v, const NodePartition &unknowns, const Discretization &d)
+  {
+    for (std::size_t row = 0; row < d.coupling.n_rows(); ++row)
+      if (d.tied[row] && d.owns_row(row))
+        for (unsigned int c = 0; c < dim; ++c)
+          v.local_element(dim * unknowns.to_local(d.coupling.rows[row]) + c) = 0.;
+  }
+
+
+
   void set_tie_stress(ContactStress &stress, const ContactModel &model, const Discretization &d,
                       const Vector &displacement)
   {

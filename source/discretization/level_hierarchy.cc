@@ -128,7 +128,7 @@ namespace Signorini
     std::vector<Vector> motions(2 * dim);
     for (unsigned int m = 0; m < 2 * dim; ++m)
       {
-        FreeMotion motion{0, centre, 1., Vector3(), Vector3(), 0};
+        FreeMotion motion{{}, {}, centre, 1., Vector3(), Vector3()};
         (m < dim ? motion.translation : motion.rotation)[m % dim] = 1.;
         partition.reinit(motions[m]);
         for (unsigned int i = 0; i < partition.n_owned(); ++i)
@@ -210,7 +210,7 @@ namespace Signorini
                          const FreeMotion &motion)
     {
       for (unsigned int f = 0; f < rigid.faces().size(); ++f)
-        if (rigid.faces()[f].body == motion.body)
+        if (std::count(motion.bodies.begin(), motion.bodies.end(), rigid.faces()[f].body) > 0)
           rigid.set_motion(v, partition, f, motion, motion.rotation / motion.length);
     }
 

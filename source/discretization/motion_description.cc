@@ -35,17 +35,30 @@ namespace Signorini
 
 
 
+  std::string name_of_moving(const FreeMotion &motion, const Bodies &bodies)
+  {
+    constexpr std::size_t most = 3;
+    std::string           name = bodies.part_name(motion.first_part());
+    for (std::size_t i = 1; i < std::min(motion.parts.size(), most + 1); ++i)
+      name += (i == 1 ? " (tied to " : ", ") + bodies.part_name(motion.parts[i]);
+    if (motion.parts.size() > most + 1)
+      name += " and " + std::to_string(motion.parts.size() - most - 1) + " more";
+    return name + (motion.parts.size() > 1 ? ")" : "");
+  }
+
+
+
   namespace
   {
     /// What a motion does to one part: translation + rotation x (x - centre) / length.
     FreeMotion motion_of_part(const std::vector<FreeMotion> &motions, const std::vector<double> &coefficients,
                               const unsigned int part)
     {
-      FreeMotion result{0, Point<3>(), 0., Vector3(), Vector3(), part};
+      FreeMotion result{{part}, {}, Point<3>(), 0., Vector3(), Vector3()};
       for (std::size_t m = 0; m < motions.size(); ++m)
-        if (motions[m].part == part)
+        if (motions[m].first_part() == part)
           {
-            result.body = motions[m].body;
+            result.parts = motions[m].parts;
             result.translation += coefficients[m] * motions[m].translation;
             result.rotation += coefficients[m] * motions[m].rotation;
             result.centre = motions[m].centre;
@@ -74,7 +87,7 @@ namespace Signorini
   {
     std::set<unsigned int> parts;
     for (const FreeMotion &motion : motions)
-      parts.insert(motion.part);
+      parts.insert(motion.first_part());
     double largest = 0.;
     for (const unsigned int part : parts)
       largest = std::max(largest, motion_of_part(motions, coefficients, part).rotation.norm());
@@ -123,7 +136,7 @@ namespace Signorini
     {
       std::vector<double> size(bodies.n_parts(), 0.);
       for (std::size_t m = 0; m < motions.size(); ++m)
-        size[motions[m].part] += coefficients[m] * coefficients[m];
+        size[motions[m].first_part()] += coefficients[m] * coefficients[m];
       const auto       largest = std::max_element(size.begin(), size.end());
       const double     all     = std::accumulate(size.begin(), size.end(), 0.);
       const FreeMotion motion =
@@ -195,7 +208,7 @@ namespace Signorini
                               const Bodies &bodies)
   {
     const PartMotion part = oriented(largest_part(motions, coefficients, bodies));
-    return bodies.part_name(part.motion.part) + ", " + describe(part);
+    return name_of_moving(part.motion, bodies) + ", " + describe(part);
   }
 
 
@@ -204,7 +217,7 @@ namespace Signorini
                               const Bodies &bodies)
   {
     const PartMotion part = largest_part(motions, coefficients, bodies);
-    return bodies.part_name(part.motion.part) + ", " + describe(part);
+    return name_of_moving(part.motion, bodies) + ", " + describe(part);
   }
 
 
@@ -219,12 +232,12 @@ namespace Signorini
     for (const std::vector<double> &coefficients : basis)
       if (const PartMotion part = oriented(largest_part(motions, coefficients, bodies));
           part.is_alone && (part.is_translation || part.is_pure_rotation()))
-        groups[{part.motion.part, part.is_translation}].push_back(part);
+        groups[{part.motion.first_part(), part.is_translation}].push_back(part);
       else
         result.push_back(describe_motion(motions, coefficients, bodies));
     for (const auto &[key, group] : groups)
       {
-        const std::string name = bodies.part_name(key.first) + ", ";
+        const std::string name = name_of_moving(group[0].motion, bodies) + ", ";
         if (can_be_said_together(group))
           result.push_back(name + describe_together(group));
         else

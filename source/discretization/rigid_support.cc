@@ -29,43 +29,60 @@ namespace Signorini
       return row;
     }
 
-    /// The part of each relevant node (-1 for nodes of other ranks' cells), and the box of each part as
-    /// centre and half diagonal.
-    std::vector<int> find_parts(std::vector<FreeMotion> &frames, const Bodies &bodies,
-                                const NodalSpace &space)
+    /// The part of each relevant node, -1 for nodes of other ranks' cells.
+    std::vector<int> find_parts(const Bodies &bodies, const NodalSpace &space)
     {
-      const unsigned int  n_parts = bodies.n_parts();
-      std::vector<double> low(dim * n_parts, std::numeric_limits<double>::max()), high(low);
-      std::vector<int>    part_of_node(space.relevant().n_elements(), -1);
+      std::vector<int> part_of_node(space.relevant().n_elements(), -1);
+      for (const NodalSpace::Cell &cell : space.cells())
+        if (cell.is_owned)
+          for (const NodeIndex node : space.nodes(cell))
+            part_of_node[space.relevant().index_within_set(node)] =
+                static_cast<int>(bodies.part_of_material(cell.material));
+      return part_of_node;
+    }
+
+    std::vector<unsigned int> groups_of_parts(const std::vector<TiedParts> &groups, const Bodies &bodies)
+    {
+      std::vector<unsigned int> group_of_part(bodies.n_parts());
+      for (unsigned int g = 0; g < groups.size(); ++g)
+        for (const unsigned int part : groups[g])
+          group_of_part[part] = g;
+      return group_of_part;
+    }
+
+    /// Collective. No motion of each group yet, but its box as centre and half diagonal.
+    std::vector<FreeMotion> make_frames(const std::vector<TiedParts> &groups, const Bodies &bodies,
+                                        const NodalSpace &space)
+    {
+      const std::vector<unsigned int> group_of_part = groups_of_parts(groups, bodies);
+      std::vector<double>             low(dim * groups.size(), std::numeric_limits<double>::max()), high(low);
       for (double &h : high)
         h = -h;
       for (const NodalSpace::Cell &cell : space.cells())
         if (cell.is_owned)
-          {
-            const unsigned int part = bodies.part_of_material(cell.material);
-            for (const NodeIndex node : space.nodes(cell))
+          for (const NodeIndex node : space.nodes(cell))
+            for (unsigned int c = 0; c < dim; ++c)
               {
-                part_of_node[space.relevant().index_within_set(node)] = static_cast<int>(part);
-                for (unsigned int c = 0; c < dim; ++c)
-                  {
-                    low[dim * part + c]  = std::min(low[dim * part + c], space.position(node)[c]);
-                    high[dim * part + c] = std::max(high[dim * part + c], space.position(node)[c]);
-                  }
+                const std::size_t i = dim * group_of_part[bodies.part_of_material(cell.material)] + c;
+                low[i]              = std::min(low[i], space.position(node)[c]);
+                high[i]             = std::max(high[i], space.position(node)[c]);
               }
-          }
-      frames.clear();
-      for (unsigned int b = 0; b < n_parts; ++b)
+      std::vector<FreeMotion> frames;
+      for (unsigned int g = 0; g < groups.size(); ++g)
         {
           Point<3> l, h;
           for (unsigned int c = 0; c < dim; ++c)
             {
-              l[c] = Utilities::MPI::min(low[dim * b + c], space.communicator());
-              h[c] = Utilities::MPI::max(high[dim * b + c], space.communicator());
+              l[c] = Utilities::MPI::min(low[dim * g + c], space.communicator());
+              h[c] = Utilities::MPI::max(high[dim * g + c], space.communicator());
             }
+          std::vector<unsigned int> own;
+          for (const unsigned int part : groups[g])
+            own.push_back(bodies.part(part).body);
           frames.push_back(
-              {bodies.part(b).body, l + .5 * (h - l), .5 * (h - l).norm(), Vector3(), Vector3(), b});
+              {groups[g], std::move(own), l + .5 * (h - l), .5 * (h - l).norm(), Vector3(), Vector3()});
         }
-      return part_of_node;
+      return frames;
     }
   } // namespace
 
@@ -73,6 +90,22 @@ namespace Signorini
 
   namespace
   {
+    /// Errors: InputError if there are several.
+    int only_part(const Bodies &bodies, const unsigned int body)
+    {
+      int result = -1;
+      for (unsigned int part = 0; part < bodies.n_parts(); ++part)
+        if (bodies.part(part).body == body)
+          {
+            if (result >= 0)
+              throw InputError("Body " + bodies.body_name(body) +
+                               "/Rigid: the body has several parts that are not connected. Make them bodies "
+                               "of their own.");
+            result = static_cast<int>(part);
+          }
+      return result;
+    }
+
     /// What rigid faces hold: the motions of their bodies that are none of theirs. Conditions weigh as those
     /// of nodes do.
     void add_rigid_faces(std::vector<double> &sums, const RigidFaces &rigid,
@@ -82,13 +115,8 @@ namespace Signorini
         return;
       for (const RigidFace &face : rigid.faces())
         for (unsigned int b = 0; b < frames.size(); ++b)
-          if (frames[b].body == face.body)
+          if (frames[b].moves(only_part(bodies, face.body)))
             {
-              if (b + 1 < frames.size() && frames[b + 1].body == face.body)
-                throw InputError(
-                    "Body " + bodies.body_name(face.body) +
-                    "/Rigid: the body has several parts that are not connected. Make them bodies "
-                    "of their own.");
               // By column: what a unit motion of the body is to the face, without its free motions.
               Matrix6 rest;
               for (unsigned int m = 0; m < 6; ++m)
@@ -115,18 +143,29 @@ namespace Signorini
 
 
 
-  std::vector<FreeMotion> free_motions(const Bodies &bodies, const NodalSpace &space,
-                                       const DirichletData &dirichlet)
+  std::vector<TiedParts> separate_parts(const Bodies &bodies)
   {
-    std::vector<FreeMotion> frames;
-    const auto              part_of_node = find_parts(frames, bodies, space);
-    std::vector<double>     sums(36 * frames.size(), 0.);
+    std::vector<TiedParts> result;
+    for (unsigned int part = 0; part < bodies.n_parts(); ++part)
+      result.push_back({part});
+    return result;
+  }
+
+
+
+  std::vector<FreeMotion> free_motions(const Bodies &bodies, const NodalSpace &space,
+                                       const DirichletData &dirichlet, const std::vector<TiedParts> &groups)
+  {
+    const std::vector<FreeMotion>   frames        = make_frames(groups, bodies, space);
+    const std::vector<unsigned int> group_of_part = groups_of_parts(groups, bodies);
+    const std::vector<int>          part_of_node  = find_parts(bodies, space);
+    std::vector<double>             sums(36 * frames.size(), 0.);
     for (const NodeIndex node : space.owned())
       {
         const std::size_t i = space.relevant().index_within_set(node);
         if (part_of_node[i] < 0)
           continue;
-        const unsigned int b = static_cast<unsigned int>(part_of_node[i]);
+        const unsigned int b = group_of_part[part_of_node[i]];
         if (dirichlet.rigid != nullptr && dirichlet.rigid->find(node) != nullptr)
           continue;
         for (const Vector3 &direction : dirichlet.fixed[i].basis())
@@ -164,9 +203,8 @@ namespace Signorini
 
   NodePlaces node_places(const Bodies &bodies, const NodalSpace &space)
   {
-    std::vector<FreeMotion> frames;
-    const auto              part_of_node = find_parts(frames, bodies, space);
-    NodePlaces              result;
+    const std::vector<int> part_of_node = find_parts(bodies, space);
+    NodePlaces             result;
     for (const NodeIndex node : space.owned())
       {
         result.positions.push_back(space.position(node));
@@ -185,7 +223,7 @@ namespace Signorini
       {
         partition.reinit(fields[m]);
         for (unsigned int i = 0; i < partition.n_owned(); ++i)
-          if (places.parts[i] == static_cast<int>(motions[m].part))
+          if (motions[m].moves(places.parts[i]))
             {
               const Vector3 u = motions[m](places.positions[i]);
               for (unsigned int c = 0; c < dim; ++c)
@@ -351,7 +389,7 @@ namespace Signorini
       rest.col(k) = Eigen::Map<const Eigen::VectorXd>(basis[k].data(), n);
     for (Eigen::Index m = 0; m < n; ++m)
       {
-        parts.insert(motions[m].part);
+        parts.insert(motions[m].first_part());
         for (unsigned int c = 0; c < dim; ++c)
           rotations(c, m) = motions[m].rotation[c];
       }
@@ -364,7 +402,7 @@ namespace Signorini
       {
         Eigen::MatrixXd others = Eigen::MatrixXd::Identity(n, n);
         for (Eigen::Index m = 0; m < n; ++m)
-          if (motions[m].part == part)
+          if (motions[m].first_part() == part)
             others(m, m) = 0.;
         Eigen::MatrixXd own = take_kernel(rest, others);
         append(take_kernel(own, rotations));

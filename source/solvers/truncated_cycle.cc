@@ -33,7 +33,7 @@ namespace Signorini
     , contact(contact)
     , cycle(hierarchy, coarse_smoothing, level - 1)
     , has_subspace(ContactSubspace::exists(hierarchy, level, problem))
-    , motions(hierarchy.level(level).matrix, problem.free_motions, problem.rhs)
+    , motions(hierarchy.level(level).matrix, problem)
     , stays_blocked(!knows_contact)
   {
     for (Vector *vector : {&coarse_defect, &coarse_correction})
@@ -79,6 +79,7 @@ namespace Signorini
         hierarchy.level(level).matrix.vmult(product, correction);
         new_residual = residual;
         new_residual -= product;
+        problem.invariant.correct_residual(new_residual, problem.rhs);
         minimize_in_subspace();
         check(v, correction);
         keeps_active = contact.active() == active;
@@ -122,6 +123,7 @@ namespace Signorini
     if (!subspace)
       subspace.emplace(hierarchy, level, nodes_of_subspace(), problem.free_motions);
     subspace->run(correction, new_residual, contact, motions);
+    problem.invariant.correct_residual(new_residual, problem.rhs);
   }
 
 
@@ -173,8 +175,7 @@ namespace Signorini
   {
     const NodeBlockMatrix &matrix = hierarchy.level(level).matrix;
     const auto             search = [&] {
-      return search_along(matrix, step, new_residual, contact.longest_step(correction, step),
-                                      problem.semidefinite);
+      return search_along(matrix, problem, step, new_residual, contact.longest_step(correction, step));
     };
     if (length == 1.)
       {

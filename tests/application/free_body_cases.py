@@ -195,6 +195,128 @@ def free_rings(p):
         check(max(largest) < .06, f'nothing held: displacements {largest}')
 
 
+BLOCKS = """set Bodies        = base, lower, upper
+set Contact pairs = floor, glue
+subsection Body base
+  set Lower corner  = -1, -1, -1
+  set Upper corner  = 2, 2, 0
+  set Divisions     = 4, 4, 2
+  set Young modulus = 200e3
+  set Poisson ratio = 0.3
+  set Dirichlet     = bottom: (0, 0, 0)
+end
+subsection Body lower
+  set Lower corner  = 0, 0, 0
+  set Upper corner  = 1, 1, 0.5
+  set Divisions     = 3, 3, 1
+  set Young modulus = 70e3
+  set Poisson ratio = 0.3
+end
+subsection Body upper
+  set Lower corner  = 0, 0, 0.5
+  set Upper corner  = 1, 1, 1.5
+  set Divisions     = 3, 3, 2
+  set Young modulus = 70e3
+  set Poisson ratio = 0.3
+  set Tractions     = top: (0, 0, -100*(1 + 0.3*(x - 0.5)))
+end
+subsection Pair floor
+  set First  = lower: bottom
+  set Second = base: top
+end
+subsection Pair glue
+  set First   = lower: top
+  set Second  = upper: bottom
+  set Contact = tied
+end
+subsection Refinement
+  set Global cycles = 2
+end
+"""
+
+GLUED_ROLL = """set Bodies        = base, core, sleeve
+set Contact pairs = floor, glue
+subsection Body base
+  set Lower corner  = -6, -1, -4
+  set Upper corner  = 6, 7, 0
+  set Divisions     = 8, 5, 3
+  set Young modulus = 200e3
+  set Poisson ratio = 0.3
+  set Dirichlet     = bottom: (0, 0, 0)
+end
+subsection Body core
+  set Mesh          = glued_roll.msh
+  set Volumes       = core
+  set Young modulus = 200e3
+  set Poisson ratio = 0.3
+  set Volume force  = (0, 0, -0.1)
+end
+subsection Body sleeve
+  set Mesh          = glued_roll.msh
+  set Volumes       = sleeve
+  set Young modulus = 7e3
+  set Poisson ratio = 0.4
+end
+subsection Pair floor
+  set First  = sleeve: sleeve rim
+  set Second = base: top
+end
+subsection Pair glue
+  set First   = sleeve: sleeve bore
+  set Second  = core: core rim
+  set Contact = tied
+end
+subsection Refinement
+  set Global cycles = 1
+end
+"""
+
+
+def tied_groups(p):
+    """Bodies that are glued together, and that only contact holds, as one."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, 'blocks.prm')
+        with open(path, 'w') as f:
+            f.write(BLOCKS)
+        single = os.path.join(folder, 'single.prm')
+        with open(single, 'w') as f:
+            f.write(re.sub(r'subsection (Body upper|Pair glue).*?end\n', '', BLOCKS, flags=re.DOTALL))
+        one = p.solve(single, 'Bodies=base, lower', 'Contact pairs=floor', 'Body lower/Upper corner=1, 1, 1.5', 'Body lower/Divisions=3, 3, 3',
+                      'Body lower/Tractions=top: (0, 0, -100*(1 + 0.3*(x - 0.5)))')
+        certificate(one)
+        # Meshes that match: the same problem.
+        for settings, tolerance in (([], 1e-7), (['Body upper/Divisions=4, 4, 4'], .02), (['Pair glue/Nonmortar=first'], 1e-7),
+                                    (['Body lower/Dirichlet=left: (0, *, *)', 'Body upper/Dirichlet=front: (*, 0, *)'], .02)):
+            s = p.solve(path, *settings)
+            certificate(s)
+            print(settings, s['pairs'][0]['max_recovered_pressure'], 'one body', one['pairs'][0]['max_recovered_pressure'],
+                  [c['nonlinear']['iterations'] for c in s['cycles']])
+            near(s['pairs'][0]['load'], 100, 1e-9, f'{settings}: force')
+            near(s['pairs'][0]['max_recovered_pressure'], one['pairs'][0]['max_recovered_pressure'], tolerance, f'{settings}: pressure')
+            check(s['cycles'][-1]['nonlinear']['iterations'] <= 13, f'{settings}: {s["cycles"][-1]["nonlinear"]}')
+            loose = [note for note in s['notes'] if 'nothing determines body lower (tied to body upper)' in note]
+            check(len(loose) == (0 if 'Dirichlet' in str(settings) else 2), f'{settings}: {s["notes"]}')
+        text = refused(p, path, 'Body upper/Tractions=top: (0, 0, -100*(1 + 9*(x - 0.5)))')
+        check('body lower (tied to body upper)' in text and 'would fly away' in text, text)
+        # A stamp on one body of the group.
+        s = p.solve(path, 'Body upper/Tractions=', 'Body upper/Rigid=top: force (0, 0, -100), moment (0, 2.5, 0)')
+        certificate(s)
+        near(s['pairs'][0]['load'], 100, 1e-9, 'stamp: force')
+        # Facets that do not match oppose the rotations of both together: that is no property of the bodies.
+        make_mesh(os.path.join(TOP, 'tests', 'application', 'glued_roll.geo'), os.path.join(folder, 'glued_roll.msh'))
+        path = os.path.join(folder, 'roll.prm')
+        with open(path, 'w') as f:
+            f.write(GLUED_ROLL)
+        for side, most in (('first', 25), ('second', 36)):
+            s = p.solve(path, f'Pair glue/Nonmortar={side}')
+            certificate(s)
+            print('roll', side, [c['nonlinear']['iterations'] for c in s['cycles']], held_points(s), [b['largest_displacement'] for b in s['bodies']])
+            near(s['pairs'][0]['load'], abs(s['bodies'][1]['load'][2]), 1e-4, 'roll: force')
+            check(s['cycles'][-1]['nonlinear']['iterations'] <= most, f'roll: {s["cycles"][-1]["nonlinear"]}')
+            check(max(b['largest_displacement'] for b in s['bodies']) < .004, f'roll: {s["bodies"]}')
+            check(max(held_points(s)) < 1e-3, f'roll: {s["notes"]}')
+
+
 def ball_joint(p):
     """The mesh of a joint from gmsh: on its facets the ball would turn by thousands of degrees."""
     with tempfile.TemporaryDirectory() as folder:

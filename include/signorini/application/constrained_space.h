@@ -17,20 +17,20 @@ namespace Signorini
   /// Rigid motions of connected parts of bodies that neither conditions nor ties exclude.
   struct FreeParts
   {
-    /// Six at most for each part, linearly independent; the same on all ranks.
+    /// Six at most for each part, or parts tied together, linearly independent; the same on all ranks.
     std::vector<FreeMotion> motions;
     /// Whether there is a part that only a tie holds: its decoupled linear problem has no unique solution.
     bool has_tied_part = false;
   };
 
-  /// Collective. Errors: InputError for tied groups of which no part is held by conditions of its own.
+  /// Collective. Parts that are tied together are held together, and move as one.
   FreeParts find_free_parts(const ContactModel &model, const NodalSpace &space,
                             const DirichletData &dirichlet);
 
   /// The nodal space of one mesh with its Dirichlet conditions, and what these leave free. Constant.
   struct ConstrainedSpace
   {
-    /// Collective. Inner faces are what estimate_error() needs. Errors: those of find_free_parts().
+    /// Collective. Inner faces are what estimate_error() needs.
     explicit ConstrainedSpace(const ContactModel &model, const bool with_inner_faces = false);
 
     /// Collective. The same space with the conditions of the present time of the model

@@ -22,6 +22,10 @@ namespace Signorini
                                           const NodePartition       &unknowns,
                                           const BasisTransformation &transformation);
 
+  /// Collective. Those of the problem with all couplings; zero at tied nodes.
+  std::vector<Vector> motions_of_unknowns(const ContactModel &model, const Discretization &discretization,
+                                          const NodePartition &unknowns);
+
   /// Collective. Adds to a start the motion that brings free parts into the contacts that hold them. Returns
   /// a motion (coefficients) that has to be held before: one by which round surfaces turn in each other, if
   /// the loads turn it no more than facets may; then the start is as it was. Errors: InputError for loads
@@ -30,6 +34,11 @@ namespace Signorini
   std::vector<double> settle_free_parts(Vector &v, const ContactModel &model,
                                         const Discretization &discretization, const NodePartition &unknowns,
                                         const ObstacleProblem &problem);
+
+  /// Collective. The displacement of unknowns v. Motions that ties oppose (InvariantProducts) move all nodes
+  /// as they would without ties.
+  Vector displacement_of(Vector v, const ContactModel &model, const Discretization &discretization,
+                         const NodePartition &unknowns, const ObstacleProblem &problem);
 
   /// Ends the run for loads that no contact can hold. Errors: InputError, always.
   [[noreturn]] void refuse_flight(const ContactModel &model, const std::vector<FreeMotion> &motions,

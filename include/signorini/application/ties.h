@@ -21,6 +21,9 @@ namespace Signorini
   /// Fixes the unknowns at tied nodes, at zero.
   void fix_tied_unknowns(LinearSystem &system, const Discretization &discretization);
 
+  /// Sets the unknowns of tied nodes that this rank owns to zero.
+  void clear_tied_unknowns(Vector &v, const NodePartition &unknowns, const Discretization &discretization);
+
   /// Collective. Sets the stress at tied nodes, which are not in the matrix: what the equilibrium of the
   /// displacement lacks.
   void set_tie_stress(ContactStress &stress, const ContactModel &model, const Discretization &discretization,

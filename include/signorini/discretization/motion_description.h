@@ -8,6 +8,9 @@
 
 namespace Signorini
 {
+  /// What a motion moves: "body pin", "body pin (tied to body head, body ring)".
+  std::string name_of_moving(const FreeMotion &motion, const Bodies &bodies);
+
   /// Whether a motion only turns parts about axes, without moving them along these.
   bool is_rotation(const std::vector<FreeMotion> &motions, const std::vector<double> &coefficients);
 

@@ -7,22 +7,37 @@
 #include <signorini/algebra/node_partition.h>
 #include <signorini/discretization/boundary_conditions.h>
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
 namespace Signorini
 {
-  /// A rigid motion of a connected part of a body that its Dirichlet conditions do not exclude:
-  /// translation + rotation x (x - centre) / length.
+  /// Connected parts of bodies (Bodies::part()) that ties make move as one, ascending.
+  using TiedParts = std::vector<unsigned int>;
+
+  /// A rigid motion of a connected part of a body, or of several that are tied together, that Dirichlet
+  /// conditions do not exclude: translation + rotation x (x - centre) / length.
   struct FreeMotion
   {
-    /// Number of the body; middle and half diagonal of its part (lengths); the motion.
-    unsigned int     body;
-    dealii::Point<3> centre;
-    double           length;
-    Vector3          translation, rotation;
-    /// Of Bodies::part().
-    unsigned int part = 0;
+    /// What moves, and the bodies that it belongs to; middle and half diagonal of that (lengths); the motion.
+    TiedParts                 parts;
+    std::vector<unsigned int> bodies;
+    dealii::Point<3>          centre;
+    double                    length;
+    Vector3                   translation, rotation;
+
+    /// Stands for all that moves: no other motions move it but those that move the same parts.
+    unsigned int first_part() const
+    {
+      return parts[0];
+    }
+
+    /// Whether it moves a part; there is none with a negative number.
+    bool moves(const int part) const
+    {
+      return part >= 0 && std::binary_search(parts.begin(), parts.end(), static_cast<unsigned int>(part));
+    }
 
     /// The displacement at a point, of the size of the translation.
     Vector3 operator()(const dealii::Point<3> &x) const
@@ -31,10 +46,13 @@ namespace Signorini
     }
   };
 
-  /// Collective. An orthonormal basis of the motions that the conditions leave to the connected parts of the
-  /// bodies. Empty if every part is held.
+  /// Every connected part of the bodies on its own.
+  std::vector<TiedParts> separate_parts(const Bodies &bodies);
+
+  /// Collective. An orthonormal basis of the motions that the conditions leave to groups of parts, each part
+  /// in one of them. Empty if all are held.
   std::vector<FreeMotion> free_motions(const Bodies &bodies, const NodalSpace &space,
-                                       const DirichletData &dirichlet);
+                                       const DirichletData &dirichlet, const std::vector<TiedParts> &groups);
 
   /// Owned nodes of a level.
   struct NodePlaces

@@ -23,7 +23,7 @@ namespace
     {
       for (unsigned int c = 0; c < 2 * dim; ++c)
         {
-          FreeMotion motion{0, Point<3>(1, 2, 3), 5., Vector3(), Vector3()};
+          FreeMotion motion{{0}, {0}, Point<3>(1, 2, 3), 5., Vector3(), Vector3()};
           (c < dim ? motion.translation : motion.rotation)[c % dim] = 1.;
           motions.push_back(motion);
         }
