@@ -223,6 +223,25 @@ namespace Signorini
 
 
 
+  // What this rank had may be rounding beside what others, or gaps of its own nodes, bring.
+  void RoundedSweep::fit_unit(const double largest_value)
+  {
+    constexpr double in_range = 1e12;
+    if (!has_unit)
+      return find_unit(largest_value);
+    if (largest_value <= in_range * value_unit)
+      return;
+    const double old_unit = value_unit;
+    find_unit(largest_value);
+    const auto factor = static_cast<float>(old_unit / value_unit);
+    for (unsigned int row = 0; row < matrix.n_rows(); ++row)
+      for (RoundedVector *const vector : {&values, &reduced})
+        for (unsigned int c = 0; c < dim; ++c)
+          vector->node(row)[c] *= factor;
+  }
+
+
+
   void RoundedSweep::start(const Vector &v, const Vector &rhs)
   {
     has_unit = false;
@@ -284,8 +303,7 @@ namespace Signorini
 
   void RoundedSweep::set(const unsigned int row, const double *const v_row)
   {
-    if (!has_unit)
-      find_unit(largest_of(v_row));
+    fit_unit(largest_of(v_row));
     for (unsigned int c = 0; c < dim; ++c)
       values.node(position(row))[c] = static_cast<float>(v_row[c] / value_unit);
   }
@@ -294,6 +312,7 @@ namespace Signorini
 
   void RoundedSweep::pass_down(const unsigned int row, const double *const change)
   {
+    fit_unit(largest_of(change));
     const Arrays here = arrays();
     float        rounded[dim];
     for (unsigned int c = 0; c < dim; ++c)
@@ -312,8 +331,7 @@ namespace Signorini
     const double largest_change = largest_of(change);
     if (largest_change == 0.)
       return;
-    if (!has_unit)
-      find_unit(largest_change);
+    fit_unit(largest_change);
     float rounded[dim];
     for (unsigned int c = 0; c < dim; ++c)
       rounded[c] = static_cast<float>(change[c] / value_unit);

@@ -13,8 +13,6 @@ namespace Signorini
 
   namespace
   {
-    /// Surfaces that can touch face each other: the cosine of their normals is below this.
-    constexpr double facing_cosine = -.1;
     /// Rigid obstacles are met up to this one, too.
     constexpr double touching_cosine = -.5;
 
@@ -26,7 +24,7 @@ namespace Signorini
 
     bool facing(const Tensor<1, 3> &a, const Tensor<1, 3> &b)
     {
-      return has_cosine_below(facing_cosine, a, b);
+      return has_cosine_below(Incidence::facing_cosine, a, b);
     }
 
     std::vector<Tensor<1, 3>> area_normals(const SurfaceMesh &mesh)

@@ -271,12 +271,33 @@ namespace Signorini
 
 
 
-  unsigned int PlaneGraph::search_triangle(const unsigned int vertex)
+  // The image is spread as far as no node separates vertices. What of the surface turns away from the mortar
+  // side is not separated by nodes from what faces it.
+  struct PlaneGraph::Image
+  {
+    /// A mortar triangle, or none.
+    unsigned int triangle = none;
+    /// The mortar triangle that this was decided at.
+    unsigned int decided_at = none;
+    /// How it spreads: over edges beside which triangles face that one, over those beside which none does,
+    /// or not at all.
+    enum class Spreading
+    {
+      where_faced,
+      where_turned_away,
+      nowhere
+    } spreading = Spreading::where_faced;
+  };
+
+
+
+  PlaneGraph::Image PlaneGraph::search_triangle(const unsigned int vertex)
   {
     std::vector<unsigned int> candidates;
     tree_of_mortar_triangles().find_nearest(candidates, incidence.nonmortar.vertices[vertex], 16);
-    unsigned int best    = none;
-    double       nearest = std::numeric_limits<double>::max();
+    unsigned int best      = none;
+    bool         faces_any = false;
+    double       nearest   = std::numeric_limits<double>::max();
     Point<3>     foot;
     Tensor<1, 3> normal;
     for (const unsigned int t : candidates)
@@ -286,6 +307,7 @@ namespace Signorini
         bool                  faces = false;
         for (unsigned int k = nonmortar.fan_start[vertex]; k < nonmortar.fan_start[vertex + 1]; ++k)
           faces = faces || incidence.triangles_face(nonmortar.fan[k], t);
+        faces_any = faces_any || faces;
         if (faces &&
             NormalProjection::inverse_project(w, eta, incidence.nonmortar.vertices[vertex],
                                               corners_of(incidence.mortar, t),
@@ -305,7 +327,24 @@ namespace Signorini
       }
     const auto  &any  = nonmortar.triangles[nonmortar.fan[nonmortar.fan_start[vertex]]];
     const double size = incidence.nonmortar.vertices[any[0]].distance(incidence.nonmortar.vertices[any[1]]);
-    return best != none && is_hidden(foot, normal, nearest, Incidence::near_end * size) ? none : best;
+    if (best != none && is_hidden(foot, normal, nearest, Incidence::near_end * size))
+      return {none, best, Image::Spreading::nowhere};
+    if (best == none && !candidates.empty())
+      return {none, candidates[0],
+              faces_any ? Image::Spreading::where_faced : Image::Spreading::where_turned_away};
+    return {best, best};
+  }
+
+
+
+  unsigned int PlaneGraph::any_triangle_at(const MappingNode &node) const
+  {
+    const SurfacePoint &place = node.mortar;
+    if (place.on == On::triangle)
+      return place.index;
+    if (place.on == On::edge)
+      return std::min(mortar.edge_triangles[place.index][0], mortar.edge_triangles[place.index][1]);
+    return mortar.fan[mortar.fan_start[place.index]];
   }
 
 
@@ -343,7 +382,8 @@ namespace Signorini
     explicit VertexImages(const PlaneGraph &graph)
       : graph(graph)
       , nonmortar(graph.nonmortar)
-      , image(graph.nonmortar_vertex_node.size(), unknown)
+      , image(graph.nonmortar_vertex_node.size())
+      , is_known(image.size(), false)
     {
     }
 
@@ -362,7 +402,7 @@ namespace Signorini
           for (unsigned int i = 0; i < 2; ++i)
             set_beside(nonmortar.edges[e][i], graph.nonmortar_vertex_node[nonmortar.edges[e][1 - i]]);
       for (unsigned int v = 0; v < image.size(); ++v)
-        if (graph.nonmortar_vertex_node[v] == none && image[v] != unknown)
+        if (graph.nonmortar_vertex_node[v] == none && is_known[v])
           front.push(v);
       spread([](const unsigned int, const unsigned int) { return true; });
     }
@@ -370,33 +410,27 @@ namespace Signorini
     /// Whether the image of a vertex is still to be searched.
     bool is_open(const unsigned int v) const
     {
-      return graph.nonmortar_vertex_node[v] == none && image[v] == unknown && graph.region.contains(v);
+      return graph.nonmortar_vertex_node[v] == none && !is_known[v] && graph.region.contains(v);
     }
 
-    /// A triangle that was found, or none. It is the image of the others that lie below it.
-    void set(const unsigned int v, const unsigned int triangle)
+    /// What was found. It is the image of the others that lie below it.
+    void set(const unsigned int v, const Image &found)
     {
-      image[v] = triangle;
+      image[v]    = found;
+      is_known[v] = true;
       front.push(v);
       spread([&](const unsigned int other, const unsigned int below) {
         return below == none || graph.lies_below(other, below);
       });
     }
 
-    /// Whether a vertex has one.
-    bool has_image(const unsigned int v) const
-    {
-      return image[v] < unknown;
-    }
-
+    /// The image triangle, or none.
     unsigned int operator[](const unsigned int v) const
     {
-      return image[v];
+      return image[v].triangle;
     }
 
   private:
-    static constexpr unsigned int unknown = none - 1;
-
     /// All nodes are known only on edges in the region.
     bool is_complete(const unsigned int e) const
     {
@@ -410,8 +444,22 @@ namespace Signorini
 
     void set_beside(const unsigned int v, const unsigned int node)
     {
-      if (node != none && is_open(v))
-        image[v] = graph.triangle_beside(v, graph.nodes[node]);
+      if (node == none || !is_open(v))
+        return;
+      image[v]    = {graph.triangle_beside(v, graph.nodes[node]), graph.any_triangle_at(graph.nodes[node])};
+      is_known[v] = true;
+    }
+
+    /// Whether an image spreads over a nonmortar edge.
+    bool spreads_over(const Image &what, const unsigned int e) const
+    {
+      if (what.spreading == Image::Spreading::nowhere)
+        return false;
+      const auto &beside = nonmortar.edge_triangles[e];
+      const bool  faces  = std::any_of(beside.begin(), beside.end(), [&](const unsigned int t) {
+        return t != none && graph.incidence.triangles_face(t, what.decided_at);
+      });
+      return faces == (what.spreading == Image::Spreading::where_faced);
     }
 
     /// What no node separates has the same image triangle.
@@ -429,9 +477,11 @@ namespace Signorini
                 {
                   const unsigned int e     = nonmortar.triangle_edges[t][j];
                   const unsigned int other = nonmortar.edges[e][nonmortar.edges[e][0] == v ? 1 : 0];
-                  if (is_empty(e) && is_open(other) && takes(other, image[v]))
+                  if (is_empty(e) && is_open(other) && spreads_over(image[v], e) &&
+                      takes(other, image[v].triangle))
                     {
-                      image[other] = image[v];
+                      image[other]    = image[v];
+                      is_known[other] = true;
                       front.push(other);
                     }
                 }
@@ -439,10 +489,11 @@ namespace Signorini
         }
     }
 
-    const PlaneGraph         &graph;
-    const SurfaceTopology    &nonmortar;
-    std::vector<unsigned int> image;
-    std::queue<unsigned int>  front;
+    const PlaneGraph        &graph;
+    const SurfaceTopology   &nonmortar;
+    std::vector<Image>       image;
+    std::vector<bool>        is_known;
+    std::queue<unsigned int> front;
   };
 
 
@@ -456,7 +507,7 @@ namespace Signorini
       if (images.is_open(v) && nonmortar.fan_start[v] < nonmortar.fan_start[v + 1])
         images.set(v, search_triangle(v));
     for (unsigned int v = 0; v < n; ++v)
-      if (nonmortar_vertex_node[v] == none && images.has_image(v))
+      if (nonmortar_vertex_node[v] == none && images[v] != none)
         {
           nonmortar_vertex_node[v] = static_cast<unsigned int>(nodes.size());
           nodes.push_back({SurfacePoint::at_vertex(v), image_in(v, images[v])});

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
-// Mortar edges that come in over the border of the nonmortar surface.
+// Mortar edges that come in over the border of the nonmortar surface, or of what of it faces them.
 
 #include "plane_graph_walk.h"
 
@@ -11,23 +11,69 @@ namespace Signorini
 {
   using namespace dealii;
 
-  // What comes in over the border of the nonmortar surface from outside: both ends without an image, or in
-  // again after having left over a hole or a bay.
+  // Whether the nonmortar triangles face all normals of the mortar surface (1), none of them (-1), or some.
+  std::vector<signed char> PlaneGraph::find_facing() const
+  {
+    const auto  &normals = incidence.mortar.vertex_normals;
+    Tensor<1, 3> mean;
+    for (const Tensor<1, 3> &n : normals)
+      mean += n;
+    std::vector<signed char> result(nonmortar.triangles.size(), 0);
+    if (!(mean.norm() > 0.))
+      return result;
+    mean /= mean.norm();
+    const auto angle_to = [](const Tensor<1, 3> &n, const Tensor<1, 3> &direction) {
+      return n.norm() > 0. ? std::acos(std::max(-1., std::min(1., n * direction / n.norm()))) : 0.;
+    };
+    double widest = 0.;
+    for (const Tensor<1, 3> &n : normals)
+      widest = std::max(widest, angle_to(n, mean));
+    constexpr double rounding = 1e-6;
+    const double     bound    = std::acos(-Incidence::facing_cosine);
+    for (unsigned int t = 0; t < result.size(); ++t)
+      {
+        const double angle = angle_to(incidence.nonmortar_normal[t], -mean);
+        result[t] = angle + widest < bound - rounding ? 1 : (angle - widest > bound + rounding ? -1 : 0);
+      }
+    return result;
+  }
+
+
+
+  // The border of the nonmortar surface, and of what of it may face a mortar edge: the rim of a ball as the
+  // other side sees it.
+  std::vector<unsigned int> PlaneGraph::edges_to_enter_at() const
+  {
+    const std::vector<signed char> facing      = find_facing();
+    const auto                    &normals     = incidence.nonmortar_normal;
+    const auto                     is_straight = [&](const unsigned int a, const unsigned int b) {
+      return cross_product_3d(normals[a], normals[b]).norm() <= 1e-9 * (normals[a] * normals[b]);
+    };
+    std::vector<unsigned int> result;
+    for (unsigned int e = 0; e < nonmortar.edges.size(); ++e)
+      if (const auto [a, b] = nonmortar.edge_triangles[e];
+          nonmortar.is_border(e) || facing[b] != facing[a] || (facing[a] == 0 && !is_straight(a, b)))
+        result.push_back(e);
+    return result;
+  }
+
+
+
+  // What comes in from outside: both ends without an image, or in again after having left over a hole or a
+  // bay.
   void PlaneGraph::enter_at_borders()
   {
     if (unfinished.empty())
       return;
-    const SurfaceMesh        &non = incidence.nonmortar;
-    std::vector<unsigned int> border;
-    std::vector<BoxTree::Box> boxes;
-    for (unsigned int e = 0; e < nonmortar.edges.size(); ++e)
-      if (nonmortar.is_border(e))
-        {
-          BoxTree::Box box{non.vertices[nonmortar.edges[e][0]], non.vertices[nonmortar.edges[e][0]]};
-          box.include(non.vertices[nonmortar.edges[e][1]]);
-          border.push_back(e);
-          boxes.push_back(box);
-        }
+    const SurfaceMesh              &non    = incidence.nonmortar;
+    const std::vector<unsigned int> border = edges_to_enter_at();
+    std::vector<BoxTree::Box>       boxes;
+    for (const unsigned int e : border)
+      {
+        BoxTree::Box box{non.vertices[nonmortar.edges[e][0]], non.vertices[nonmortar.edges[e][0]]};
+        box.include(non.vertices[nonmortar.edges[e][1]]);
+        boxes.push_back(box);
+      }
     if (border.empty())
       return;
     BoxTree::Box all = boxes[0];
@@ -99,12 +145,31 @@ namespace Signorini
 
   void PlaneGraph::enter_at(const unsigned int e, const unsigned int f)
   {
-    const auto        &ends = nonmortar.edges[e];
-    const unsigned int p = mortar.edges[f][0], q = mortar.edges[f][1];
-    const unsigned int only = nonmortar.edge_triangles[e][0] != none ? 0 : 1;
-    const unsigned int t    = nonmortar.edge_triangles[e][only];
-    if (!incidence.vertex_faces(p, t) || !incidence.vertex_faces(q, t) || border_crossings.count({f, e}) > 0)
+    const auto [p, q] = mortar.edges[f];
+    std::array<bool, 2> faces, may_face;
+    for (unsigned int side = 0; side < 2; ++side)
+      {
+        const unsigned int t   = nonmortar.edge_triangles[e][side];
+        const bool         one = t != none && incidence.vertex_faces(p, t),
+                   other       = t != none && incidence.vertex_faces(q, t);
+        faces[side]            = one && other;
+        may_face[side]         = one || other;
+      }
+    if (border_crossings.count({f, e}) > 0)
       return;
+    if (faces[0] && !may_face[1])
+      enter_at(e, f, 0);
+    else if (faces[1] && !may_face[0])
+      enter_at(e, f, 1);
+  }
+
+
+
+  void PlaneGraph::enter_at(const unsigned int e, const unsigned int f, const unsigned int only)
+  {
+    const auto           &ends = nonmortar.edges[e];
+    const unsigned int    p = mortar.edges[f][0], q = mortar.edges[f][1];
+    const unsigned int    t    = nonmortar.edge_triangles[e][only];
     const Incidence::Side s[2] = {side(ends[0], f), side(ends[1], f)};
     for (unsigned int i = 0; i < 2; ++i)
       if (s[i].sign == 0)
@@ -139,6 +204,8 @@ namespace Signorini
       return;
     if (is_hidden_at(f, at_f, e, at_e))
       return;
+    if (!nonmortar.is_border(e))
+      border_crossings.insert({f, e});
     walk.position    = come;
     walk.triangle    = t;
     walk.entry       = nonmortar.local_edge(t, e);

@@ -89,7 +89,10 @@ namespace Signorini
     walk.vertex        = none;
     // What turns away is as good as a border: behind the rim of a ball the path would come back.
     if (walk.triangle == none || !incidence.edge_faces(walk.edge, walk.forward(walk.position), walk.triangle))
-      return State::left;
+      {
+        border_crossings.insert({walk.edge, edge});
+        return State::left;
+      }
     walk.entry       = nonmortar.local_edge(walk.triangle, edge);
     walk.entry_sides = {{end, begin}};
     return State::on_the_way;
@@ -127,6 +130,12 @@ namespace Signorini
       {
         const unsigned int t = nonmortar.fan[k], corner = nonmortar.local_corner(t, walk.vertex);
         Incidence::Side    s[2];
+        // As in leave_through().
+        if (!incidence.edge_faces(walk.edge, walk.forward(walk.position), t))
+          {
+            at_border = true;
+            continue;
+          }
         for (unsigned int i = 0; i < 2; ++i)
           {
             const unsigned int v = nonmortar.triangles[t][(corner + 1 + i) % 3];
@@ -391,7 +400,10 @@ namespace Signorini
         const auto        &beside  = nonmortar.edge_triangles[out];
         const unsigned int through = beside[walk.direction * next.low_side > 0 ? 0 : 1];
         if (through == none || !incidence.edge_faces(walk.edge, walk.forward(walk.position), through))
-          return State::left;
+          {
+            border_crossings.insert({walk.edge, out});
+            return State::left;
+          }
         front.triangles = {through};
         front.passed    = {out};
         front.passed_at = next.t;

@@ -129,6 +129,7 @@ namespace Signorini
                     const unsigned int i) const;
     void update_ghost_couplings();
     void find_unit(const double largest_value);
+    void fit_unit(const double largest_value);
 
     /// Where a row is in the order.
     unsigned int position(const unsigned int row) const

@@ -64,6 +64,9 @@ namespace Signorini
     std::vector<Crossing> all_crossings(const unsigned int nonmortar_edge,
                                         const unsigned int mortar_edge) const;
 
+    /// Surfaces that can touch face each other: the cosine of their normals is below this.
+    static constexpr double facing_cosine = -.1;
+
     /// Whether a mortar vertex, or a point of a mortar edge, and a nonmortar triangle, or two triangles, face
     /// each other.
     bool faces(const unsigned int nonmortar_triangle, const dealii::Tensor<1, 3> &mortar_direction) const;

@@ -124,10 +124,13 @@ namespace Signorini
     void  note_lost(const Walk &walk, const SurfacePoint &start);
     bool  is_reached(const Walk &walk, const unsigned int triangle) const;
 
-    void enter_at_borders();
+    void                      enter_at_borders();
+    std::vector<unsigned int> edges_to_enter_at() const;
+    std::vector<signed char>  find_facing() const;
     void find_below_curtain(std::vector<unsigned int> &found, const BoxTree &tree, const BoxTree::Box &all,
                             const unsigned int mortar_edge) const;
-    void enter_at(const unsigned int border_edge, const unsigned int mortar_edge);
+    void enter_at(const unsigned int edge, const unsigned int mortar_edge);
+    void enter_at(const unsigned int edge, const unsigned int mortar_edge, const unsigned int inner_side);
     bool is_hidden_at(const unsigned int mortar_edge, const double s, const unsigned int edge,
                       const double t);
     bool runs_along(const unsigned int mortar_edge, const unsigned int edge) const;
@@ -144,12 +147,16 @@ namespace Signorini
     /// The images of the nonmortar vertices without a node.
     class VertexImages;
 
-    void         map_nonmortar_vertices();
+    void map_nonmortar_vertices();
+    /// What a nonmortar vertex without a node is mapped to.
+    struct Image;
+
     unsigned int triangle_beside(const unsigned int vertex, const MappingNode &node) const;
+    unsigned int any_triangle_at(const MappingNode &node) const;
     /// The triangle around a mortar vertex whose two edges there have the vertex between them, or none.
     unsigned int triangle_around(const unsigned int mortar_vertex, const unsigned int vertex) const;
     SurfacePoint image_in(const unsigned int vertex, const unsigned int triangle) const;
-    unsigned int search_triangle(const unsigned int vertex);
+    Image        search_triangle(const unsigned int vertex);
     bool         lies_below(const unsigned int vertex, const unsigned int triangle) const;
 
     /// Whether another layer of the nonmortar surface lies nearer to a point of the mortar surface than
@@ -180,7 +187,8 @@ namespace Signorini
     /// For nodes where edges cross: the side of the mortar edge on which the lower end of the nonmortar edge
     /// lies.
     std::vector<signed char> low_side;
-    /// Mortar edges that were not followed from end to end, and where they are known to cross border edges.
+    /// Mortar edges that were not followed from end to end, and where they are known to come in or to leave
+    /// over edges.
     std::vector<unsigned int>                       unfinished;
     std::set<std::pair<unsigned int, unsigned int>> border_crossings;
     std::unique_ptr<BoxTree>                        nonmortar_tree, mortar_tree;

@@ -94,6 +94,58 @@ TEST(ClosedSurfaces, BallOnPlane)
     }
 }
 
+// A ball over a plane whose faces are wider than the ball: no mortar vertex has an image, and mortar edges
+// come in over the rim of what faces the plane, or there is none. The ball covers the same everywhere.
+TEST(ClosedSurfaces, BallOnWideFaces)
+{
+  for (const unsigned int n : {5u, 8u})
+    for (const unsigned int n_faces : {1u, 3u, 5u})
+      {
+        const SurfaceMesh plane = grid(
+            n_faces, [](const double x, const double y) { return Point<3>(12. * x - 6., 12. * y - 6., 0.); },
+            true);
+        double covered = -1.;
+        for (const double x : {0., .3, 1., 1.3, 2., 2.5, 3.1})
+          for (const double y : {0., .7, 1., 1.9, 2., 4.})
+            {
+              const SurfaceMesh    ball = sphere(n, 1., Point<3>(x, y, 1.05), true, .2);
+              const ContactMapping mapping(ball, plane);
+              EXPECT_EQ(violated_invariant(ball, plane, mapping, false), "") << x << ' ' << y;
+              const MappingReport &report = mapping.report();
+              EXPECT_EQ(describe_errors(report), "") << x << ' ' << y;
+              if (covered < 0.)
+                covered = report.area_mortar_covered;
+              EXPECT_NEAR(report.area_mortar_covered, dealii::numbers::PI, .4);
+              EXPECT_NEAR(report.area_mortar_covered, covered, 1e-12)
+                  << n << ' ' << n_faces << ' ' << x << ' ' << y;
+              double of_parts = 0.;
+              for (const bool upper : {false, true})
+                of_parts += ContactMapping(ball, plane,
+                                           [&](const unsigned int t) {
+                                             return (ball.vertices[ball.triangles[t][0]][1] > y) == upper;
+                                           })
+                                .report()
+                                .area_mortar_covered;
+              EXPECT_NEAR(of_parts, covered, 1e-12) << x << ' ' << y;
+            }
+      }
+}
+
+// The same over the edge of the plane: half of it.
+TEST(ClosedSurfaces, BallOverTheEdgeOfWideFaces)
+{
+  const SurfaceMesh plane = grid(
+      2, [](const double x, const double y) { return Point<3>(12. * x - 6., 12. * y - 6., 0.); }, true);
+  for (const double y : {0., 1.5, 2.9})
+    {
+      const SurfaceMesh    ball = sphere(8, 1., Point<3>(6., y, 1.05), true);
+      const ContactMapping mapping(ball, plane);
+      EXPECT_EQ(violated_invariant(ball, plane, mapping, false), "") << y;
+      EXPECT_EQ(describe_errors(mapping.report()), "") << y;
+      EXPECT_NEAR(mapping.report().area_mortar_covered, .5 * dealii::numbers::PI, .15) << y;
+    }
+}
+
 namespace
 {
   Tensor<1, 3> normal(const SurfaceMesh &mesh, const unsigned int triangle)
