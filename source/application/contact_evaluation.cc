@@ -141,6 +141,31 @@ namespace Signorini
       return std::vector<bool>(active.begin(), active.end());
     }
 
+    /// Collective. PairResult::narrow_share.
+    double share_of_narrow_contact(const ContactPair &pair, const PairCoupling &coupling,
+                                   const ContactStress &stress, const std::vector<bool> &is_active,
+                                   const MPI_Comm comm)
+    {
+      const auto is_row =
+          spread_rows(coupling, *pair.halo, std::vector<unsigned char>(coupling.vertices.size(), 1));
+      std::vector<bool> is_wide(is_active.size(), false);
+      for (const ContactSurface::Face &face : pair.nonmortar.surface.faces)
+        if (std::all_of(face.corners.begin(), face.corners.end(),
+                        [&](const unsigned int v) { return is_row[v] == 0 || is_active[v]; }))
+          for (const unsigned int v : face.corners)
+            is_wide[v] = true;
+      double narrow = 0., all = 0.;
+      for (std::size_t row = 0; row < coupling.vertices.size(); ++row)
+        if (stress.active[row])
+          {
+            const double force = coupling.areas[row] * stress.pressure[row];
+            all += force;
+            narrow += is_wide[coupling.vertices[row]] ? 0. : force;
+          }
+      all = Utilities::MPI::sum(all, comm);
+      return all > 0. ? Utilities::MPI::sum(narrow, comm) / all : 0.;
+    }
+
     /// Collective. Extrema of the multipliers, and where the largest one is: at the first of several nodes.
     void find_extrema(PairResult &result, const PairCoupling &coupling, const ContactStress &stress,
                       const MPI_Comm comm)
@@ -193,7 +218,9 @@ namespace Signorini
     result.dropped_nodes = Utilities::MPI::sum(coupling.nodes_without_multiplier().size(), comm);
     find_extrema(result, coupling, stress, comm);
     const std::vector<bool> is_active = sum_active(result, pair, coupling, stress, comm);
-    const ContactForces     forces =
+    if (!pair.is_tied)
+      result.narrow_share = share_of_narrow_contact(pair, coupling, stress, is_active, comm);
+    const ContactForces forces =
         compute_contact_forces(pair.nonmortar.surface, pair.mortar.surface, coupling, stress.traction);
     result.force           = sum(forces.nonmortar.force, comm);
     result.force_on_mortar = pair.obstacle ? -result.force : sum(forces.mortar.force, comm);

@@ -260,7 +260,7 @@ namespace Signorini
         return drifting;
       note_undetermined(loose, model, d, journal);
       warn_of_facets(model, d.free_motions(),
-                     !loose.hardly_held.empty() ? loose.hardly_held
+                     !loose.hardly_held.empty() ? loose.slides_on_facets
                                                 : find_rotations_of_the_mesh(d.free_motions(), fields, spaces,
                                                                              active, algebraic.v, width),
                      journal);

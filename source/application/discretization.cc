@@ -179,14 +179,20 @@ namespace Signorini
       const double          smallest =
           Utilities::MPI::min(c.gaps.empty() ? 0. : *std::min_element(c.gaps.begin(), c.gaps.end()), comm);
       const double size = width_of_rows(c, comm);
-      // Faceted curved surfaces overlap by rounding and by their sagitta; report what exceeds rounding.
-      if (!(smallest < -1e-12 * size) || coupled.pairs[p].is_tied)
+      // Faceted curved surfaces overlap by rounding and by their sagitta; report what exceeds rounding, that
+      // of coordinates far from the origin as well.
+      double coordinate = 0.;
+      for (const Point<3> &x : c.positions)
+        for (unsigned int i = 0; i < dim; ++i)
+          coordinate = std::max(coordinate, std::abs(x[i]));
+      const double rounding = std::max(1e-12 * size, 1e-15 * Utilities::MPI::max(coordinate, comm));
+      if (!(smallest < -rounding) || coupled.pairs[p].is_tied)
         return;
       refuse_large_overlap(coupled, p);
       // The weighted gap is negative where surfaces bend within a face, too.
       const SmallestGap gap =
           smallest_initial_gap(coupled.pairs[p], coupled.constrained.nodal().communicator());
-      if (!(gap.value < -1e-12 * size))
+      if (!(gap.value < -rounding))
         return;
       std::ostringstream text;
       text << "pair " << definition.name << ": ";

@@ -104,7 +104,13 @@ namespace Signorini
     for (Eigen::Index k = 0; k < n_undetermined; ++k)
       add(result.undetermined, eigen.vectors.col(k));
     for (Eigen::Index k = n_undetermined; k < count(rule.hardly_opposed); ++k)
-      add(result.hardly_held, eigen.vectors.col(k));
+      {
+        const Eigen::VectorXd motion = eigen.vectors.col(k);
+        add(result.hardly_held, motion);
+        // A long bar rolls about its axis by little.
+        if (eigen.values[k] <= rule.hardly_opposed * motion.dot(sums.whole * motion))
+          add(result.slides_on_facets, motion);
+      }
     if (n_undetermined > 0)
       {
         const Eigen::MatrixXd span  = eigen.vectors.leftCols(n_undetermined);

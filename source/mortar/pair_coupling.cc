@@ -19,7 +19,7 @@ namespace Signorini
   {
     static const char *const texts[] = {"all components prescribed",
                                         "normal direction prescribed",
-                                        "node of another contact pair",
+                                        "node of another surface in contact, too",
                                         "on a sharp edge",
                                         "thinly covered",
                                         "extrapolating"};

@@ -65,6 +65,17 @@ namespace Signorini
       return text.str();
     }
 
+    std::string narrow_text(const PairResult &pair)
+    {
+      if (!pair.is_narrow())
+        return "";
+      std::ostringstream text;
+      text << std::setprecision(3) << "\n  contact is narrower than a face for " << 100. * pair.narrow_share
+           << " % of the force: the largest pressure is that of the mesh, refine the contact surfaces to see "
+              "that of the bodies";
+      return text.str();
+    }
+
     void print_pair(std::ostream &out, const PairResult &pair)
     {
       out << "pair " << pair.name << ": ";
@@ -77,7 +88,7 @@ namespace Signorini
           << text(pair.force, pair.force.norm());
       out << "\n  contact area " << pair.contact_area << ", largest pressure " << pair.max_pressure << " at "
           << place_text(pair.max_pressure_at) << smoothed_text(pair);
-      out << scatter_text(pair);
+      out << scatter_text(pair) << narrow_text(pair);
       out << '\n';
     }
 

@@ -161,6 +161,7 @@ namespace Signorini
       json.vector("max_recovered_pressure_at", Vector3(pair.max_recovered_pressure_at));
       json.number("pressure_scatter", pair.pressure_scatter);
       json.boolean("scatter_is_told", pair.scatter_is_told());
+      json.number("narrow_share", pair.narrow_share);
       json.number("contact_area", pair.contact_area);
       json.number("coverage", pair.coverage);
       json.number("min_gap", pair.min_gap);

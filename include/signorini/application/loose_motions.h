@@ -45,6 +45,8 @@ namespace Signorini
     std::vector<std::vector<double>> undetermined;
     /// Facets of round surfaces do.
     std::vector<std::vector<double>> hardly_held;
+    /// Of these, what is opposed as little beside what the motion itself moves there.
+    std::vector<std::vector<double>> slides_on_facets;
     /// What is opposed by more than rounding in the span of those that are undetermined.
     std::vector<std::vector<double>> next_to_undetermined;
   };

@@ -60,6 +60,14 @@ namespace Signorini
     double told = .05;
   };
 
+  /// From what share of the load on it is told that a contact is narrower than a face. Pure number.
+  struct NarrowContactRule
+  {
+    /// On a C-ring with a strip of contact a quarter as wide as a face, where the largest pressure was a
+    /// third of Hertz', it is all; on strips of two faces and more nothing.
+    double told = .5;
+  };
+
   /// What a contact pair does, after the last solve.
   struct PairResult
   {
@@ -99,6 +107,14 @@ namespace Signorini
     bool scatter_is_told() const
     {
       return pressure_scatter > ScatterRule().told;
+    }
+    /// Share of the load on nodes around which no face is in contact as a whole: pressures there are those of
+    /// the mesh. Zero for ties.
+    double narrow_share = 0.;
+    /// Whether that is so much that it is told (NarrowContactRule).
+    bool is_narrow() const
+    {
+      return narrow_share > NarrowContactRule().told;
     }
     /// How far the surfaces slide on each other where they touch (length), and in multiples of the width of
     /// the faces there.
