@@ -5,6 +5,7 @@
 #include <signorini/application/contact_checks.h>
 #include <signorini/application/problem_description.h>
 #include <signorini/discretization/element.h>
+#include <signorini/discretization/motion_description.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/patterns.h>

@@ -10,6 +10,7 @@ signorini_add_layer(surface
   plane_graph_borders.cc
   plane_graph_edges.cc
   plane_graph_layers.cc
+  plane_graph_vertices.cc
   smooth_surface.cc
   surface_feet.cc
   surface_mesh.cc

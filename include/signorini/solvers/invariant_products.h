@@ -17,6 +17,7 @@ namespace Signorini
   class InvariantProducts
   {
   public:
+    /// When a motion counts as opposed.
     struct Rule
     {
       /// The energy of an opposed motion, relative to that if no two nodes moved together: more than
