@@ -172,9 +172,10 @@ namespace Signorini
     }
 
     /// Why the solution of the discrete problem is not that of the bodies.
-    void object_to_pair(Certificate &c, const PairResult &pair, const SurfaceKind surface,
+    void object_to_pair(Certificate &c, const PairResult &pair, const PairModel &model,
                         const std::string &mapping_errors)
     {
+      const SurfaceKind     surface = model.definition.surface;
       const CertificateRule rule;
       const std::string     name = "pair " + pair.name + ": ";
       if (!(pair.approach > 0.))
@@ -196,8 +197,9 @@ namespace Signorini
         c.objections.push_back(
             name + "contact forces act where the true surfaces are " + text_of(pair.loaded_gap) + " apart, " +
             text_of(pair.loaded_gap / pair.approach) +
-            " of what contact does there; refine the contact surfaces, or choose the other "
-            "side as \"Nonmortar\"");
+            " of what contact does there; refine the contact surfaces" +
+            (model.definition.obstacle ? "" : ", or choose the other side as \"Nonmortar\"") +
+            ". If it stays, surfaces slide that far around a bend, which linear kinematics do not follow");
       if (!mapping_errors.empty())
         c.objections.push_back(
             name + "the contact mapping has errors where the bodies touch (" + mapping_errors +
@@ -234,7 +236,7 @@ namespace Signorini
         const std::string mapping_errors = errors_in_contact(d, solution.stress, p);
         if (!mapping_errors.empty())
           c.wrongly_mapped_pairs.push_back(p);
-        object_to_pair(c, evaluation.pairs[p], model.pairs()[p].definition.surface, mapping_errors);
+        object_to_pair(c, evaluation.pairs[p], model.pairs()[p], mapping_errors);
       }
     return c;
   }

@@ -305,14 +305,16 @@ namespace Signorini
               pair.nonmortar.name + "\" can carry no contact stress, because the nodes belong to " +
               rivals_of(coupled.pairs, p, comm) +
               ", too. If two pairs are the same, remove one; else choose \"Nonmortar\" so that the common "
-              "surface is the other (mortar) side in all of its pairs, or take the common part out of one of "
-              "them (\"First region\", \"Second region\").");
+              "surface is the other (mortar) side in all of its pairs, take the common part out of one of "
+              "them "
+              "(\"First region\", \"Second region\"), or refine a body of one layer of cells, all nodes of "
+              "which lie on its edges (\"Initial levels\").");
         if (is_void)
           throw InputError(
               "Pair " + pair.name + ": no node of \"" + pair.nonmortar.name +
               "\" can carry a contact stress, because their displacements are prescribed (Body " +
               coupled.model.bodies().body_name(pair.nonmortar.body) +
-              "/Dirichlet). Leave the surface free there," + choice + " or remove the pair.");
+              "/Dirichlet or Rigid). Leave the surface free there," + choice + " or remove the pair.");
         refuse_held_overlap(coupled, p);
       }
   }
