@@ -172,12 +172,6 @@ namespace Signorini
       Vector                    rigid;
     };
 
-    /// Of these, the others solve with A what has to be solved with A'.
-    bool takes_invariant_products(const SolverMethod method)
-    {
-      return method == SolverMethod::accelerated || method == SolverMethod::truncated_newton_multigrid;
-    }
-
     AlgebraicProblem build_problem(const ContactModel &model, const Discretization &d, CoarserSpaces &coarser,
                                    const NestedStart *const start, const SolveParameters &parameters,
                                    Journal &journal)
@@ -218,8 +212,8 @@ namespace Signorini
       options.problem  = &problem;
       options.start    = start != nullptr ? &result.v : nullptr;
       result.hierarchy = make_hierarchy(std::move(system), *result.levels, d, parameters.solver, options);
-      if (d.has_ties() && !problem.free_motions.empty() && takes_invariant_products(parameters.solver.method))
-        problem.invariant = InvariantProducts(result.hierarchy->finest().matrix, problem.free_motions);
+      if (d.has_ties())
+        refuse_opposed_motions(result.hierarchy->finest().matrix, problem.free_motions, model, d);
       return result;
     }
 
@@ -287,7 +281,6 @@ namespace Signorini
       result.report = solver->solve(algebraic.v, problem, make_monitor(parameters.tolerance, journal));
       partition.reinit(algebraic.residual);
       hierarchy.finest().matrix.symmetric_residual(algebraic.residual, algebraic.v, problem.rhs);
-      problem.invariant.correct_residual(algebraic.residual, problem.rhs);
       deformation.restore();
       if (!d.free_motions().empty())
         result.drifting = settle_loose_motions(algebraic, solver->active(), model, d, journal);
@@ -353,7 +346,7 @@ namespace Signorini
     for (std::size_t row = 0; row < d.coupling.n_rows(); ++row)
       n_active += d.owns_row(row) && result.stress.active[row];
     result.n_active     = Utilities::MPI::sum(n_active, model.communicator());
-    result.displacement = displacement_of(algebraic->v, model, d, matrix.partition(), algebraic->problem);
+    result.displacement = d.transformation->to_displacement(algebraic->v, matrix.partition());
     set_tie_stress(result.stress, model, d, result.displacement);
     return result;
   }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
-#include <signorini/algebra/dense_matrix.h>
 #include <signorini/algebra/gathered_lists.h>
 #include <signorini/algebra/input_error.h>
 #include <signorini/algebra/interface_rows.h>
@@ -26,6 +25,9 @@ namespace Signorini
       /// The work of loads on a rotation that surfaces allow, relative to that of all loads with the size of
       /// the surfaces as their arm, which may come from facets: 1e-4 to 1e-2 for balls of tetrahedra.
       double work_of_facets = .05;
+      /// The energy of a motion in ties, relative to what it would be if no two nodes moved together, that is
+      /// not seen.
+      double opposed_by_ties = 1e-11;
       /// What there is of a motion of the size of 1 that should be zero: 1e-16 of matching surfaces of a
       /// body.
       double rounding = 1e-12;
@@ -110,49 +112,30 @@ namespace Signorini
 
 
 
-  namespace
+  void refuse_opposed_motions(const NodeBlockMatrix &matrix, const std::vector<Vector> &motions,
+                              const ContactModel &model, const Discretization &d)
   {
-    /// Collective. The coefficients of some motions in a vector of their span.
-    Eigen::VectorXd coefficients_in(const std::vector<Vector> &motions, const Vector &v)
-    {
-      const auto      n = static_cast<Eigen::Index>(motions.size());
-      Eigen::MatrixXd products(n, n);
-      Eigen::VectorXd rhs(n);
-      for (Eigen::Index i = 0; i < n; ++i)
-        {
-          for (Eigen::Index j = 0; j <= i; ++j)
-            products(i, j) = products(j, i) = motions[i] * motions[j];
-          rhs[i] = motions[i] * v;
-        }
-      return least_squares(products, rhs);
-    }
-  } // namespace
-
-
-
-  Vector displacement_of(Vector v, const ContactModel &model, const Discretization &d,
-                         const NodePartition &unknowns, const ObstacleProblem &problem)
-  {
-    const std::vector<Vector> &opposed = problem.invariant.opposed_motions();
-    if (opposed.empty())
-      return d.transformation->to_displacement(v, unknowns);
-    const std::vector<Vector> fields = motions_of_unknowns(model, d, unknowns);
-    const std::vector<double> theta  = problem.invariant.coefficients(v);
-    Eigen::VectorXd           shares = Eigen::VectorXd::Zero(fields.size());
-    v.zero_out_ghost_values();
-    for (std::size_t k = 0; k < opposed.size(); ++k)
+    for (const Vector &motion : motions)
       {
-        v.add(-theta[k], opposed[k]);
-        shares += theta[k] * coefficients_in(fields, opposed[k]);
+        Vector product;
+        product.reinit(motion);
+        matrix.vmult(product, motion);
+        double if_alone = 0.;
+        for (unsigned int row = 0; row < matrix.n_rows(); ++row)
+          for (unsigned int c = 0; c < dim; ++c)
+            if_alone += matrix.block(matrix.diagonal(row))[(dim + 1) * c] *
+                        Utilities::fixed_power<2>(motion.local_element(dim * row + c));
+        if_alone = Utilities::MPI::sum(if_alone, matrix.partition().communicator());
+        if (motion * product <= FreedomRule().opposed_by_ties * if_alone)
+          continue;
+        const auto tied = std::find_if(d.free_motions().begin(), d.free_motions().end(),
+                                       [](const FreeMotion &one) { return one.parts.size() > 1; });
+        throw InputError(
+            "Contact alone should hold " + name_of_moving(*tied, model.bodies()) +
+            ", but the tied surfaces are apart in places (a layer between them, or curved ones on "
+            "meshes that do not match), and such ties oppose rotations that they should not. Hold "
+            "one of these bodies by Dirichlet conditions, or make the tied meshes match.");
       }
-    Vector                    result = d.transformation->to_displacement(v, unknowns);
-    const std::vector<Vector> rigid =
-        motion_fields(d.free_motions(), model.bodies(), d.nodal(), d.partition());
-    result.zero_out_ghost_values();
-    for (std::size_t m = 0; m < rigid.size(); ++m)
-      result.add(shares[m], rigid[m]);
-    result.update_ghost_values();
-    return result;
   }
 
 

@@ -11,7 +11,6 @@ signorini_add_layer(solvers
   gathered_blocks.cc
   gathered_obstacle_problem.cc
   interior_point.cc
-  invariant_products.cc
   gauss_seidel_iteration.cc
   interface_correction.cc
   level_zero_solver.cc

@@ -37,19 +37,19 @@ namespace Signorini
 
 
 
-  FreeMotionCorrection::FreeMotionCorrection(const NodeBlockMatrix &matrix, const ObstacleProblem &problem)
+  FreeMotionCorrection::FreeMotionCorrection(const NodeBlockMatrix     &matrix,
+                                             const std::vector<Vector> &free_motions, const Vector &rhs)
     : matrix(matrix)
-    , problem(problem)
-    , motions(problem.free_motions)
-    , tangential(motions)
-    , products(motions)
+    , motions(free_motions)
+    , tangential(free_motions)
+    , products(free_motions)
   {
     if (motions.empty())
       return;
-    const double scale = Rule().rounding * problem.rhs.l1_norm();
+    const double scale = Rule().rounding * rhs.l1_norm();
     for (const Vector &motion : motions)
       {
-        const double work = motion * problem.rhs;
+        const double work = motion * rhs;
         loads.push_back(std::abs(work) > scale * motion.linfty_norm() ? work : 0.);
       }
   }
@@ -58,7 +58,6 @@ namespace Signorini
 
   void FreeMotionCorrection::restore_work(Vector &residual) const
   {
-    problem.invariant.correct_residual(residual, problem.rhs);
     const std::vector<double> work = dot_products(motions, residual);
     residual.zero_out_ghost_values();
     for (std::size_t i = 0; i < motions.size(); ++i)
@@ -89,7 +88,6 @@ namespace Signorini
               subtract_change(products[i].begin(), matrix, spaces.nodes[p], &normal_part[0]);
             }
         products[i].compress(VectorOperation::add);
-        problem.invariant.correct_product(products[i]);
         const std::vector<double> row = dot_products(tangential, products[i]);
         for (Eigen::Index j = 0; j <= i; ++j)
           energies(i, j) = energies(j, i) = row[j];

@@ -146,7 +146,8 @@ namespace Signorini
     v.zero_out_ghost_values();
     const Vector &step = work[coarse].finer;
     contact.restrict_to_tangents(residual);
-    v.add(search_along(matrix(), problem, step, residual, contact.longest_step(v, step)).length, step);
+    v.add(search_along(matrix(), step, residual, contact.longest_step(v, step), problem.semidefinite).length,
+          step);
   }
 
 

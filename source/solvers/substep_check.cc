@@ -28,7 +28,6 @@ namespace Signorini
     Vector product;
     product.reinit(v);
     matrix.vmult(product, v);
-    problem.invariant.correct_product(product);
     const double square = product * v, now = .5 * square - problem.rhs * v;
     double       violation = 0., largest = 0.;
     for (std::size_t p = 0; p < problem.half_spaces.size(); ++p)

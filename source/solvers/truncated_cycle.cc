@@ -33,7 +33,7 @@ namespace Signorini
     , contact(contact)
     , cycle(hierarchy, coarse_smoothing, level - 1)
     , has_subspace(ContactSubspace::exists(hierarchy, level, problem))
-    , motions(hierarchy.level(level).matrix, problem)
+    , motions(hierarchy.level(level).matrix, problem.free_motions, problem.rhs)
     , stays_blocked(!knows_contact)
   {
     for (Vector *vector : {&coarse_defect, &coarse_correction})
@@ -79,7 +79,6 @@ namespace Signorini
         hierarchy.level(level).matrix.vmult(product, correction);
         new_residual = residual;
         new_residual -= product;
-        problem.invariant.correct_residual(new_residual, problem.rhs);
         minimize_in_subspace();
         check(v, correction);
         keeps_active = contact.active() == active;
@@ -123,7 +122,6 @@ namespace Signorini
     if (!subspace)
       subspace.emplace(hierarchy, level, nodes_of_subspace(), problem.free_motions);
     subspace->run(correction, new_residual, contact, motions);
-    problem.invariant.correct_residual(new_residual, problem.rhs);
   }
 
 
@@ -175,7 +173,8 @@ namespace Signorini
   {
     const NodeBlockMatrix &matrix = hierarchy.level(level).matrix;
     const auto             search = [&] {
-      return search_along(matrix, problem, step, new_residual, contact.longest_step(correction, step));
+      return search_along(matrix, step, new_residual, contact.longest_step(correction, step),
+                                      problem.semidefinite);
     };
     if (length == 1.)
       {

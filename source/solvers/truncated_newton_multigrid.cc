@@ -116,7 +116,6 @@ namespace Signorini
                                                       const ObstacleProblem &problem)
   {
     matrix().symmetric_residual(residual, v, problem.rhs);
-    problem.invariant.correct_residual(residual, problem.rhs);
     conjugate.restart();
     return IterationPhase::searching;
   }
@@ -126,13 +125,12 @@ namespace Signorini
   namespace
   {
     /// Whether A v is more than rounding.
-    bool has_forces(const NodeBlockMatrix &matrix, const Vector &v, const ObstacleProblem &problem)
+    bool has_forces(const NodeBlockMatrix &matrix, const Vector &v, const Vector &rhs)
     {
       Vector forces;
       forces.reinit(v);
       matrix.vmult(forces, v);
-      problem.invariant.correct_product(forces);
-      return forces.l2_norm() > AccelerationRule().no_forces * problem.rhs.l2_norm();
+      return forces.l2_norm() > AccelerationRule().no_forces * rhs.l2_norm();
     }
   } // namespace
 
@@ -143,7 +141,7 @@ namespace Signorini
   {
     ConvergenceReport    report;
     const bool           accelerates   = parameters.method == SolverMethod::accelerated;
-    const bool           knows_contact = !problem.semidefinite || has_forces(matrix(), v, problem);
+    const bool           knows_contact = !problem.semidefinite || has_forces(matrix(), v, problem.rhs);
     const bool           trusts_set    = start(v, problem, report) && accelerates && !problem.semidefinite;
     InterfaceSweepPolicy sweeps(parameters.smoothing, trusts_set && !hierarchy.has_slow_interface(),
                                 parameters.starts_with_interface_sweeps);

@@ -157,10 +157,11 @@ namespace Signorini
       }
     if (border_crossings.count({f, e}) > 0)
       return;
-    if (faces[0] && !may_face[1])
-      enter_at(e, f, 0);
-    else if (faces[1] && !may_face[0])
-      enter_at(e, f, 1);
+    // Where the edge crosses may tell more.
+    const bool is_open = !nonmortar.is_border(e);
+    for (unsigned int side = 0; side < 2; ++side)
+      if ((is_open ? may_face[side] : faces[side]) && !faces[1 - side])
+        enter_at(e, f, side);
   }
 
 
@@ -204,8 +205,10 @@ namespace Signorini
       return;
     if (is_hidden_at(f, at_f, e, at_e))
       return;
-    if (!nonmortar.is_border(e))
-      border_crossings.insert({f, e});
+    if (!nonmortar.is_border(e) && (!incidence.edge_faces(f, at_f, t) ||
+                                    incidence.edge_faces(f, at_f, nonmortar.edge_triangles[e][1 - only]) ||
+                                    !border_crossings.insert({f, e}).second))
+      return;
     walk.position    = come;
     walk.triangle    = t;
     walk.entry       = nonmortar.local_edge(t, e);

@@ -211,9 +211,12 @@ namespace Signorini
       return graph.nonmortar_vertex_node[v] == none && !is_known[v] && graph.region.contains(v);
     }
 
-    /// What was found. It is the image of the others that lie below it.
+    /// What was found. It is the image of the others that lie below it. What is hidden by nearer triangles
+    /// stays open: on the rim of what faces the mortar side these may be its own, and give it theirs.
     void set(const unsigned int v, const Image &found)
     {
+      if (found.spreading == Image::Spreading::nowhere)
+        return;
       image[v]    = found;
       is_known[v] = true;
       front.push(v);
@@ -251,13 +254,21 @@ namespace Signorini
     /// Whether an image spreads over a nonmortar edge.
     bool spreads_over(const Image &what, const unsigned int e) const
     {
-      if (what.spreading == Image::Spreading::nowhere)
-        return false;
       const auto &beside = nonmortar.edge_triangles[e];
       const bool  faces  = std::any_of(beside.begin(), beside.end(), [&](const unsigned int t) {
         return t != none && graph.incidence.triangles_face(t, what.decided_at);
       });
       return faces == (what.spreading == Image::Spreading::where_faced);
+    }
+
+    /// Whether an image may be that of a vertex: a vertex on the rim of what turns away has one of its own.
+    bool may_have(const unsigned int v, const Image &what) const
+    {
+      return what.spreading != Image::Spreading::where_turned_away ||
+             std::none_of(nonmortar.fan.begin() + nonmortar.fan_start[v],
+                          nonmortar.fan.begin() + nonmortar.fan_start[v + 1], [&](const unsigned int t) {
+                            return graph.incidence.triangles_face(t, what.decided_at);
+                          });
     }
 
     /// What no node separates has the same image triangle.
@@ -276,7 +287,7 @@ namespace Signorini
                   const unsigned int e     = nonmortar.triangle_edges[t][j];
                   const unsigned int other = nonmortar.edges[e][nonmortar.edges[e][0] == v ? 1 : 0];
                   if (is_empty(e) && is_open(other) && spreads_over(image[v], e) &&
-                      takes(other, image[v].triangle))
+                      may_have(other, image[v]) && takes(other, image[v].triangle))
                     {
                       image[other]    = image[v];
                       is_known[other] = true;

@@ -35,10 +35,11 @@ namespace Signorini
                                         const Discretization &discretization, const NodePartition &unknowns,
                                         const ObstacleProblem &problem);
 
-  /// Collective. The displacement of unknowns v. Motions that ties oppose (InvariantProducts) move all nodes
-  /// as they would without ties.
-  Vector displacement_of(Vector v, const ContactModel &model, const Discretization &discretization,
-                         const NodePartition &unknowns, const ObstacleProblem &problem);
+  /// Collective. Errors: InputError if ties oppose motions that only contact should hold: with a gap between
+  /// tied surfaces the coupling has rotations only approximately.
+  /// @param motions orthonormal, of the unknowns of the matrix
+  void refuse_opposed_motions(const NodeBlockMatrix &matrix, const std::vector<Vector> &motions,
+                              const ContactModel &model, const Discretization &discretization);
 
   /// Ends the run for loads that no contact can hold. Errors: InputError, always.
   [[noreturn]] void refuse_flight(const ContactModel &model, const std::vector<FreeMotion> &motions,

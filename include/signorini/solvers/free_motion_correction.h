@@ -33,12 +33,14 @@ namespace Signorini
       double shorter = 1e-8;
     };
 
-    /// Both must outlive the object.
-    FreeMotionCorrection(const NodeBlockMatrix &matrix, const ObstacleProblem &problem);
+    /// @param free_motions orthonormal; may be empty. Both must outlive the object.
+    /// @param rhs the loads
+    FreeMotionCorrection(const NodeBlockMatrix &matrix, const std::vector<Vector> &free_motions,
+                         const Vector &rhs);
 
     /// Collective. Makes the work of a residual b - A v on each motion what it is, that of the loads b, as A
-    /// m = 0, or that of b - A' v. The rounding of sweeps in single precision is more, and a motion that
-    /// nothing opposes is what that does work on, over next to nothing.
+    /// m = 0. The rounding of sweeps in single precision is more, and a motion that nothing opposes is what
+    /// that does work on, over next to nothing.
     void restore_work(Vector &residual) const;
 
     /// Collective. The active half-spaces have changed, perhaps.
@@ -75,7 +77,6 @@ namespace Signorini
     double largest_opposition(const HalfSpaces &spaces) const;
 
     const NodeBlockMatrix     &matrix;
-    const ObstacleProblem     &problem;
     const std::vector<Vector> &motions;
     /// Tangential at active nodes, and their products with A.
     std::vector<Vector> tangential, products;

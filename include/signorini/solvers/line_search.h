@@ -18,11 +18,11 @@ namespace Signorini
   };
 
   /// Collective. The t that minimizes the energy of v + t c, as far as it is admissible. c is admissible
-  /// for v; c and residual = b - A v, or b - A' v, are tangential at active nodes: the slope must not see the
-  /// contact forces, which are larger than the residual by orders of magnitude.
+  /// for v; c and residual = b - A v are tangential at active nodes: the slope must not see the contact
+  /// forces, which are larger than the residual by orders of magnitude.
   /// @param longest ContactState::longest_step() from v
-  LineSearch search_along(const NodeBlockMatrix &matrix, const ObstacleProblem &problem, const Vector &c,
-                          const Vector &residual, const double longest);
+  LineSearch search_along(const NodeBlockMatrix &matrix, const Vector &c, const Vector &residual,
+                          const double longest, const bool semidefinite);
 } // namespace Signorini
 
 #endif

@@ -4,7 +4,7 @@
 #ifndef signorini_solvers_obstacle_problem_h
 #define signorini_solvers_obstacle_problem_h
 
-#include <signorini/solvers/invariant_products.h>
+#include <signorini/algebra/types.h>
 
 #include <vector>
 
@@ -67,9 +67,6 @@ namespace Signorini
     bool semidefinite = false;
     /// Rigid motions of such bodies, orthonormal; may be left out.
     std::vector<Vector> free_motions;
-    /// Where ties oppose these, A' in place of A: which the methods accelerated and truncated newton
-    /// multigrid know.
-    InvariantProducts invariant;
   };
 } // namespace Signorini
 

@@ -7,7 +7,6 @@
 #include <signorini/algebra/vector_span.h>
 #include <signorini/discretization/rigid_support.h>
 #include <signorini/solvers/free_motion_correction.h>
-#include <signorini/solvers/invariant_products.h>
 #include <signorini/solvers/obstacle_solver.h>
 
 #include <gtest/gtest.h>
@@ -319,11 +318,7 @@ TEST(FreeBodies, DrivenMotionsGoToTheNextHalfSpace)
       ContactState contact(matrix, spaces);
       for (std::size_t p = 0; p < spaces.size(); ++p)
         contact.set_active(p, spaces.bounds[p] == 0.);
-      ObstacleProblem problem;
-      problem.rhs          = rhs;
-      problem.half_spaces  = spaces;
-      problem.free_motions = motions;
-      FreeMotionCorrection correct(matrix, problem);
+      FreeMotionCorrection correct(matrix, motions, rhs);
       correct.update(contact);
       EXPECT_TRUE(correct.is_driven());
       partition.reinit(correction);
@@ -339,67 +334,4 @@ TEST(FreeBodies, DrivenMotionsGoToTheNextHalfSpace)
         lowest = std::max(lowest, spaces.normal_part(p, correction));
       EXPECT_NEAR(dealii::Utilities::MPI::max(lowest, MPI_COMM_WORLD), has_floor ? gap : 0., 1e-12);
     }
-}
-
-
-
-// A cube of which one node is moved differently: A opposes rotations, A' does not.
-TEST(FreeBodies, InvariantProducts)
-{
-  constexpr unsigned int size = 2;
-  const Grid             grid(size);
-  FreeLevels             levels(size);
-  HierarchyParts         parts = CubeProblem::finest_level(size);
-  parts.fixed.assign(parts.fixed.size(), 0);
-  parts.levels = &levels;
-  MultigridHierarchy     hierarchy(std::move(parts));
-  const NodeBlockMatrix &matrix    = hierarchy.finest().matrix;
-  const NodePartition   &partition = matrix.partition();
-  std::vector<Vector>    motions   = rigid_motions(grid, partition);
-  EXPECT_TRUE(InvariantProducts(matrix, motions).opposed_motions().empty());
-  for (unsigned int i = 0; i < partition.n_owned(); ++i)
-    if (partition.to_global(i) == 5)
-      for (unsigned int m = 3; m < 6; ++m)
-        motions[m].local_element(dim * i + m % dim) += 1e-3;
-  orthonormalize(motions);
-  const InvariantProducts invariant(matrix, motions);
-  EXPECT_EQ(invariant.opposed_motions().size(), 3u);
-  const auto multiply = [&](const Vector &v, const bool corrected) {
-    Vector product;
-    partition.reinit(product);
-    matrix.vmult(product, v);
-    if (corrected)
-      invariant.correct_product(product);
-    return product;
-  };
-  // Rounding over what is opposed, 1e-6 of the diagonal.
-  constexpr double rounding = 1e-16 / 1e-6;
-  for (const Vector &motion : motions)
-    EXPECT_LT(multiply(motion, true).linfty_norm(), rounding * matrix.block(0)[0]);
-  EXPECT_GT(multiply(motions[4], false).linfty_norm(), 1e-6 * matrix.block(0)[0]);
-
-  Vector v, w, rhs;
-  for (Vector *x : {&v, &w, &rhs})
-    {
-      partition.reinit(*x);
-      for (unsigned int i = 0; i < dim * partition.n_owned(); ++i)
-        x->local_element(i) =
-            std::sin((x == &v ? 1.3 : 2.9) * (i + dim * partition.to_global(0)) + (x == &rhs ? 1. : 0.));
-    }
-  const double scale = matrix.block(0)[0] * v.l2_norm() * w.l2_norm();
-  EXPECT_NEAR(multiply(v, true) * w, multiply(w, true) * v, rounding * scale);
-  // The energy without the best rotation.
-  const std::vector<double> theta = invariant.coefficients(v);
-  Vector                    rest  = v;
-  for (std::size_t k = 0; k < theta.size(); ++k)
-    rest.add(-theta[k], invariant.opposed_motions()[k]);
-  EXPECT_NEAR(multiply(v, true) * v, multiply(rest, false) * rest, rounding * scale);
-  for (const Vector &motion : invariant.opposed_motions())
-    EXPECT_NEAR(multiply(rest, false) * motion, 0., rounding * scale);
-  Vector residual = rhs, expected = rhs;
-  residual -= multiply(v, false);
-  expected -= multiply(v, true);
-  invariant.correct_residual(residual, rhs);
-  residual -= expected;
-  EXPECT_LT(residual.linfty_norm(), rounding * scale);
 }

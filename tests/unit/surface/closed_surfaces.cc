@@ -94,6 +94,25 @@ TEST(ClosedSurfaces, BallOnPlane)
     }
 }
 
+namespace
+{
+  /// The same surface with the vertices numbered the other way round.
+  SurfaceMesh renumbered(const SurfaceMesh &mesh)
+  {
+    SurfaceMesh        result = mesh;
+    const unsigned int n      = mesh.vertices.size();
+    for (unsigned int v = 0; v < n; ++v)
+      {
+        result.vertices[n - 1 - v]       = mesh.vertices[v];
+        result.vertex_normals[n - 1 - v] = mesh.vertex_normals[v];
+      }
+    for (auto &t : result.triangles)
+      for (unsigned int &v : t)
+        v = n - 1 - v;
+    return result;
+  }
+} // namespace
+
 // A ball over a plane whose faces are wider than the ball: no mortar vertex has an image, and mortar edges
 // come in over the rim of what faces the plane, or there is none. The ball covers the same everywhere.
 TEST(ClosedSurfaces, BallOnWideFaces)
@@ -118,6 +137,10 @@ TEST(ClosedSurfaces, BallOnWideFaces)
               EXPECT_NEAR(report.area_mortar_covered, dealii::numbers::PI, .4);
               EXPECT_NEAR(report.area_mortar_covered, covered, 1e-12)
                   << n << ' ' << n_faces << ' ' << x << ' ' << y;
+              const SurfaceMesh    other = renumbered(ball);
+              const ContactMapping again(other, plane);
+              EXPECT_EQ(describe_errors(again.report()), "") << x << ' ' << y;
+              EXPECT_NEAR(again.report().area_mortar_covered, covered, 1e-12) << x << ' ' << y;
               double of_parts = 0.;
               for (const bool upper : {false, true})
                 of_parts += ContactMapping(ball, plane,
