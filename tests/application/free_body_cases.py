@@ -303,7 +303,7 @@ def tied_groups(p):
         certificate(s)
         near(s['pairs'][0]['load'], 100, 1e-9, 'stamp: force')
         # Rounding of coordinates is no gap.
-        s = p.solve(path, 'Body upper/Lower corner=0, 0, 0.5000001')
+        s = p.solve(path, 'Body upper/Lower corner=0, 0, 0.50000001')
         certificate(s)
         near(s['pairs'][0]['max_recovered_pressure'], one['pairs'][0]['max_recovered_pressure'], 1e-5, 'rounded: pressure')
         # A layer between the surfaces, and facets that do not match, oppose the rotations of both together.
