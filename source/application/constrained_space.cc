@@ -49,10 +49,10 @@ namespace Signorini
     if (groups.size() < model.bodies().n_parts())
       for (const FreeMotion &motion :
            free_motions(model.bodies(), space, dirichlet, separate_parts(model.bodies())))
-        for (const TiedParts &group : groups)
-          result.has_tied_part =
-              result.has_tied_part ||
-              (group.size() > 1 && std::binary_search(group.begin(), group.end(), motion.first_part()));
+        result.has_tied_part =
+            result.has_tied_part || std::any_of(groups.begin(), groups.end(), [&](const TiedParts &group) {
+              return group.size() > 1 && std::binary_search(group.begin(), group.end(), motion.first_part());
+            });
     return result;
   }
 

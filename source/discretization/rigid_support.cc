@@ -91,7 +91,7 @@ namespace Signorini
   namespace
   {
     /// Errors: InputError if there are several.
-    int only_part(const Bodies &bodies, const unsigned int body)
+    unsigned int only_part(const Bodies &bodies, const unsigned int body)
     {
       int result = -1;
       for (unsigned int part = 0; part < bodies.n_parts(); ++part)
@@ -103,7 +103,7 @@ namespace Signorini
                                "of their own.");
             result = static_cast<int>(part);
           }
-      return result;
+      return static_cast<unsigned int>(result);
     }
 
     /// What rigid faces hold: the motions of their bodies that are none of theirs. Conditions weigh as those
@@ -114,8 +114,8 @@ namespace Signorini
       if (Utilities::MPI::this_mpi_process(space.communicator()) != 0)
         return;
       for (const RigidFace &face : rigid.faces())
-        for (unsigned int b = 0; b < frames.size(); ++b)
-          if (frames[b].moves(only_part(bodies, face.body)))
+        for (unsigned int b = 0, part = only_part(bodies, face.body); b < frames.size(); ++b)
+          if (frames[b].moves(static_cast<int>(part)))
             {
               // By column: what a unit motion of the body is to the face, without its free motions.
               Matrix6 rest;

@@ -77,13 +77,13 @@ namespace Signorini
     unsigned int triangle = none;
     /// The mortar triangle that this was decided at.
     unsigned int decided_at = none;
-    /// How it spreads: over edges beside which triangles face that one, over those beside which none does,
-    /// or not at all.
+    /// Over which edges it spreads: those beside which triangles face that one, or those beside which none
+    /// does. `hidden`: nearer triangles hide it; that is no image, and none that spreads.
     enum class Spreading
     {
       where_faced,
       where_turned_away,
-      nowhere
+      hidden
     } spreading = Spreading::where_faced;
   };
 
@@ -126,7 +126,7 @@ namespace Signorini
     const auto  &any  = nonmortar.triangles[nonmortar.fan[nonmortar.fan_start[vertex]]];
     const double size = incidence.nonmortar.vertices[any[0]].distance(incidence.nonmortar.vertices[any[1]]);
     if (best != none && is_hidden(foot, normal, nearest, Incidence::near_end * size))
-      return {none, best, Image::Spreading::nowhere};
+      return {none, best, Image::Spreading::hidden};
     if (best == none && !candidates.empty())
       return {none, candidates[0],
               faces_any ? Image::Spreading::where_faced : Image::Spreading::where_turned_away};
@@ -215,7 +215,7 @@ namespace Signorini
     /// stays open: on the rim of what faces the mortar side these may be its own, and give it theirs.
     void set(const unsigned int v, const Image &found)
     {
-      if (found.spreading == Image::Spreading::nowhere)
+      if (found.spreading == Image::Spreading::hidden)
         return;
       image[v]    = found;
       is_known[v] = true;
