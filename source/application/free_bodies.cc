@@ -32,6 +32,21 @@ namespace Signorini
       /// body.
       double rounding = 1e-12;
     };
+
+    /// Whether contact of any pair may oppose a motion: with an obstacle, or with what does not move along.
+    bool contact_may_hold(const FreeMotion &motion, const ContactModel &model)
+    {
+      const auto moves = [&](const unsigned int part) { return motion.moves(part); };
+      const auto holds = [&](const PairModel &pair) {
+        std::set<unsigned int> parts;
+        for (const PairModel::Side &side : pair.sides)
+          parts.merge(model.parts_of(side));
+        return !pair.is_tied() &&
+               (pair.sides.size() == 1 || !std::all_of(parts.begin(), parts.end(), moves)) &&
+               std::any_of(parts.begin(), parts.end(), moves);
+      };
+      return std::any_of(model.pairs().begin(), model.pairs().end(), holds);
+    }
   } // namespace
 
 
@@ -64,7 +79,8 @@ namespace Signorini
         }
     std::set<std::string> names;
     for (const FreeMotion &motion : motions)
-      names.insert(name_of_moving(motion, model.bodies()));
+      if (contact_may_hold(motion, model))
+        names.insert(name_of_moving(motion, model.bodies()));
     // Said before points were held.
     if (!names.empty() && model.point_holds().empty())
       journal.note("contact must hold " + Patterns::Tools::to_string(names) +

@@ -19,11 +19,10 @@ namespace Signorini
 
   namespace
   {
-    /// Sums of products of motions over active nodes: of their normal parts; of the whole motions. How many
-    /// nodes both move.
+    /// Sums of products of motions over active nodes: of their normal parts; of the whole motions.
     struct MotionsAtContact
     {
-      Eigen::MatrixXd normal, whole, nodes;
+      Eigen::MatrixXd normal, whole;
     };
 
     void sum_over_ranks(Eigen::MatrixXd &values, const MPI_Comm communicator)
@@ -47,7 +46,7 @@ namespace Signorini
                                 const std::vector<unsigned char> &active)
     {
       const auto      n    = static_cast<Eigen::Index>(fields.size());
-      Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(n, 3 * n);
+      Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(n, 2 * n);
       for (std::size_t p = 0; p < spaces.size(); ++p)
         if (active[p])
           {
@@ -56,12 +55,10 @@ namespace Signorini
               normal[i] = spaces.normal_part(p, fields[i]);
             const Eigen::MatrixXd whole = motions_at(fields, spaces.nodes[p]);
             sums.leftCols(n) += normal * normal.transpose();
-            sums.middleCols(n, n) += whole.transpose() * whole;
-            const Eigen::VectorXd moves = (whole.colwise().squaredNorm().array() > 0.).cast<double>();
-            sums.rightCols(n) += moves * moves.transpose();
+            sums.rightCols(n) += whole.transpose() * whole;
           }
       sum_over_ranks(sums, fields[0].get_mpi_communicator());
-      return {sums.leftCols(n), sums.middleCols(n, n), sums.rightCols(n)};
+      return {sums.leftCols(n), sums.rightCols(n)};
     }
 
     /// Collective. The sum of products of the normal parts of combinations of motions (columns) over active
@@ -134,6 +131,23 @@ namespace Signorini
       for (std::size_t k = 0; k < motions.size(); ++k)
         result.col(k) = Eigen::Map<const Eigen::VectorXd>(motions[k].data(), result.rows());
       return result;
+    }
+
+    /// Collective. The largest normal part of a motion at an active node (its coefficients are pure numbers,
+    /// and so is this).
+    double largest_normal_part(const std::vector<double> &motion, const std::vector<Vector> &fields,
+                               const HalfSpaces &spaces, const std::vector<unsigned char> &active)
+    {
+      double largest = 0.;
+      for (std::size_t p = 0; p < spaces.size(); ++p)
+        if (active[p])
+          {
+            double part = 0.;
+            for (std::size_t i = 0; i < fields.size(); ++i)
+              part += motion[i] * spaces.normal_part(p, fields[i]);
+            largest = std::max(largest, std::abs(part));
+          }
+      return Utilities::MPI::max(largest, fields[0].get_mpi_communicator());
     }
 
     /// How far a solution slides along the span of some motions (length).
@@ -238,7 +252,6 @@ namespace Signorini
     for (const auto &[part, own] : parts)
       {
         const Eigen::MatrixXd whole = sums.whole(own, own);
-        const double          nodes = sums.nodes(own[0], own[0]);
         const SymmetricEigen  eigen = symmetric_eigen(sums.normal(own, own));
         for (Eigen::Index k = 0; k < eigen.values.size(); ++k)
           {
@@ -251,9 +264,10 @@ namespace Signorini
                 motion[own[i]] = x[i];
                 rotation += x[i] / motions[own[i]].length * motions[own[i]].rotation;
               }
-            const double elsewhere = nodes * std::pow(rule.offset * width * rotation.norm(), 2);
             if (opposed > rule.next_to_nothing * whole.diagonal().maxCoeff() &&
-                opposed <= std::min(rule.slides * x.dot(whole * x), elsewhere) &&
+                opposed <= rule.slides * x.dot(whole * x) &&
+                largest_normal_part(motion, fields, spaces, active) <=
+                    rule.offset * width * rotation.norm() &&
                 slip_along({motion}, fields, spaces, v) > rule.slip * width)
               result.push_back(motion);
           }

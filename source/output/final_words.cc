@@ -15,13 +15,16 @@ namespace Signorini
 
   namespace
   {
+    /// Forces below this share of what they are the sum of are what rounding and the tolerance left.
+    constexpr double rounding = 1e-10;
+
     /// "(x, y, z)"; what is rounding against the scale is 0.
     std::string text(const Vector3 &v, const double scale)
     {
       std::ostringstream out;
       out << std::setprecision(5) << '(';
       for (unsigned int c = 0; c < dim; ++c)
-        out << (c > 0 ? ", " : "") << (std::abs(v[c]) > 1e-10 * scale ? v[c] : 0.);
+        out << (c > 0 ? ", " : "") << (std::abs(v[c]) > rounding * scale ? v[c] : 0.);
       out << ')';
       return out.str();
     }
@@ -84,8 +87,11 @@ namespace Signorini
           out << "the surfaces are separated, there is no contact force\n";
           return;
         }
-      out << "force " << pair.force.norm() << " on " << pair.nonmortar << ", "
-          << text(pair.force, pair.force.norm());
+      const double force = pair.force.norm();
+      out << "force " << (force > rounding * pair.load ? force : 0.) << " on " << pair.nonmortar << ", "
+          << text(pair.force, pair.load);
+      if (pair.pressures_cancel())
+        out << "; pressures cancel in it, their integral is " << pair.load;
       out << "\n  contact area " << pair.contact_area << ", largest pressure " << pair.max_pressure << " at "
           << place_text(pair.max_pressure_at) << smoothed_text(pair);
       out << scatter_text(pair) << narrow_text(pair);

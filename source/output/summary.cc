@@ -151,6 +151,7 @@ namespace Signorini
       json.vector("moment", pair.moment);
       json.vector("centre_of_pressure", Vector3(pair.centre));
       json.number("load", pair.load);
+      json.boolean("pressures_cancel", pair.pressures_cancel());
       json.number("approach", pair.approach);
       json.number("gap_doubt", pair.gap_doubt);
       json.number("moment_balance", pair.moment_balance);
@@ -162,6 +163,7 @@ namespace Signorini
       json.number("pressure_scatter", pair.pressure_scatter);
       json.boolean("scatter_is_told", pair.scatter_is_told());
       json.number("narrow_share", pair.narrow_share);
+      json.boolean("is_narrow", pair.is_narrow());
       json.number("contact_area", pair.contact_area);
       json.number("coverage", pair.coverage);
       json.number("min_gap", pair.min_gap);

@@ -272,6 +272,83 @@ end
 """
 
 
+STACK = """set Bodies        = a, b, c
+set Contact pairs = floor, ab, bc, left a, front a, left b, front b, left c, front c
+subsection Body a
+  set Lower corner  = 0, 0, 0
+  set Upper corner  = 1, 1, 1
+  set Divisions     = 8, 8, 8
+  set Young modulus = 1000
+  set Poisson ratio = 0.3
+end
+subsection Body b
+  set Lower corner  = 0, 0, 1
+  set Upper corner  = 1, 1, 2
+  set Divisions     = 7, 6, 3
+  set Young modulus = 1000
+  set Poisson ratio = 0.3
+end
+subsection Body c
+  set Forces        = top: (0, -5, -100)
+  set Lower corner  = 0, 0, 2
+  set Upper corner  = 1, 1, 3
+  set Divisions     = 3, 3, 5
+  set Young modulus = 1000
+  set Poisson ratio = 0.3
+end
+subsection Pair floor
+  set First    = a: bottom
+  set Obstacle = plane: (0, 0, 0), (0, 0, 1)
+end
+subsection Pair ab
+  set First   = a: top
+  set Second  = b: bottom
+  set Contact = tied
+end
+subsection Pair bc
+  set First   = b: top
+  set Second  = c: bottom
+  set Contact = tied
+end
+subsection Pair left a
+  set First    = a: left
+  set Obstacle = plane: (0, 0, 0), (1, 0, 0)
+end
+subsection Pair front a
+  set First    = a: front
+  set Obstacle = plane: (0, 0, 0), (0, 1, 0)
+end
+subsection Pair left b
+  set First    = b: left
+  set Obstacle = plane: (0, 0, 0), (1, 0, 0)
+end
+subsection Pair front b
+  set First    = b: front
+  set Obstacle = plane: (0, 0, 0), (0, 1, 0)
+end
+subsection Pair left c
+  set First    = c: left
+  set Obstacle = plane: (0, 0, 0), (1, 0, 0)
+end
+subsection Pair front c
+  set First    = c: front
+  set Obstacle = plane: (0, 0, 0), (0, 1, 0)
+end
+"""
+
+
+def stack_in_a_corner(p):
+    """A tall soft stack in a corner that leans against one wall with a few nodes: no facets of round surfaces let it turn."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, 'stack.prm')
+        with open(path, 'w') as f:
+            f.write(STACK)
+        s = p.solve(path)
+        certificate(s)
+        near(s['pairs'][8]['load'], 5, 1e-9, 'wall: force')
+        check(s['bodies'][2]['largest_displacement'] > .1 and not any('facets' in note for note in s['notes']), f'{s["notes"]}')
+
+
 def tied_groups(p):
     """Bodies that are glued together, and that only contact holds, as one."""
     with tempfile.TemporaryDirectory() as folder:

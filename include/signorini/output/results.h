@@ -68,6 +68,14 @@ namespace Signorini
     double told = .5;
   };
 
+  /// From what share of the integral of the pressure on its resultant is not what a contact carries. Pure
+  /// number.
+  struct CancellingPressureRule
+  {
+    /// A press fit has 0, a pin in a bore π/4, a plane contact 1.
+    double told = .5;
+  };
+
   /// What a contact pair does, after the last solve.
   struct PairResult
   {
@@ -83,6 +91,12 @@ namespace Signorini
     double initial_penetration = 0., lost_area = 0.;
     /// Integral of the pressure where nodes are active (force).
     double load = 0.;
+    /// Whether pressures largely cancel in the force, as in a press fit, so that the load is told beside it
+    /// (CancellingPressureRule).
+    bool pressures_cancel() const
+    {
+      return force.norm() < CancellingPressureRule().told * load;
+    }
     /// What contact does (length): by how much bodies approach each other that touch on the contact area A
     /// with this force, 4/3 ∫p / (√A E*), 1/E* = sum of (1 - ν²)/E, as in Hertz' contact. Zero without
     /// contact.
