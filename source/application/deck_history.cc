@@ -15,46 +15,6 @@ namespace Signorini
 {
   using namespace dealii;
 
-  void DeckModelReader::read_amplitude(const Keyword &keyword, const unsigned int)
-  {
-    const std::string definition = deck_upper(keyword.get("DEFINITION"));
-    if (!definition.empty() && definition != "TABULAR")
-      fail(keyword.place, "amplitudes are tables, DEFINITION=" + definition + " is not supported.");
-    Amplitude amplitude;
-    amplitude.is_total =
-        deck_upper(keyword.get("TIME")) == "TOTALTIME" || deck_upper(keyword.get("TIME")) == "TOTAL TIME";
-    for (const DeckLine &line : keyword.lines)
-      {
-        const Words words = deck_words(line.text);
-        for (std::size_t i = 0; i + 1 < words.size(); i += 2)
-          amplitude.points.emplace_back(number(words, i, line), number(words, i + 1, line));
-      }
-    if (amplitude.points.empty())
-      fail(keyword.place, "an AMPLITUDE needs times and values.");
-    amplitudes[deck_upper(keyword.get("NAME"))] = amplitude;
-  }
-
-
-
-  double DeckModelReader::factor(const Keyword &keyword) const
-  {
-    if (!keyword.has("AMPLITUDE"))
-      return 1.;
-    const auto it = amplitudes.find(deck_upper(keyword.get("AMPLITUDE")));
-    if (it == amplitudes.end())
-      fail(keyword.place, "there is no AMPLITUDE \"" + keyword.get("AMPLITUDE") + "\".");
-    const auto  &points = it->second.points;
-    const double time   = period + (it->second.is_total ? state.time : 0.);
-    if (time <= points.front().first)
-      return points.front().second;
-    for (std::size_t i = 1; i < points.size(); ++i)
-      if (const auto [t0, a0] = points[i - 1]; time <= points[i].first)
-        return a0 + (points[i].second - a0) * (time - t0) / (points[i].first - t0);
-    return points.back().second;
-  }
-
-
-
   void DeckModelReader::read_interaction(const Keyword &keyword, const unsigned int)
   {
     interaction = deck_upper(keyword.get("NAME"));
@@ -201,8 +161,9 @@ namespace Signorini
   {
     if (!is_in_step)
       fail(keyword.place, "END STEP without STEP.");
-    is_in_step = false;
     state.time += period;
+    follow_total_time();
+    is_in_step = false;
     model.step_list.push_back(state);
   }
 

@@ -156,6 +156,14 @@ namespace Signorini
 
 
 
+  const std::set<std::string> &DeckModelReader::lasting()
+  {
+    static const std::set<std::string> names = {"BOUNDARY", "CLOAD", "DLOAD", "DSLOAD", "TEMPERATURE"};
+    return names;
+  }
+
+
+
   const std::set<std::string> &DeckModelReader::passed_over()
   {
     static const std::set<std::string> names = {"PREPRINT",
@@ -223,7 +231,12 @@ namespace Signorini
       model.remark_list.push_back(deck.text().where(keyword.place) + ": " + name +
                                   " is passed over, as --ignore says.");
     else if (const auto handler = handlers().find(name); handler != handlers().end())
-      (this->*handler->second)(keyword, instance);
+      {
+        if (lasting().count(name) > 0)
+          history.push_back({handler->second, &keyword, instance, step, period});
+        total_time = state.time + period;
+        (this->*handler->second)(keyword, instance);
+      }
     else if (passed_over().count(name) > 0)
       over.push_back(name);
     else if (const auto advice = refused().find(name); advice != refused().end())

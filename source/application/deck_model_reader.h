@@ -31,6 +31,15 @@ namespace Signorini
       bool                                   is_total = false;
     };
 
+    /// A load or condition as it was read, to be read again at the end of later steps.
+    struct HistoryEntry
+    {
+      Handler        handler;
+      const Keyword *keyword;
+      unsigned int   instance, step;
+      double         period;
+    };
+
     /// What a SURFACE INTERACTION means.
     struct Interaction
     {
@@ -40,6 +49,8 @@ namespace Signorini
     static const std::map<std::string, Handler>     &handlers();
     static const std::map<std::string, std::string> &refused();
     static const std::set<std::string>              &passed_over();
+    /// Loads and conditions: they last in later steps.
+    static const std::set<std::string> &lasting();
 
     /// Whether contact with it would have friction.
     static bool has_friction(const Keyword &keyword, const Deck &deck);
@@ -96,19 +107,27 @@ namespace Signorini
     void add_volume_load(const Keyword &keyword, const DeckLine &line, const Words &words,
                          const unsigned int instance);
     /// Adds in the same step, replaces that of an earlier one.
-    void              set_load(DeckLoad &load, const double value) const;
-    bool              is_new(const Keyword &keyword) const;
-    double            factor(const Keyword &keyword) const;
+    void set_load(DeckLoad &load, const double value) const;
+    bool is_new(const Keyword &keyword) const;
+    /// Of the AMPLITUDE of a keyword at the end of its step, or at total_time; 1 without.
+    double factor(const Keyword &keyword) const;
+    bool   follows_total_time(const Keyword &keyword) const;
+    /// Loads of earlier steps that last and whose AMPLITUDE goes over the total time have another value at
+    /// the end of this one: all loads and conditions are read again for that time.
+    void              follow_total_time();
     double            number(const Words &words, const std::size_t i, const DeckLine &line) const;
     [[noreturn]] void fail(const DeckPlace &place, const std::string &text) const;
     Vector3           direction(const Words &words, const std::size_t i, const DeckLine &line) const;
 
-    DeckModel                                    &model;
-    const Deck                                   &deck;
-    DeckState                                     state;
-    bool                                          is_in_step = false;
-    unsigned int                                  step       = 0;
-    double                                        period     = 1.;
+    DeckModel   &model;
+    const Deck  &deck;
+    DeckState    state;
+    bool         is_in_step = false;
+    unsigned int step       = 0;
+    double       period     = 1.;
+    /// For which amplitudes over the total time are evaluated.
+    double                                        total_time = 1.;
+    std::vector<HistoryEntry>                     history;
     std::map<std::string, Amplitude>              amplitudes;
     std::map<std::string, Interaction>            interactions;
     std::string                                   interaction;

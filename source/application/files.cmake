@@ -10,6 +10,7 @@ signorini_add_layer(application COLD
   contact_solve.cc
   cycle_words.cc
   deck_adjust.cc
+  deck_amplitudes.cc
   deck_bodies.cc
   deck_bolts.cc
   deck_constraints.cc

@@ -249,7 +249,8 @@ namespace Signorini
             if (words.empty())
               continue;
             if (!combine.empty())
-              add_to_union(surface, this->surface(words[0], line.place, instance));
+              for (const std::string &name : words)
+                add_to_union(surface, this->surface(name, line.place, instance));
             else if (type == "NODE")
               for (const unsigned int node : nodes_of(words[0], line.place, instance))
                 surface.nodes.push_back(node);

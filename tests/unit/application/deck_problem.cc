@@ -123,6 +123,17 @@ TEST(DeckProblem, LaterStepsReplaceAndAdd)
   EXPECT_EQ(force(state("*CLOAD\n15, 3, 1.\n" + next)), 1.);
   EXPECT_EQ(force(state("*CLOAD, AMPLITUDE=a\n15, 3, 1.\n")), 1.);
   EXPECT_EQ(force(state(next + "*CLOAD, AMPLITUDE=b\n15, 3, 1.\n")), 5.);
+  // What is not named again keeps its value, but for what follows the total time.
+  EXPECT_EQ(force(state("*CLOAD, AMPLITUDE=a\n15, 3, 1.\n" + next)), 1.);
+  EXPECT_EQ(force(state("*CLOAD, AMPLITUDE=b\n15, 3, 1.\n" + next)), 5.);
+  EXPECT_EQ(force(state("*CLOAD, AMPLITUDE=b\n15, 3, 1.\n" + next + next)), 8.);
+  EXPECT_EQ(force(state("*CLOAD, AMPLITUDE=b\n15, 3, 1.\n*CLOAD\n15, 3, 2.\n" + next)), 7.);
+  EXPECT_EQ(force(state("*CLOAD, AMPLITUDE=b\n15, 3, 1.\n" + next + "*CLOAD\n15, 3, 2.\n")), 2.);
+  EXPECT_EQ(state("*BOUNDARY, AMPLITUDE=b\ntop, 3, 3, 1.\n*DLOAD, AMPLITUDE=b\nhigh, P2, 1.\n" + next)
+                .boundaries[0]
+                .values[2],
+            5.);
+  EXPECT_TRUE(state("*CLOAD, AMPLITUDE=b\n15, 3, 1.\n" + next + "*CLOAD, OP=NEW\n").forces.empty());
   EXPECT_TRUE(state("*CLOAD\n15, 3, 1.\n" + next + "*CLOAD, OP=NEW\n").forces.empty());
   EXPECT_EQ(state("*BOUNDARY\ntop, 3, 3, 1.\n" + next + "*BOUNDARY\ntop, 3, 3, 2.\n").boundaries[0].values[2],
             2.);

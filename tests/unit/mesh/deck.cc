@@ -184,6 +184,18 @@ TEST(Deck, RangesMayBeLongerThanWhatThereIs)
 
 
 
+TEST(Deck, CombinesAllSurfacesOfALine)
+{
+  const std::string text = nodes_text({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}) +
+                           element_text("C3D4", 4) +
+                           "*SURFACE, NAME=A\nE, S1\n*SURFACE, NAME=B\nE, S2\n*SURFACE, NAME=C\nE, S3\n"
+                           "*SURFACE, NAME=ALL, COMBINE=UNION\nA, B\nC\n";
+  const TemporaryFile file(text, ".inp");
+  EXPECT_EQ(Deck(file.path).surfaces().back().faces.size(), 3u);
+}
+
+
+
 // Few lines that mean much: surfaces that are twice the one before, and sets in sets in sets.
 TEST(Deck, GrowsNoFasterThanItsFile)
 {
