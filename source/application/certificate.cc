@@ -33,18 +33,33 @@ namespace Signorini
       return size;
     }
 
+    /// Of contact nodes.
+    double largest_coordinate(const Discretization &d)
+    {
+      double largest = 0.;
+      for (const PairCoupling &coupling : d.couplings)
+        for (const Point<3> &x : coupling.positions)
+          for (unsigned int c = 0; c < dim; ++c)
+            largest = std::max(largest, std::abs(x[c]));
+      return Utilities::MPI::max(largest, d.nodal().communicator());
+    }
+
     /// What a problem is measured by: largest displacement (length), and the stress and the force of such a
-    /// displacement over the width of the contact surfaces.
+    /// displacement over the width of the contact surfaces. What is left as the force of a pair by rounding
+    /// of the forces on bodies, and of the coordinates.
     struct Scales
     {
-      double displacement, stress, force;
+      double displacement, stress, force, rounding;
 
       Scales(const Bodies &bodies, const Discretization &d, const Vector &u)
         : displacement(u.linfty_norm())
       {
-        const double width = largest_width(d), product = bodies.largest_modulus() * displacement;
-        stress = width > 0. ? product / width : 0.;
-        force  = product * width;
+        const double width = largest_width(d), modulus = bodies.largest_modulus(),
+                     product = modulus * displacement;
+        stress               = width > 0. ? product / width : 0.;
+        force                = product * width;
+        rounding = std::max(CertificateRule().rounding * force, 16. * std::numeric_limits<double>::epsilon() *
+                                                                    largest_coordinate(d) * modulus * width);
       }
     };
 
@@ -73,8 +88,10 @@ namespace Signorini
       c.complementarity = u > 0. && scale > 0. ? product / (scale * u) : 0.;
     }
 
-    void add_pair(Certificate &c, const PairResult &pair, const bool has_obstacle)
+    void add_pair(Certificate &c, const PairResult &pair, const bool has_obstacle, const Scales &scales)
     {
+      if (std::max(pair.load, pair.force.norm()) <= scales.rounding)
+        return;
       // An obstacle takes what the body gives.
       // The forces on a closed surface may add up to nothing: their norm is no scale.
       const double scale_of_forces = std::max(pair.load, pair.force.norm());
@@ -173,12 +190,12 @@ namespace Signorini
 
     /// Why the solution of the discrete problem is not that of the bodies.
     void object_to_pair(Certificate &c, const PairResult &pair, const PairModel &model,
-                        const std::string &mapping_errors)
+                        const std::string &mapping_errors, const Scales &scales)
     {
       const SurfaceKind     surface = model.definition.surface;
       const CertificateRule rule;
       const std::string     name = "pair " + pair.name + ": ";
-      if (!(pair.approach > 0.))
+      if (!(pair.approach > 0.) || pair.load <= scales.rounding)
         return;
       if (pair.gap_doubt > rule.gap_doubt * pair.approach)
         c.objections.push_back(
@@ -220,7 +237,7 @@ namespace Signorini
     Certificate  c;
     add_conditions(c, d, solution.stress, scales);
     for (unsigned int p = 0; p < d.pairs.size(); ++p)
-      add_pair(c, evaluation.pairs[p], d.pairs[p].obstacle.has_value());
+      add_pair(c, evaluation.pairs[p], d.pairs[p].obstacle.has_value(), scales);
     c.equilibrium         = evaluation.equilibrium.residual;
     c.body_force_balance  = evaluation.equilibrium.force_balance;
     c.body_moment_balance = evaluation.equilibrium.moment_balance;
@@ -236,7 +253,7 @@ namespace Signorini
         const std::string mapping_errors = errors_in_contact(d, solution.stress, p);
         if (!mapping_errors.empty())
           c.wrongly_mapped_pairs.push_back(p);
-        object_to_pair(c, evaluation.pairs[p], model.pairs()[p], mapping_errors);
+        object_to_pair(c, evaluation.pairs[p], model.pairs()[p], mapping_errors, scales);
       }
     return c;
   }

@@ -160,6 +160,46 @@ def refused(p, setting, words, *more):
         check(os.listdir(folder) == [], f'{setting}: results are left')
 
 
+BALL_THAT_IS_LET_GO = """set Load steps    = 0.5, 1
+set Bodies        = ball, base
+set Contact pairs = contact
+subsection Body ball
+  set Mesh           = quarter of half ball
+  set Radius         = 8
+  set Translation    = 0, 0, 8
+  set Young modulus  = 7000
+  set Poisson ratio  = 0.3
+  set Initial levels = 2
+  set Dirichlet      = symmetry x: (0, *, *); symmetry y: (*, 0, *)
+  set Forces         = top: (0, 0, -100*sin(pi*t))
+end
+subsection Body base
+  set Lower corner   = 0, 0, -8
+  set Upper corner   = 8, 8, 0
+  set Divisions      = 8, 8, 8
+  set Young modulus  = 70000
+  set Dirichlet      = bottom: (0, 0, 0); left: (0, *, *); front: (*, 0, *)
+end
+subsection Pair contact
+  set First  = ball: sphere
+  set Second = base: top
+end
+"""
+
+
+def load_that_ends(p):
+    """A load that ends at the rounding of zero: gaps of rounding are no objections to a contact that carries rounding."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, 'ball.prm')
+        with open(path, 'w') as f:
+            f.write(BALL_THAT_IS_LET_GO)
+        s = p.solve(path)
+        check(s['pairs'][0]['load'] < 1e-12 and not s['certificate']['objections'], f"{s['pairs'][0]['load']}: {s['certificate']}")
+        # Under load a coarse ball is objected to as before.
+        s = p.solve(path, 'Load steps=0.4, 0.5', 'Body ball/Initial levels=1', 'Body ball/Forces=top: (0, 0, -0.001*sin(pi*t))', codes=(3,))
+        check(any('pair contact' in text for text in s['certificate']['objections']), f"{s['certificate']}")
+
+
 def load_steps(p):
     """Twenty steps of Hertz: the last is the single load, the force grows with the power 3/2 of the displacement."""
     few = ['Refinement/Final global cycles=0', 'Solver/Compare linear multigrid=false', 'Output/Measure sweeps=false']
