@@ -172,6 +172,7 @@ namespace Signorini
                                                 "ELEMENT OUTPUT",
                                                 "CONTACT OUTPUT",
                                                 "ENERGY OUTPUT",
+                                                "ENERGY PRINT",
                                                 "NODE FILE",
                                                 "EL FILE",
                                                 "NODE PRINT",

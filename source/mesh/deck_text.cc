@@ -193,7 +193,9 @@ namespace Signorini
     unsigned int n = 0;
     while (std::getline(in, line))
       {
-        ++n;
+        // Editors of Windows begin files with a mark of their coding.
+        if (++n == 1 && line.rfind("\xEF\xBB\xBF", 0) == 0)
+          line.erase(0, 3);
         line = trimmed(line);
         if (is_comment(line))
           continue;

@@ -196,6 +196,15 @@ TEST(Deck, CombinesAllSurfacesOfALine)
 
 
 
+TEST(Deck, PassesOverTheMarkOfItsCoding)
+{
+  const std::string   text = nodes_text({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
+  const TemporaryFile file("\xEF\xBB\xBF" + text, ".inp");
+  EXPECT_NO_THROW(Deck deck(file.path));
+}
+
+
+
 // Few lines that mean much: surfaces that are twice the one before, and sets in sets in sets.
 TEST(Deck, GrowsNoFasterThanItsFile)
 {
