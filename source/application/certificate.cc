@@ -8,6 +8,7 @@
 #include <signorini/surface/mapping_quality.h>
 
 #include <iomanip>
+#include <limits>
 #include <map>
 #include <sstream>
 
@@ -45,21 +46,27 @@ namespace Signorini
     }
 
     /// What a problem is measured by: largest displacement (length), and the stress and the force of such a
-    /// displacement over the width of the contact surfaces. What is left as the force of a pair by rounding
-    /// of the forces on bodies, and of the coordinates.
+    /// displacement over the width of the contact surfaces; what rounding leaves of the approach of a pair
+    /// (length).
     struct Scales
     {
       double displacement, stress, force, rounding;
 
       Scales(const Bodies &bodies, const Discretization &d, const Vector &u)
         : displacement(u.linfty_norm())
+        , rounding(std::max(CertificateRule().rounding * displacement,
+                            16. * std::numeric_limits<double>::epsilon() * largest_coordinate(d)))
       {
-        const double width = largest_width(d), modulus = bodies.largest_modulus(),
-                     product = modulus * displacement;
-        stress               = width > 0. ? product / width : 0.;
-        force                = product * width;
-        rounding = std::max(CertificateRule().rounding * force, 16. * std::numeric_limits<double>::epsilon() *
-                                                                    largest_coordinate(d) * modulus * width);
+        const double width = largest_width(d), product = bodies.largest_modulus() * displacement;
+        stress = width > 0. ? product / width : 0.;
+        force  = product * width;
+      }
+
+      /// Whether a pair touches with forces of rounding only (of ties nothing is known): gaps of rounding
+      /// are large beside what it does.
+      bool is_idle(const PairResult &pair) const
+      {
+        return pair.approach > 0. && pair.approach <= rounding;
       }
     };
 
@@ -90,7 +97,7 @@ namespace Signorini
 
     void add_pair(Certificate &c, const PairResult &pair, const bool has_obstacle, const Scales &scales)
     {
-      if (std::max(pair.load, pair.force.norm()) <= scales.rounding)
+      if (scales.is_idle(pair))
         return;
       // An obstacle takes what the body gives.
       // The forces on a closed surface may add up to nothing: their norm is no scale.
@@ -195,7 +202,7 @@ namespace Signorini
       const SurfaceKind     surface = model.definition.surface;
       const CertificateRule rule;
       const std::string     name = "pair " + pair.name + ": ";
-      if (!(pair.approach > 0.) || pair.load <= scales.rounding)
+      if (!(pair.approach > 0.) || scales.is_idle(pair))
         return;
       if (pair.gap_doubt > rule.gap_doubt * pair.approach)
         c.objections.push_back(

@@ -33,19 +33,27 @@ namespace Signorini
       double rounding = 1e-12;
     };
 
-    /// Whether contact of any pair may oppose a motion: with an obstacle, or with what does not move along.
-    bool contact_may_hold(const FreeMotion &motion, const ContactModel &model)
+    /// By motion: whether contact of any pair may oppose it, with an obstacle or with what does not move
+    /// along.
+    std::vector<bool> contact_may_hold(const std::vector<FreeMotion> &motions, const ContactModel &model)
     {
-      const auto moves = [&](const unsigned int part) { return motion.moves(part); };
-      const auto holds = [&](const PairModel &pair) {
-        std::set<unsigned int> parts;
-        for (const PairModel::Side &side : pair.sides)
-          parts.merge(model.parts_of(side));
-        return !pair.is_tied() &&
-               (pair.sides.size() == 1 || !std::all_of(parts.begin(), parts.end(), moves)) &&
-               std::any_of(parts.begin(), parts.end(), moves);
-      };
-      return std::any_of(model.pairs().begin(), model.pairs().end(), holds);
+      std::vector<bool> result(motions.size(), false);
+      for (const PairModel &pair : model.pairs())
+        if (!pair.is_tied())
+          {
+            std::set<unsigned int> parts;
+            for (const PairModel::Side &side : pair.sides)
+              parts.merge(model.parts_of(side));
+            for (std::size_t m = 0; m < motions.size(); ++m)
+              {
+                const auto n_moved = static_cast<std::size_t>(
+                    std::count_if(parts.begin(), parts.end(),
+                                  [&](const unsigned int part) { return motions[m].moves(part); }));
+                if (n_moved > 0 && (pair.sides.size() == 1 || n_moved < parts.size()))
+                  result[m] = true;
+              }
+          }
+      return result;
     }
   } // namespace
 
@@ -77,10 +85,11 @@ namespace Signorini
                            "\"name: (0, *, *)\"." +
                            model.bodies().hint_at_volumes(motions[m].bodies[0]));
         }
-    std::set<std::string> names;
-    for (const FreeMotion &motion : motions)
-      if (contact_may_hold(motion, model))
-        names.insert(name_of_moving(motion, model.bodies()));
+    std::set<std::string>   names;
+    const std::vector<bool> may_be_held = contact_may_hold(motions, model);
+    for (std::size_t m = 0; m < motions.size(); ++m)
+      if (may_be_held[m])
+        names.insert(name_of_moving(motions[m], model.bodies()));
     // Said before points were held.
     if (!names.empty() && model.point_holds().empty())
       journal.note("contact must hold " + Patterns::Tools::to_string(names) +

@@ -184,6 +184,7 @@ def free_rings(p):
             largest = [body['largest_displacement'] for body in s['bodies']]
             print(side, 'mean pressure', mean, 'Lame', pressure, 'displacements', largest, 'iterations', s['cycles'][0]['nonlinear']['iterations'])
             near(mean, pressure, .03, f'{side}: mean pressure')
+            check(s['pairs'][0]['pressures_cancel'], f'{side}: {s["pairs"]}')
             check(max(largest) < .06, f'{side}: displacements {largest}')
             check(1 <= len(held_points(s)) <= 2 and max(held_points(s)) < 1e-6, f'{side}: {s["notes"]}')
             check(s['cycles'][0]['nonlinear']['iterations'] <= 18, f'{side}: {s["cycles"][0]["nonlinear"]}')

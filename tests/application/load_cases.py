@@ -198,6 +198,7 @@ def load_that_ends(p):
         # Under load a coarse ball is objected to as before.
         s = p.solve(path, 'Load steps=0.4, 0.5', 'Body ball/Initial levels=1', 'Body ball/Forces=top: (0, 0, -0.001*sin(pi*t))', codes=(3,))
         check(any('pair contact' in text for text in s['certificate']['objections']), f"{s['certificate']}")
+        check(not s['pairs'][0]['pressures_cancel'], f"{s['pairs']}")
 
 
 def load_steps(p):

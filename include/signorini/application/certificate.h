@@ -25,7 +25,8 @@ namespace Signorini
     double gap_doubt             = .1;
     double geometric_penetration = .5;
     double loaded_gap            = .25;
-    /// Forces that are smaller than this part of E·u·width are rounding.
+    /// Forces that are smaller than this part of E·u·width are rounding, and what contact does than that of
+    /// u.
     double rounding = 1e-11;
     /// Directions that contradict each other.
     double moment_balance = .05;

@@ -8,6 +8,7 @@
 #include <signorini/discretization/exact_error.h>
 #include <signorini/mesh/node_movement.h>
 #include <signorini/output/phase_times.h>
+#include <signorini/output/told_rules.h>
 #include <signorini/solvers/convergence_report.h>
 #include <signorini/solvers/sweep_measurement.h>
 #include <signorini/surface/mapping_quality.h>
@@ -50,30 +51,6 @@ namespace Signorini
     /// By body, where a known displacement was given.
     std::map<std::string, ExactError> exact_errors;
     PhaseTimes                        times;
-  };
-
-  /// From where on it is told that pressures of nodes are far from the recovered ones. Pure number.
-  struct ScatterRule
-  {
-    /// Measured (doc/guide/accuracy.md): structured hexahedra .003, unstructured ones .03, tetrahedra .05 to
-    /// .14. It chooses what is drawn first and nothing else.
-    double told = .05;
-  };
-
-  /// From what share of the load on it is told that a contact is narrower than a face. Pure number.
-  struct NarrowContactRule
-  {
-    /// On a C-ring with a strip of contact a quarter as wide as a face, where the largest pressure was a
-    /// third of Hertz', it is all; on strips of two faces and more nothing.
-    double told = .5;
-  };
-
-  /// From what share of the integral of the pressure on its resultant is not what a contact carries. Pure
-  /// number.
-  struct CancellingPressureRule
-  {
-    /// A press fit has 0, a pin in a bore π/4, a plane contact 1.
-    double told = .5;
   };
 
   /// What a contact pair does, after the last solve.

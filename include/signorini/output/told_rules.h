@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_output_told_rules_h
+#define signorini_output_told_rules_h
+
+namespace Signorini
+{
+  // From where on something is told about the result of a contact pair.
+
+  /// From where on it is told that pressures of nodes are far from the recovered ones. Pure number.
+  struct ScatterRule
+  {
+    /// Measured (doc/guide/accuracy.md): structured hexahedra .003, unstructured ones .03, tetrahedra .05 to
+    /// .14. It chooses what is drawn first and nothing else.
+    double told = .05;
+  };
+
+  /// From what share of the load on it is told that a contact is narrower than a face. Pure number.
+  struct NarrowContactRule
+  {
+    /// On a C-ring with a strip of contact a quarter as wide as a face, where the largest pressure was a
+    /// third of Hertz', it is all; on strips of two faces and more nothing.
+    double told = .5;
+  };
+
+  /// Below which part of the integral of the pressure its resultant is not what a contact carries. Pure
+  /// number.
+  struct CancellingPressureRule
+  {
+    /// A press fit has 0, a pin in a bore π/4, a plane contact 1.
+    double told = .5;
+  };
+} // namespace Signorini
+
+#endif
