@@ -188,7 +188,7 @@ namespace Signorini
   {
     const Bodies             &bodies = model.bodies();
     const std::vector<double> values = relevant_values(d, displacement);
-    const StressedBodies      stressed{bodies, model.loads(), d.nodal(), values};
+    const StressedBodies      stressed{bodies, model.loads(), d.nodal(), d.dirichlet().fixed, values};
     const NodalStress         nodal(stressed);
     const auto                stress = nodal.values();
     const auto                errors = nodal.errors();

@@ -10,6 +10,7 @@
 #include <signorini/application/pair_fields.h>
 #include <signorini/discretization/elasticity.h>
 #include <signorini/mesh/surface_extraction.h>
+#include <signorini/mesh/symmetry_planes.h>
 #include <signorini/mortar/contact_forces.h>
 #include <signorini/mortar/geometric_penetration.h>
 #include <signorini/mortar/surface_values.h>
@@ -100,9 +101,11 @@ namespace Signorini
     {
       if (!(result.contact_area > 0.) || pair.is_tied)
         return;
-      // As in Hertz' contact, from the mean pressure: single peaks of a wrong one must not hide it.
-      const double width = std::sqrt(result.contact_area);
-      result.approach    = 4. / 3. * result.load / width *
+      // As in Hertz' contact, from the mean pressure: single peaks of a wrong one must not hide it. Halves
+      // and quarters have the approach of the whole.
+      const double width  = std::sqrt(result.contact_area);
+      const double images = std::exp2(count_symmetry_planes(pair.nonmortar.surface, is_active, comm));
+      result.approach     = 4. / 3. * result.load / width * std::sqrt(images) *
                         (pair.nonmortar.material.contact_compliance() +
                          (pair.obstacle ? 0. : pair.mortar.material.contact_compliance()));
       if (!pair.prescribed_gap)

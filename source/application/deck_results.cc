@@ -45,9 +45,10 @@ namespace Signorini
     std::vector<NodeRow> owned_rows(const ContactModel &model, const Discretization &d,
                                     const ContactSolution &solution)
     {
-      const NodalSpace    &space  = d.nodal();
-      const auto           u      = relevant_values(d, solution.displacement);
-      const auto           stress = NodalStress({model.bodies(), model.loads(), space, u}).values();
+      const NodalSpace &space = d.nodal();
+      const auto        u     = relevant_values(d, solution.displacement);
+      const auto        stress =
+          NodalStress({model.bodies(), model.loads(), space, d.dirichlet().fixed, u}).values();
       std::vector<NodeRow> rows;
       for (const NodeIndex node : space.owned())
         {

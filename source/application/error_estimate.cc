@@ -108,7 +108,8 @@ namespace Signorini
   {
     const auto  u = relevant_values(d, solution.displacement);
     StressError all;
-    for (const StressError &body : NodalStress({model.bodies(), model.loads(), d.nodal(), u}).errors())
+    for (const StressError &body :
+         NodalStress({model.bodies(), model.loads(), d.nodal(), d.dirichlet().fixed, u}).errors())
       all.add(body);
     return all.relative();
   }

@@ -88,8 +88,9 @@ namespace Signorini
     std::vector<OutputField> fields;
     fields.push_back({"displacement", 3, relevant_values(d, solution.displacement)});
     if (with_stress)
-      for (OutputField &field :
-           stress_fields(NodalStress({model.bodies(), model.loads(), d.nodal(), fields[0].values}).values()))
+      for (OutputField &field : stress_fields(
+               NodalStress({model.bodies(), model.loads(), d.nodal(), d.dirichlet().fixed, fields[0].values})
+                   .values()))
         fields.push_back(std::move(field));
     return fields;
   }

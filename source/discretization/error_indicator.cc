@@ -4,6 +4,7 @@
 #include <signorini/algebra/node_partition.h>
 #include <signorini/discretization/element.h>
 #include <signorini/discretization/error_indicator.h>
+#include <signorini/discretization/face_conditions.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -202,48 +203,6 @@ namespace Signorini
       return .5 * shape.diameter() * square / (inside.material.mu() + outside.material.mu());
     }
 
-    /// Whether the set of nodes that a condition holds has the nodes of a face (hanging ones aside).
-    bool has_all_nodes(const NodalSpace &space, const DirichletCondition &condition,
-                       const NodalSpace::BoundaryFace &face)
-    {
-      if (condition.node_set == StartNodes::none)
-        return false;
-      const NodalSpace::Cell &cell = space.cells()[face.cell];
-      const auto             &set  = space.node_sets()[condition.node_set];
-      for (const unsigned int v : CellShape::face(cell.n_vertices, face.face))
-        if (const NodeIndex node = space.nodes(cell)[v];
-            !space.hanging_nodes().is_constrained(node) && !std::binary_search(set.begin(), set.end(), node))
-          return false;
-      return true;
-    }
-
-    /// Those in which conditions hold a face.
-    FixedDirections prescribed_directions(const NodalSpace &space, const Loads &loads,
-                                          const NodalSpace::BoundaryFace &face, const ElementFace &shape)
-    {
-      Point<3> centre;
-      Vector3  normal;
-      for (unsigned int q = 0; q < shape.n_points(); ++q)
-        {
-          const auto point = shape.point(q);
-          centre += Vector3(point.position) / shape.n_points();
-          normal += point.area;
-        }
-      for (const RigidFaceCondition &rigid : loads.rigid_faces)
-        if (rigid.ids.count(face.id) > 0)
-          return all_fixed;
-      std::vector<Vector3> directions;
-      for (const DirichletCondition &condition : loads.dirichlet)
-        if (condition.ids.count(face.id) > 0 || has_all_nodes(space, condition, face))
-          {
-            const auto axes = condition.frame.axes(centre, normal / normal.norm());
-            for (unsigned int c = 0; c < dim; ++c)
-              if (condition.components[c])
-                directions.push_back(axes[c]);
-          }
-      return FixedDirections::span(directions);
-    }
-
     /// h_F |sigma n - t|^2 / (2 mu), with the loads added to what contact does.
     double boundary_share(const CellStress &cell, const NodalSpace::BoundaryFace &face,
                           const FixedDirections &fixed, const SurfaceForces &forces, FaceTraction traction)
@@ -285,7 +244,7 @@ namespace Signorini
           const auto       it     = contact.find(f);
           const CellStress stress = stress_in(face.cell);
           indicator[face.cell] += boundary_share(
-              stress, face, prescribed_directions(space, loads, face, ElementFace(stress.element, face.face)),
+              stress, face, FaceConditions(space, loads, face, ElementFace(stress.element, face.face)).held,
               forces, it == contact.end() ? FaceTraction() : it->second);
         }
     return indicator;

@@ -11,6 +11,7 @@ signorini_add_layer(discretization
   error_indicator.cc
   exact_error.cc
   expanded_cell.cc
+  face_conditions.cc
   hexahedron.cc
   interpolation_exchange.cc
   level_hierarchy.cc
@@ -21,6 +22,7 @@ signorini_add_layer(discretization
   node_conditions.cc
   rigid_faces.cc
   rigid_support.cc
+  shear_free_planes.cc
   transformed_rows.cc
   vertex_expansion.cc
 )

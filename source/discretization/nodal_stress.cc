@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 namespace Signorini
 {
@@ -166,15 +167,19 @@ namespace Signorini
 
 
   NodalStress::NodalStress(const StressedBodies &stressed)
-    : NodalStress(stressed, [](const NodalSpace::Cell &) { return true; })
+    : NodalStress(
+          stressed, [](const NodalSpace::Cell &) { return true; },
+          std::make_shared<const ShearFreePlanes>(stressed.space, stressed.loads, stressed.fixed))
   {
   }
 
 
 
   NodalStress::NodalStress(const StressedBodies                                &stressed,
-                           const std::function<bool(const NodalSpace::Cell &)> &belongs)
+                           const std::function<bool(const NodalSpace::Cell &)> &belongs,
+                           std::shared_ptr<const ShearFreePlanes>               planes)
     : stressed(stressed)
+    , planes(std::move(planes))
     , partition(stressed.space.owned(), stressed.space.relevant(), stressed.space.communicator())
   {
     for (Vector *v : {&normal, &shear, &weight})
@@ -207,15 +212,16 @@ namespace Signorini
 
   StressComponents NodalStress::at(const NodeIndex node) const
   {
-    const unsigned int i      = partition.to_local(node);
-    const double       w      = weight.local_element(3 * i);
-    StressComponents   result = {};
+    const unsigned int i = partition.to_local(node);
+    const double       w = weight.local_element(3 * i);
+    Block              sigma;
     for (unsigned int c = 0; c < 3 && w > 0.; ++c)
       {
-        result[c]     = normal.local_element(3 * i + c) / w;
-        result[3 + c] = shear.local_element(3 * i + c) / w;
+        const unsigned int next = (c + 1) % 3;
+        sigma[c][c]             = normal.local_element(3 * i + c) / w;
+        sigma[c][next] = sigma[next][c] = shear.local_element(3 * i + c) / w;
       }
-    return result;
+    return components(planes->without_shear(node, sigma));
   }
 
 
@@ -253,7 +259,7 @@ namespace Signorini
         const auto belongs = [&](const NodalSpace::Cell &cell) { return groups[cell.material] == g; };
         std::optional<NodalStress> of_group;
         if (n_groups > 1)
-          of_group.emplace(NodalStress(stressed, belongs));
+          of_group.emplace(NodalStress(stressed, belongs, planes));
         const NodalStress &nodal = of_group ? *of_group : *this;
         for_owned_cells(stressed.space, [&](const NodalSpace::Cell &cell) {
           if (belongs(cell))

@@ -3,7 +3,10 @@
 
 #include <signorini/mesh/symmetry_planes.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <algorithm>
+#include <limits>
 
 namespace Signorini
 {
@@ -159,5 +162,93 @@ namespace Signorini
             mean += weight * surface.mesh.vertex_normals[parent];
           surface.mesh.vertex_normals[v] = mean / mean.norm();
         }
+  }
+
+
+
+  namespace
+  {
+    /// Calls f(vertex, what is prescribed there) for the vertices of a part that are free in some directions
+    /// and prescribed in others.
+    template <typename F>
+    void for_guided_vertices(const ContactSurface &surface, const std::vector<bool> &is_part, const F &f)
+    {
+      for (std::size_t v = 0; v < is_part.size(); ++v)
+        if (const FixedDirections &fixed = surface.vertex_fixed[v];
+            is_part[v] && surface.hanging[v].empty() && fixed.any() && !fixed.all())
+          f(v, fixed);
+    }
+
+    /// Collective. Directions across the normals that are prescribed at some of the vertices. Where that is
+    /// two directions, one of them is that of a plane which meets others alone, or both are axes.
+    std::vector<Vector3> guided_directions(const ContactSurface &surface, const std::vector<bool> &is_part,
+                                           const MPI_Comm communicator, const SymmetryPlaneRule &rule)
+    {
+      std::vector<Vector3> result;
+      const auto           add = [&](const Vector3 &direction) {
+        if (std::all_of(result.begin(), result.end(),
+                                  [&](const Vector3 &other) { return std::abs(direction * other) < rule.same; }))
+          result.push_back(direction);
+      };
+      const auto add_of_all_ranks = [&](const std::size_t n_directions, const auto &directions) {
+        for_guided_vertices(surface, is_part, [&](const std::size_t v, const FixedDirections &fixed) {
+          if (const std::vector<Vector3> basis = fixed.basis(); basis.size() == n_directions)
+            for (const Vector3 &direction : directions(fixed, basis))
+              if (std::abs(direction * surface.mesh.vertex_normals[v]) <= rule.across)
+                add(direction);
+        });
+        const auto of_ranks = Utilities::MPI::all_gather(communicator, result);
+        result.clear();
+        for (const auto &mine : of_ranks)
+          for (const Vector3 &direction : mine)
+            add(direction);
+      };
+      add_of_all_ranks(1, [](const FixedDirections &, const std::vector<Vector3> &basis) { return basis; });
+      const std::vector<Vector3> alone = result;
+      add_of_all_ranks(2, [&](const FixedDirections &fixed, const std::vector<Vector3> &basis) {
+        for (const Vector3 &one : alone)
+          if (fixed.contains(one))
+            return std::vector<Vector3>{cross_product_3d(cross_product_3d(basis[0], basis[1]), one)};
+        return basis;
+      });
+      return result;
+    }
+  } // namespace
+
+
+
+  unsigned int count_symmetry_planes(const ContactSurface &surface, const std::vector<bool> &is_part,
+                                     const MPI_Comm communicator, const SymmetryPlaneRule &rule)
+  {
+    std::vector<Vector3> directions = guided_directions(surface, is_part, communicator, rule);
+    // Guided along a curved boundary.
+    if (directions.size() > dim)
+      return 0;
+    // Largest coordinates along them and against them: of the vertices that are held, and of all.
+    const double        nowhere = std::numeric_limits<double>::lowest();
+    std::vector<double> held(2 * dim, nowhere), all(2 * dim, nowhere);
+    const auto          extend = [&](std::vector<double> &largest, const std::size_t k, const std::size_t v) {
+      const double along = directions[k] * Vector3(surface.mesh.vertices[v]);
+      largest[2 * k]     = std::max(largest[2 * k], along);
+      largest[2 * k + 1] = std::max(largest[2 * k + 1], -along);
+    };
+    for_guided_vertices(surface, is_part, [&](const std::size_t v, const FixedDirections &fixed) {
+      for (std::size_t k = 0; k < directions.size(); ++k)
+        if (fixed.contains(directions[k]))
+          extend(held, k, v);
+    });
+    for (std::size_t k = 0; k < directions.size(); ++k)
+      for (std::size_t v = 0; v < surface.mesh.vertices.size(); ++v)
+        extend(all, k, v);
+    Utilities::MPI::max(held, communicator, held);
+    Utilities::MPI::max(all, communicator, all);
+    std::vector<Vector3> planes;
+    for (std::size_t k = 0; k < directions.size(); ++k)
+      if (held[2 * k] + held[2 * k + 1] <= rule.planarity * (all[2 * k] + all[2 * k + 1]) &&
+          std::all_of(planes.begin(), planes.end(), [&](const Vector3 &other) {
+            return std::abs(directions[k] * other) <= rule.right_angle;
+          }))
+        planes.push_back(directions[k]);
+    return static_cast<unsigned int>(planes.size());
   }
 } // namespace Signorini

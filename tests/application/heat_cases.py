@@ -404,3 +404,42 @@ def pretension_of_two(p):
         for end in ends[1:]:
             for a, b in zip(end, ends[0]):
                 near(a, b, 1e-6, f'{last}: section force, other load steps')
+
+
+def symmetric_parts(p):
+    """A hot ball between six walls, and an eighth of it between three: stresses, their error, and what the certificate measures by are the same."""
+    walls = {sign + axis: [(1 if sign == 'p' else -1) * (axis == a) for a in 'xyz'] for axis in 'xyz' for sign in 'pm'}
+
+    def model(names):
+        pairs = ''.join(f'''subsection Pair {name}
+  set First    = ball: sphere
+  set Obstacle = plane: ({", ".join(str(1.002 * c) for c in walls[name])}), ({", ".join(str(-c) for c in walls[name])})
+end
+''' for name in names)
+        return f'''set Bodies        = ball
+set Contact pairs = {", ".join(names)}
+subsection Body ball
+  set Mesh              = ball
+  set Young modulus     = 1000
+  set Temperature       = 100
+  set Thermal expansion = 1e-4
+end
+{pairs}subsection Refinement
+  set Initial global levels = 1
+  set Global cycles         = 1
+end
+'''
+
+    whole = solve(p, model(walls))
+    eighth = solve(p, model(['px', 'py', 'pz']), 'Body ball/Mesh=eighth of ball',
+                   'Body ball/Dirichlet=symmetry x: (0, *, *); symmetry y: (*, 0, *); symmetry z: (*, *, 0)')
+    for s in (whole, eighth):
+        certificate(s)
+    for key in ('largest_von_mises', 'largest_displacement', 'stress_error'):
+        near(eighth['bodies'][0][key], whole['bodies'][0][key], 1e-7, key)
+    near(eighth['pairs'][0]['approach'], whole['pairs'][0]['approach'], 1e-7, 'approach')
+    near(4 * eighth['pairs'][0]['load'], whole['pairs'][0]['load'], 1e-7, 'force')
+    for key in ('geometric_penetration', 'gap_doubt'):
+        near(eighth['certificate'][key], whole['certificate'][key], 1e-6, key)
+    check(eighth['certificate']['contact_conditions_hold'] == whole['certificate']['contact_conditions_hold'], 'verdicts')
+    check(eighth['meshes_are_fine'] == whole['meshes_are_fine'], 'meshes')

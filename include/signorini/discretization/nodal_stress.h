@@ -6,12 +6,14 @@
 
 #include <signorini/algebra/node_partition.h>
 #include <signorini/discretization/boundary_conditions.h>
+#include <signorini/discretization/shear_free_planes.h>
 #include <signorini/mesh/bodies.h>
 #include <signorini/mesh/nodal_space.h>
 
 #include <array>
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <vector>
 
 namespace Signorini
@@ -29,6 +31,8 @@ namespace Signorini
     const Bodies     &bodies;
     const Loads      &loads;
     const NodalSpace &space;
+    /// What conditions hold at the relevant nodes (DirichletData::fixed).
+    const std::vector<FixedDirections> &fixed;
     /// At the relevant nodes, three numbers each (length).
     const std::vector<double> &displacement;
   };
@@ -60,7 +64,8 @@ namespace Signorini
   /// The stress at the nodes: the mean over the cells around, weighted by their volumes, of the stress that
   /// they have there. That of a hexahedron is extrapolated from its Gauss points, so that one layer of them
   /// shows the stress at the surfaces of a bent plate; that of a tetrahedron is that of its middle. Cells are
-  /// around a node if it is one of their vertices: the larger ones at a hanging node are not.
+  /// around a node if it is one of their vertices: the larger ones at a hanging node are not. On planes in
+  /// which a body slides the mirror images of the cells are, too (ShearFreePlanes).
   class NodalStress
   {
   public:
@@ -77,13 +82,15 @@ namespace Signorini
 
   private:
     /// Of the cells that belong to it.
-    NodalStress(const StressedBodies &stressed, const std::function<bool(const NodalSpace::Cell &)> &belongs);
+    NodalStress(const StressedBodies &stressed, const std::function<bool(const NodalSpace::Cell &)> &belongs,
+                std::shared_ptr<const ShearFreePlanes> planes);
 
     StressComponents at(const NodeIndex node) const;
     void             add_squares_of(const NodalSpace::Cell &cell, std::vector<StressError> &squares) const;
 
-    const StressedBodies stressed;
-    const NodePartition  partition;
+    const StressedBodies                         stressed;
+    const std::shared_ptr<const ShearFreePlanes> planes;
+    const NodePartition                          partition;
     /// Sums over the cells: xx, yy, zz and xy, yz, zx times volume; volume, in the first of three numbers.
     Vector normal, shear, weight;
   };

@@ -18,6 +18,9 @@ namespace Signorini
     double crease = .5;
     /// Facets whose normals differ by less are coplanar: files have eight digits and more.
     double flatness = 1e-6;
+    /// The largest cosine of directions that are at right angles, and of one across a normal; the smallest of
+    /// those that are the same.
+    double right_angle = .02, across = .5, same = .999;
   };
 
   /// Projects the normals of a surface, however they were computed, onto the symmetry planes that it ends at:
@@ -32,6 +35,13 @@ namespace Signorini
   /// do not differ, and an inclined one stays inclined; near a symmetry plane of a smooth surface they differ
   /// by at least twice n_c.
   void project_onto_symmetry_planes(ContactSurface &surface, const SymmetryPlaneRule &rule = {});
+
+  /// Collective. How many planes of symmetry, at right angles to each other, a part of a surface is cut off
+  /// by: directions across its normals that are prescribed at some of its vertices, all of which lie in one
+  /// plane. (In plane strain they lie in two.)
+  /// @param is_part by vertex
+  unsigned int count_symmetry_planes(const ContactSurface &surface, const std::vector<bool> &is_part,
+                                     const MPI_Comm communicator, const SymmetryPlaneRule &rule = {});
 } // namespace Signorini
 
 #endif

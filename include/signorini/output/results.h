@@ -75,8 +75,8 @@ namespace Signorini
       return force.norm() < CancellingPressureRule().told * load;
     }
     /// What contact does (length): by how much bodies approach each other that touch on the contact area A
-    /// with this force, 4/3 ∫p / (√A E*), 1/E* = sum of (1 - ν²)/E, as in Hertz' contact. Zero without
-    /// contact.
+    /// with this force, 4/3 ∫p / (√A E*), 1/E* = sum of (1 - ν²)/E, as in Hertz' contact; what symmetry
+    /// planes cut off belongs to both (count_symmetry_planes()). Zero without contact.
     double approach = 0.;
     /// By how much the gap may be wrong where bodies touch (length).
     double gap_doubt = 0.;

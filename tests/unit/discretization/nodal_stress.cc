@@ -3,6 +3,7 @@
 
 #include <signorini/discretization/exact_error.h>
 #include <signorini/discretization/hexahedron.h>
+#include <signorini/discretization/load_definition.h>
 #include <signorini/discretization/nodal_stress.h>
 #include <signorini/mesh/bodies.h>
 #include <signorini/mesh/body_parameters.h>
@@ -55,8 +56,9 @@ TEST(NodalStress, OfTheMeanDilatation)
               }
           }
       const Loads loads;
-      const auto  stress = NodalStress({bodies, loads, space, u}).values();
-      double      worst = 0., largest = 0.;
+      const auto  stress =
+          NodalStress({bodies, loads, space, evaluate_dirichlet(space, loads, false).fixed, u}).values();
+      double worst = 0., largest = 0.;
       for (const NodeIndex node : space.owned())
         {
           const auto  &s        = stress[space.relevant().index_within_set(node)];
@@ -85,12 +87,22 @@ namespace
     Bodies              bodies;
     Loads               loads;
     NodalSpace          space;
+    DirichletData       dirichlet;
     std::vector<double> u;
 
     DisplacedBlock(const std::vector<unsigned int> &divisions, const bool tetrahedra,
                    const VectorField &field)
-      : bodies(MPI_COMM_WORLD, define_bodies(MPI_COMM_WORLD, {parameters(divisions, tetrahedra)}, "."))
-      , space(MPI_COMM_WORLD, bodies.mesh())
+      : DisplacedBlock(parameters(divisions, tetrahedra), {}, field)
+    {
+    }
+
+    /// @param refined what is refined once, by the middle of the cell; may be empty
+    DisplacedBlock(const BodyParameters &block, const LoadParameters &held, const VectorField &field,
+                   const std::function<bool(const Point<3> &)> &refined = {})
+      : bodies(MPI_COMM_WORLD, define_bodies(MPI_COMM_WORLD, {block}, "."))
+      , loads(loads_on(bodies, held))
+      , space(MPI_COMM_WORLD, refine(bodies, refined).mesh())
+      , dirichlet(evaluate_dirichlet(space, loads, false))
     {
       for (const NodeIndex node : space.relevant())
         for (unsigned int c = 0; c < dim; ++c)
@@ -109,9 +121,37 @@ namespace
       return p;
     }
 
+    static Loads loads_on(const Bodies &bodies, const LoadParameters &held)
+    {
+      Loads loads;
+      loads.add(bodies, 0, held.definition(""));
+      return loads;
+    }
+
+    static const Bodies &refine(Bodies &bodies, const std::function<bool(const Point<3> &)> &refined)
+    {
+      if (refined)
+        for (const auto &cell : bodies.triangulation().active_cell_iterators())
+          if (cell->is_locally_owned() && refined(cell->center()))
+            cell->set_refine_flag();
+      if (refined)
+        bodies.triangulation().execute_coarsening_and_refinement();
+      return bodies;
+    }
+
     StressedBodies stressed() const
     {
-      return {bodies, loads, space, u};
+      return {bodies, loads, space, dirichlet.fixed, u};
+    }
+
+    /// At the owned nodes, by position.
+    std::vector<std::pair<Point<3>, StressComponents>> nodal() const
+    {
+      std::vector<std::pair<Point<3>, StressComponents>> result;
+      const auto                                         stress = NodalStress(stressed()).values();
+      for (const NodeIndex node : space.owned())
+        result.emplace_back(space.position(node), stress[space.relevant().index_within_set(node)]);
+      return result;
     }
   };
 } // namespace
@@ -178,4 +218,112 @@ TEST(NodalStress, EstimateAgainstTheErrorOfAnInterpolation)
       EXPECT_NEAR(estimate.error / exact.energy, 1., .06) << (tetrahedra ? "tetrahedra" : "hexahedra");
       EXPECT_NEAR(estimate.relative(), exact.energy / exact.energy_norm, .06 * estimate.relative());
     }
+}
+
+
+
+namespace
+{
+  /// [0,1]^3, of which three sides are planes of symmetry; a displacement with these symmetries.
+  const char *const eighth = "left: (0, *, *); front: (*, 0, *); bottom: (*, *, 0)";
+
+  Vector3 symmetric_field(const Point<3> &x)
+  {
+    return Vector3({x[0] * (1. + .3 * std::cos(2. * x[1]) - .5 * x[2] * x[2]),
+                    std::sin(x[1]) * (x[0] * x[0] - .4 * std::cos(x[2])),
+                    x[2] * x[2] * x[2] * (.2 + x[0] * x[0]) - .3 * x[2] * std::cos(3. * x[1])});
+  }
+
+  /// The shear on the side x = 0, and what is left of it there.
+  double largest_shear(const DisplacedBlock &block, const std::vector<unsigned int> &components)
+  {
+    double largest = 0.;
+    for (const auto &[x, s] : block.nodal())
+      if (x[0] == 0.)
+        for (const unsigned int c : components)
+          largest = std::max(largest, std::abs(s[c]));
+    return dealii::Utilities::MPI::max(largest, MPI_COMM_WORLD);
+  }
+} // namespace
+
+
+
+// What is cut off by symmetry planes has the stress and the estimate of the whole, with hanging nodes too.
+TEST(NodalStress, OfAnEighthIsThatOfTheWhole)
+{
+  LoadParameters held;
+  held.dirichlet               = eighth;
+  BodyParameters whole         = DisplacedBlock::parameters({6, 6, 6}, false);
+  whole.lower_corner           = Point<3>(-1., -1., -1.);
+  const auto           refined = [](const Point<3> &x) { return std::abs(x[0]) < .4 && std::abs(x[1]) < .7; };
+  const DisplacedBlock part(DisplacedBlock::parameters({3, 3, 3}, false), held, symmetric_field, refined);
+  const DisplacedBlock all(whole, {}, symmetric_field, refined);
+  EXPECT_LT(part.space.n_conforming_nodes(), part.space.n_nodes());
+  const auto expected = dealii::Utilities::MPI::all_gather(MPI_COMM_WORLD, all.nodal());
+  for (const auto &[x, s] : part.nodal())
+    {
+      double distance = 1.;
+      for (const auto &nodes : expected)
+        for (const auto &[y, t] : nodes)
+          if (x.distance(y) < 1e-9)
+            {
+              distance = 0.;
+              for (unsigned int c = 0; c < 6; ++c)
+                distance = std::max(distance, std::abs(s[c] - t[c]));
+            }
+      EXPECT_LE(distance, 1e-13) << x;
+    }
+  const StressError of_part = NodalStress(part.stressed()).errors()[0],
+                    of_all  = NodalStress(all.stressed()).errors()[0];
+  EXPECT_NEAR(std::sqrt(8.) * of_part.error / of_all.error, 1., 1e-12);
+  EXPECT_NEAR(of_part.relative() / of_all.relative(), 1., 1e-12);
+}
+
+
+
+// A turned block: one of its planes lies across no axis of coordinates.
+TEST(NodalStress, OfATurnedQuarter)
+{
+  BodyParameters turned          = DisplacedBlock::parameters({3, 3, 3}, false);
+  turned.rotation_axis           = Vector3({0., 0., 1.});
+  turned.rotation_angle          = 25.;
+  const double cosine            = std::cos(25. * dealii::numbers::PI / 180.),
+               sine              = std::sin(25. * dealii::numbers::PI / 180.);
+  const VectorField turned_field = [&](const Point<3> &x) {
+    const Vector3 u =
+        symmetric_field(Point<3>(cosine * x[0] + sine * x[1], -sine * x[0] + cosine * x[1], x[2]));
+    return Vector3({cosine * u[0] - sine * u[1], sine * u[0] + cosine * u[1], u[2]});
+  };
+  LoadParameters held, turned_held;
+  held.dirichlet        = "left: (0, *, *); bottom: (*, *, 0)";
+  turned_held.dirichlet = "left: (normal: 0); bottom: (*, *, 0)";
+  const DisplacedBlock straight(DisplacedBlock::parameters({3, 3, 3}, false), held, symmetric_field);
+  const DisplacedBlock block(turned, turned_held, turned_field);
+  const DisplacedBlock unknown(DisplacedBlock::parameters({3, 3, 3}, false), {}, symmetric_field);
+  const auto error = [](const DisplacedBlock &b) { return NodalStress(b.stressed()).errors()[0].error; };
+  EXPECT_NEAR(error(block) / error(straight), 1., 1e-12);
+  EXPECT_GT(std::abs(error(unknown) / error(straight) - 1.), 1e-4);
+}
+
+
+
+// Where a side is held across its normal, or loaded, there may be shear.
+TEST(NodalStress, ShearOfASideThatIsHeldOrLoaded)
+{
+  const BodyParameters parameters = DisplacedBlock::parameters({3, 3, 3}, false);
+  const auto           shear      = [&](const std::string &conditions, const std::string &tractions,
+                         const std::vector<unsigned int> &components) {
+    LoadParameters p;
+    p.dirichlet = conditions;
+    p.tractions = tractions;
+    return largest_shear(DisplacedBlock(parameters, p, symmetric_field), components);
+  };
+  const double xy = shear("", "", {3}), zx = shear("", "", {5});
+  EXPECT_GT(xy, .01);
+  EXPECT_GT(zx, .01);
+  EXPECT_EQ(shear("left: (0, *, *)", "", {3, 5}), 0.);
+  EXPECT_EQ(shear("left: (*, 0, *)", "", {3}), xy);
+  EXPECT_EQ(shear("left: (0, 0, *)", "", {3}), xy);
+  EXPECT_EQ(shear("left: (0, 0, *)", "", {5}), 0.);
+  EXPECT_EQ(shear("left: (0, *, *)", "left: (0, 1, 0)", {3}), xy);
 }

@@ -132,3 +132,48 @@ TEST(SymmetryPlanes, HangingVertices)
   EXPECT_EQ(n[v][0], 0.);
   EXPECT_LT((n[v] - (n[below] + n[above]) / (n[below] + n[above]).norm()).norm(), 1e-15);
 }
+
+// What is cut off there: the planes are counted at the part that touches them; in plane strain there are two
+// of them, and clamped borders are none.
+TEST(SymmetryPlanes, OfAPartOfASurface)
+{
+  ContactSurface quarter = make_surface(0., 5, cylinder);
+  for (std::size_t v = 0; v < quarter.vertex_fixed.size(); ++v)
+    if (quarter.mesh.vertices[v][1] == 0.)
+      quarter.vertex_fixed[v] = quarter.mesh.vertices[v][0] == 0. ? 3 : 2;
+  const auto count = [](const ContactSurface &surface, const std::function<bool(const Point<3> &)> &is_part) {
+    std::vector<bool> marked;
+    for (const Point<3> &x : surface.mesh.vertices)
+      marked.push_back(is_part(x));
+    return count_symmetry_planes(surface, marked, MPI_COMM_WORLD);
+  };
+  const auto everywhere = [](const Point<3> &) { return true; };
+  EXPECT_EQ(count(quarter, everywhere), 2u);
+  EXPECT_EQ(count(quarter, [](const Point<3> &x) { return x[0] == 0. && x[1] == 0.; }), 2u);
+  EXPECT_EQ(count(quarter, [](const Point<3> &x) { return x[0] > .5; }), 1u);
+  EXPECT_EQ(count(quarter, [](const Point<3> &x) { return x[0] > .5 && x[1] > .5; }), 0u);
+  // Turned by 30 degrees about z.
+  ContactSurface turned = quarter;
+  const double   c = std::sqrt(.75), s = .5;
+  const auto     turn = [&](const Vector3 &v) {
+    return Vector3({c * v[0] - s * v[1], s * v[0] + c * v[1], v[2]});
+  };
+  for (std::size_t v = 0; v < turned.vertex_fixed.size(); ++v)
+    {
+      turned.mesh.vertices[v]       = Point<3>(turn(Vector3(quarter.mesh.vertices[v])));
+      turned.mesh.vertex_normals[v] = turn(quarter.mesh.vertex_normals[v]);
+      std::vector<Vector3> directions;
+      for (const Vector3 &d : quarter.vertex_fixed[v].basis())
+        directions.push_back(turn(d));
+      turned.vertex_fixed[v] = FixedDirections::span(directions);
+    }
+  EXPECT_EQ(count(turned, everywhere), 2u);
+  ContactSurface plane_strain = make_surface(0., 5, cylinder);
+  for (FixedDirections &fixed : plane_strain.vertex_fixed)
+    fixed = fixed.components() | 2;
+  EXPECT_EQ(count(plane_strain, everywhere), 1u);
+  ContactSurface clamped = make_surface(0., 5, cylinder);
+  for (FixedDirections &fixed : clamped.vertex_fixed)
+    fixed = fixed.any() ? all_fixed : fixed;
+  EXPECT_EQ(count(clamped, everywhere), 0u);
+}
