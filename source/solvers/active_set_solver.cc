@@ -58,12 +58,13 @@ namespace Signorini
     contact = ContactState(matrix(), problem.half_spaces);
     for (std::size_t p = 0; p < active.size(); ++p)
       contact.set_active(p, active[p]);
+    FreeMotionCorrection motions(matrix(), problem.free_motions, problem.rhs);
     best = v;
     matrix().symmetric_residual(residual, v, problem.rhs);
     least_energy = -.5 * (problem.rhs * v + residual * v);
     for (unsigned int k = 0; k < active_set_rule.n_sets; ++k)
       {
-        const Outcome outcome = solve_on_planes(v, problem, report, monitor);
+        const Outcome outcome = solve_on_planes(v, problem, motions, report, monitor);
         if (outcome == Outcome::converged)
           {
             const std::vector<unsigned char> flags = contact.active();
@@ -99,9 +100,27 @@ namespace Signorini
 
 
 
+  void ActiveSetSolver::find_correction(const Vector &v, const FreeMotionCorrection &motions)
+  {
+    tangential = residual;
+    contact.restrict_to_tangents(tangential);
+    const std::vector<double> moved = motions.minimize(tangential);
+    planes.correct(correction, tangential);
+    // Smoothing in single precision leaves a little along normals that are no axes.
+    contact.restrict_to_tangents(correction);
+    motions.complete(correction, moved, tangential, v, contact);
+    correction.update_ghost_values();
+  }
+
+
+
   ActiveSetSolver::Outcome ActiveSetSolver::solve_on_planes(Vector &v, const ObstacleProblem &problem,
+                                                            FreeMotionCorrection &motions,
                                                             ConvergenceReport &report, const Monitor &monitor)
   {
+    motions.update(contact);
+    if (motions.is_driven())
+      return Outcome::stopped;
     ++n_sets;
     planes.setup(contact.half_spaces(), contact.active());
     double moved = move_to_planes(v), first = 0.;
@@ -110,12 +129,7 @@ namespace Signorini
     bool is_seen = false;
     while (goes_on(report))
       {
-        tangential = residual;
-        contact.restrict_to_tangents(tangential);
-        planes.correct(correction, tangential);
-        // Smoothing in single precision leaves a little along normals that are no axes.
-        contact.restrict_to_tangents(correction);
-        correction.update_ghost_values();
+        find_correction(v, motions);
         matrix().vmult(product, correction);
         correction.zero_out_ghost_values();
         const double length = conjugate.find_step(correction, product, residual, contact);

@@ -42,8 +42,9 @@ namespace Signorini
 
 
 
-  FactoredPlanes::FactoredPlanes(const NodeBlockMatrix &matrix)
+  FactoredPlanes::FactoredPlanes(const NodeBlockMatrix &matrix, const bool is_semidefinite)
     : matrix(matrix)
+    , is_semidefinite(is_semidefinite)
     , factors(CoarseCholesky::Kind::supernodal)
   {
   }
@@ -52,7 +53,7 @@ namespace Signorini
 
   void FactoredPlanes::setup(const HalfSpaces &half_spaces, const std::vector<unsigned char> &active)
   {
-    factors.factorize(matrix_on_planes(matrix, half_spaces, active));
+    factors.factorize(matrix_on_planes(matrix, half_spaces, active), is_semidefinite);
   }
 
 

@@ -95,12 +95,12 @@ namespace Signorini
 
 
 
-  void SafetyNet::choose_planes()
+  void SafetyNet::choose_planes(const bool is_semidefinite)
   {
     const NodeBlockMatrix &matrix = hierarchy.level(level).matrix;
     if (n_unknowns() <= net_rule.largest_for_factors)
       {
-        auto factors = std::make_unique<FactoredPlanes>(matrix);
+        auto factors = std::make_unique<FactoredPlanes>(matrix, is_semidefinite);
         if (is_small() || factors->cost() <= net_rule.cheap_factors)
           planes = std::move(factors);
       }
@@ -112,33 +112,35 @@ namespace Signorini
 
   SafetyNet::Remedy SafetyNet::due(const ConvergenceReport &report, const ObstacleProblem &problem)
   {
-    if (!is_wanted() || report.converged || problem.semidefinite || level + 1 != hierarchy.n_levels() ||
-        report.scale <= 0.)
+    if (!is_wanted() || report.converged || level + 1 != hierarchy.n_levels() || report.scale <= 0. ||
+        (problem.semidefinite && problem.free_motions.empty()))
       return Remedy::none;
     // Whatever the rate waits for: it is due once.
-    if (report.iterations == net_rule.n_to_settle && n_conjugate == 0 && cycle.may_begin_in_subspace() &&
-        report.history.back() > net_rule.most_left * report.history.front())
+    if (report.iterations == net_rule.n_to_settle && !problem.semidefinite && n_conjugate == 0 &&
+        cycle.may_begin_in_subspace() && report.history.back() > net_rule.most_left * report.history.front())
       return Remedy::contact_subspace;
-    return report.iterations >= not_before && report.history.size() > net_rule.n_watched ? due_to_rate(report)
-                                                                                         : Remedy::none;
+    return report.iterations >= not_before && report.history.size() > net_rule.n_watched
+               ? due_to_rate(report, problem)
+               : Remedy::none;
   }
 
 
 
-  SafetyNet::Remedy SafetyNet::due_to_rate(const ConvergenceReport &report)
+  SafetyNet::Remedy SafetyNet::due_to_rate(const ConvergenceReport &report, const ObstacleProblem &problem)
   {
     const double slow =
         std::min(net_rule.few_left + n_unknowns() / net_rule.unknowns_for_one_more, net_rule.many_left);
     if (iterations_left(report, parameters) <= slow)
       return Remedy::none;
     if (!planes)
-      choose_planes();
+      choose_planes(problem.semidefinite);
     if (planes->is_exact())
       return Remedy::active_set_steps;
     const bool searches = n_conjugate + net_rule.fewest_searched <= net_rule.n_watched;
     if (may_take_patches() && (has_failed || !searches))
       return Remedy::patches;
-    return searches ? Remedy::active_set_steps : Remedy::none;
+    // V-cycles in single precision leave work on free motions.
+    return searches && !problem.semidefinite ? Remedy::active_set_steps : Remedy::none;
   }
 
 

@@ -5,6 +5,7 @@
 #define signorini_solvers_active_set_solver_h
 
 #include <signorini/solvers/conjugate_gradients.h>
+#include <signorini/solvers/free_motion_correction.h>
 #include <signorini/solvers/obstacle_solver.h>
 #include <signorini/solvers/plane_solver.h>
 
@@ -16,7 +17,8 @@ namespace Signorini
   /// Such steps end in few or, the active set going round in a circle, never. So there are only so many of
   /// them, and then the iterate of least energy that was admissible is left: whoever calls goes on from there
   /// with a method that lowers the energy, and may come again. With the minimizer itself the active set
-  /// rests at once.
+  /// rests at once. Of bodies that only contact holds an active set may be one on which they would fly away:
+  /// such steps have not ended, either.
   class ActiveSetSolver : public ObstacleSolver
   {
   public:
@@ -52,8 +54,12 @@ namespace Signorini
 
     /// Collective. Solves on the planes of the active nodes as far as it takes to see another active set, or
     /// to the end.
-    Outcome solve_on_planes(Vector &v, const ObstacleProblem &problem, ConvergenceReport &report,
-                            const Monitor &monitor);
+    Outcome solve_on_planes(Vector &v, const ObstacleProblem &problem, FreeMotionCorrection &motions,
+                            ConvergenceReport &report, const Monitor &monitor);
+
+    /// Collective. What the linear solver and the free motions make of the residual, tangential at active
+    /// nodes.
+    void find_correction(const Vector &v, const FreeMotionCorrection &motions);
 
     /// Collective. Moves active nodes onto their planes; the energy norm of that.
     double move_to_planes(Vector &v);

@@ -39,7 +39,9 @@ namespace Signorini
   {
   public:
     /// The matrix must outlive the object.
-    explicit FactoredPlanes(const NodeBlockMatrix &matrix);
+    /// @param is_semidefinite whether it has a kernel: then the inverse is that of a matrix beside it, good
+    ///   to nine digits but for the motions that nothing opposes
+    explicit FactoredPlanes(const NodeBlockMatrix &matrix, const bool is_semidefinite = false);
 
     /// Collective. How many multiplications each setup() will take.
     double cost()
@@ -61,6 +63,7 @@ namespace Signorini
 
   private:
     const NodeBlockMatrix &matrix;
+    const bool             is_semidefinite;
     CoarseCholesky         factors;
   };
 

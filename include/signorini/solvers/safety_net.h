@@ -50,7 +50,7 @@ namespace Signorini
     Remedy due(const ConvergenceReport &report, const ObstacleProblem &problem);
 
     /// Collective. What is due because of the rate of the last iterations.
-    Remedy due_to_rate(const ConvergenceReport &report);
+    Remedy due_to_rate(const ConvergenceReport &report, const ObstacleProblem &problem);
 
     /// Has a remedy show what it does before the next one: watches as many iterations as at the beginning.
     void watch_anew(const ConvergenceReport &report);
@@ -67,7 +67,7 @@ namespace Signorini
     bool   may_take_patches() const;
 
     /// Collective. Makes `planes`, sparse factors if they are cheap.
-    void choose_planes();
+    void choose_planes(const bool is_semidefinite);
 
     MultigridHierarchy              &hierarchy;
     const SolverParameters           parameters;

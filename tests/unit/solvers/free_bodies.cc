@@ -177,7 +177,7 @@ TEST(FreeBodies, RandomCubesAreSolvedOrFlyAway)
     GTEST_SKIP() << "the dense solver has one rank";
   const char        *wanted = std::getenv("SIGNORINI_RANDOM_FREE_BODIES");
   const unsigned int n      = wanted ? static_cast<unsigned int>(std::stoul(wanted)) : 40;
-  unsigned int       n_held = 0, most_iterations = 0;
+  unsigned int       n_held = 0, most_iterations = 0, n_ended = 0;
   for (unsigned int i = 0; i < n; ++i)
     {
       std::mt19937 random(i);
@@ -261,25 +261,38 @@ TEST(FreeBodies, RandomCubesAreSolvedOrFlyAway)
       const Eigen::VectorXd solution = solve_dense(d, from);
       const double          scale    = std::sqrt(solution.dot(d.matrix * solution));
 
-      SolverParameters parameters;
-      parameters.max_iterations  = 100;
-      Vector          v          = start;
-      const auto      report     = make_solver(hierarchy, parameters)->solve(v, problem);
-      Eigen::VectorXd difference = solution;
-      for (Eigen::Index k = 0; k < difference.size(); ++k)
-        difference[k] -= v.local_element(k);
-      most_iterations = std::max(most_iterations, report.iterations);
-      EXPECT_TRUE(report.converged) << "problem " << i;
-      EXPECT_LE(report.iterations, 40u) << "problem " << i;
-      EXPECT_LE(std::sqrt(std::max(0., difference.dot(d.matrix * difference))), 1e-8 * scale)
-          << "problem " << i << ", " << report.iterations << " iterations, energy " << report.energy
-          << ", dense " << solution.dot(.5 * (d.matrix * solution) - d.rhs) << ", largest violation there "
-          << (d.normals * solution - d.bounds).maxCoeff();
-      for (std::size_t p = 0; p < problem.half_spaces.size(); ++p)
-        EXPECT_LE(problem.half_spaces.normal_part(p, v), problem.half_spaces.bounds[p] + 1e-12)
-            << "problem " << i;
+      // The second time the safety net takes over at once.
+      for (const bool is_slow : {false, true})
+        {
+          SolverParameters parameters;
+          parameters.max_iterations = 100;
+          if (is_slow)
+            {
+              parameters.net_rule.n_watched       = 2;
+              parameters.net_rule.few_left        = -10.;
+              parameters.net_rule.fewest_searched = 0;
+            }
+          Vector            v      = start;
+          const auto        report = make_solver(hierarchy, parameters)->solve(v, problem);
+          const std::string here   = "problem " + std::to_string(i) + (is_slow ? ", active-set steps" : "");
+          Eigen::VectorXd   difference = solution;
+          for (Eigen::Index k = 0; k < difference.size(); ++k)
+            difference[k] -= v.local_element(k);
+          most_iterations = std::max(most_iterations, report.iterations);
+          n_ended += report.safety_net.n_steps > 0 && report.safety_net.n_failed == 0 ? 1 : 0;
+          EXPECT_TRUE(report.converged) << here;
+          EXPECT_LE(report.iterations, 40u) << here;
+          EXPECT_LE(std::sqrt(std::max(0., difference.dot(d.matrix * difference))), 1e-8 * scale)
+              << here << ", " << report.iterations << " iterations, energy " << report.energy << ", dense "
+              << solution.dot(.5 * (d.matrix * solution) - d.rhs) << ", largest violation there "
+              << (d.normals * solution - d.bounds).maxCoeff();
+          for (std::size_t p = 0; p < problem.half_spaces.size(); ++p)
+            EXPECT_LE(problem.half_spaces.normal_part(p, v), problem.half_spaces.bounds[p] + 1e-12) << here;
+        }
     }
-  std::cout << n << " problems, " << n_held << " held, at most " << most_iterations << " iterations\n";
+  std::cout << n << " problems, " << n_held << " held, at most " << most_iterations << " iterations, "
+            << n_ended << " by active-set steps\n";
+  EXPECT_GE(2 * n_ended, n_held);
   EXPECT_GE(2 * n_held, n / 2);
 }
 
