@@ -253,15 +253,20 @@ namespace Signorini
       return result;
     }
 
-    /// Longest edge of the triangles around each vertex.
-    std::vector<double> widths(const SurfaceMesh &mesh)
+    /// How many of the triangles around its vertex each slip crosses: its length over their extent along it.
+    /// Slabs of one layer are far longer in the direction in which nothing slides.
+    std::vector<double> slips_in_faces(const SurfaceMesh &mesh, const std::vector<Vector3> &slip)
     {
-      std::vector<double> width(mesh.vertices.size(), 0.);
+      std::vector<double> extent(slip.size(), 0.), result(slip.size(), 0.);
       for (const auto &t : mesh.triangles)
         for (unsigned int i = 0; i < 3; ++i)
           for (unsigned int j = 0; j < 3; ++j)
-            width[t[i]] = std::max(width[t[i]], mesh.vertices[t[i]].distance(mesh.vertices[t[j]]));
-      return width;
+            extent[t[i]] =
+                std::max(extent[t[i]], std::abs(slip[t[i]] * (mesh.vertices[t[j]] - mesh.vertices[t[i]])));
+      for (std::size_t v = 0; v < slip.size(); ++v)
+        if (extent[v] > 0.)
+          result[v] = slip[v].norm_square() / extent[v];
+      return result;
     }
   } // namespace
 
@@ -277,16 +282,17 @@ namespace Signorini
     const auto                       mortar = pair.obstacle
                                                   ? std::vector<Vector3>()
                                                   : vertex_values(pair.mortar.surface, d.partition(), solution.displacement);
-    const auto                       width  = widths(non.mesh);
+    std::vector<Vector3>             slip(non.mesh.vertices.size());
     Slip                             result;
     for (const auto &[v, jump] : relative_displacements(pair, moved, mortar))
       if (active[v] != 0)
         {
-          const Vector3 &n      = non.mesh.vertex_normals[v];
-          const double   length = (jump - (jump * n) * n).norm();
-          result.length         = std::max(result.length, length);
-          result.in_faces       = std::max(result.in_faces, length / width[v]);
+          const Vector3 &n = non.mesh.vertex_normals[v];
+          slip[v]          = jump - (jump * n) * n;
+          result.length    = std::max(result.length, slip[v].norm());
         }
+    for (const double in_faces : slips_in_faces(non.mesh, slip))
+      result.in_faces = std::max(result.in_faces, in_faces);
     const MPI_Comm comm = d.nodal().communicator();
     return {Utilities::MPI::max(result.length, comm), Utilities::MPI::max(result.in_faces, comm)};
   }

@@ -47,12 +47,13 @@ namespace Signorini
 
     /// What a problem is measured by: largest displacement (length), and the stress and the force of such a
     /// displacement over the width of the contact surfaces; what rounding leaves of the approach of a pair
-    /// (length).
+    /// (length); the largest approach of all pairs (length).
     struct Scales
     {
-      double displacement, stress, force, rounding;
+      double displacement, stress, force, rounding, approach = 0.;
 
-      Scales(const Bodies &bodies, const Discretization &d, const Vector &u)
+      Scales(const Bodies &bodies, const Discretization &d, const Vector &u,
+             const std::vector<PairResult> &pairs)
         : displacement(u.linfty_norm())
         , rounding(std::max(CertificateRule().rounding * displacement,
                             16. * std::numeric_limits<double>::epsilon() * largest_coordinate(d)))
@@ -60,6 +61,9 @@ namespace Signorini
         const double width = largest_width(d), product = bodies.largest_modulus() * displacement;
         stress = width > 0. ? product / width : 0.;
         force  = product * width;
+        for (const PairResult &pair : pairs)
+          if (!is_idle(pair))
+            approach = std::max(approach, pair.approach);
       }
 
       /// Whether a pair touches with forces of rounding only (of ties nothing is known): gaps of rounding
@@ -203,7 +207,16 @@ namespace Signorini
       const CertificateRule rule;
       const std::string     name = "pair " + pair.name + ": ";
       if (!(pair.approach > 0.) || scales.is_idle(pair))
-        return;
+        {
+          if (pair.missed_penetration > rule.geometric_penetration * scales.approach)
+            c.objections.push_back(
+                name + "the true surfaces penetrate by " + text_of(pair.missed_penetration) + " at " +
+                place_text(pair.min_gap_at) +
+                ", and no contact force acts there: the contact is narrower than the faces; "
+                "refine the contact surfaces" +
+                (model.definition.obstacle ? "" : ", or choose the other side as \"Nonmortar\""));
+          return;
+        }
       if (pair.gap_doubt > rule.gap_doubt * pair.approach)
         c.objections.push_back(
             name + "the gap may be wrong by " + text_of(pair.gap_doubt) + ", " +
@@ -240,7 +253,7 @@ namespace Signorini
   Certificate certify(const ContactModel &model, const Discretization &d, const ContactSolution &solution,
                       const ContactEvaluation &evaluation, const double tolerance, const bool has_converged)
   {
-    const Scales scales(model.bodies(), d, solution.displacement);
+    const Scales scales(model.bodies(), d, solution.displacement, evaluation.pairs);
     Certificate  c;
     add_conditions(c, d, solution.stress, scales);
     for (unsigned int p = 0; p < d.pairs.size(); ++p)

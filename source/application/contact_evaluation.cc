@@ -93,6 +93,13 @@ namespace Signorini
       return sample_geometric_penetration(facing, displaced, mortar, pressure, pair.prescribed_gap, comm);
     }
 
+    double doubt_of_gap(const ContactPair &pair, const std::vector<bool> &is_active, const MPI_Comm comm)
+    {
+      return pair.obstacle ? sample_gap_doubt(pair.nonmortar.surface, is_active, comm)
+                           : sample_gap_doubt(pair.nonmortar.surface, pair.mortar.surface,
+                                              covered_overlay(pair), is_active, comm);
+    }
+
     /// What contact does where bodies touch, and how well the gap is known there.
     /// @param is_active per vertex of the nonmortar surface
     /// @param moments sum of those on both sides
@@ -109,9 +116,7 @@ namespace Signorini
                         (pair.nonmortar.material.contact_compliance() +
                          (pair.obstacle ? 0. : pair.mortar.material.contact_compliance()));
       if (!pair.prescribed_gap)
-        result.gap_doubt = pair.obstacle ? sample_gap_doubt(pair.nonmortar.surface, is_active, comm)
-                                         : sample_gap_doubt(pair.nonmortar.surface, pair.mortar.surface,
-                                                            covered_overlay(pair), is_active, comm);
+        result.gap_doubt = doubt_of_gap(pair, is_active, comm);
       // With a prescribed gap the surfaces need not lie where they touch.
       if (!pair.obstacle && !pair.prescribed_gap && result.load > 0.)
         result.moment_balance = moments.norm() / (result.load * width);
@@ -206,6 +211,28 @@ namespace Signorini
 
 
 
+  namespace
+  {
+    /// Collective. PairResult::missed_penetration, of the place where the gap is least.
+    double missed_penetration(const PairResult &result, const ContactPair &pair, const PairCoupling &coupling,
+                              const MPI_Comm comm)
+    {
+      const MissedContactRule rule;
+      if (pair.is_tied || pair.prescribed_gap || coupling.n_rows_of_all == 0 ||
+          !(result.max_penetration > 0.) || result.approach > rule.idle * result.max_penetration)
+        return 0.;
+      const double      width   = std::sqrt(coupling.area / static_cast<double>(coupling.n_rows_of_all));
+      const auto       &surface = pair.nonmortar.surface;
+      std::vector<bool> is_near;
+      for (const Point<3> &x : surface.mesh.vertices)
+        is_near.push_back(x.distance(result.min_gap_at) <= 2. * width);
+      const double missed = result.max_penetration - doubt_of_gap(pair, is_near, comm);
+      return missed > rule.rounding * width ? missed : 0.;
+    }
+  } // namespace
+
+
+
   PairResult evaluate_pair(const Discretization &d, const ContactSolution &solution, const unsigned int p)
   {
     const ContactPair  &pair     = d.pairs[p];
@@ -229,10 +256,11 @@ namespace Signorini
     result.force_on_mortar = pair.obstacle ? -result.force : sum(forces.mortar.force, comm);
     result.moment          = sum(forces.nonmortar.moment, comm);
     measure_contact(result, pair, is_active, sum(forces.nonmortar.moment + forces.mortar.moment, comm), comm);
-    const auto penetration = penetration_of(d, p, solution.displacement, stress.pressure);
-    result.min_gap         = penetration.min_gap;
-    result.min_gap_at      = penetration.min_gap_at;
-    result.max_penetration = std::max(0., penetration.max_penetration());
+    const auto penetration    = penetration_of(d, p, solution.displacement, stress.pressure);
+    result.min_gap            = penetration.min_gap;
+    result.min_gap_at         = penetration.min_gap_at;
+    result.max_penetration    = std::max(0., penetration.max_penetration());
+    result.missed_penetration = missed_penetration(result, pair, coupling, comm);
     // Prescribed gaps are taken as they are, weighted ones.
     result.loaded_gap          = pair.prescribed_gap ? 0. : penetration.loaded_gap;
     result.mean_pressure       = result.contact_area > 0. ? result.load / result.contact_area : 0.;

@@ -389,9 +389,8 @@ namespace Signorini
         results.cycles.back().potential_energy = results.certificate.potential_energy;
         for (unsigned int p = 0; p < d.pairs.size(); ++p)
           {
-            const auto active = stress_of_pair(d, last.solution.stress, p).active;
-            const bool any    = std::find(active.begin(), active.end(), 1) != active.end();
-            if (Utilities::MPI::max(static_cast<int>(any), model.communicator()) == 0)
+            const PairResult &pair = evaluation.pairs[p];
+            if (!(pair.contact_area > 0.) && pair.missed_penetration == 0.)
               journal.note("pair " + d.pairs[p].name +
                            ": the surfaces are separated, there is no contact force.");
           }

@@ -93,6 +93,10 @@ namespace Signorini
   {
     const std::string section = "Pair " + name + "/";
     PairDefinition    pair;
+    for (const auto &[text, parameter] :
+         {std::pair(obstacle, "Obstacle"), std::pair(initial_gap, "Initial gap"),
+          std::pair(first_region, "First region"), std::pair(second_region, "Second region")})
+      refuse_time(text, section + parameter);
     pair.name  = name;
     pair.first = parse_side(first, first_region, section + "First");
     if (!Utilities::trim(obstacle).empty())

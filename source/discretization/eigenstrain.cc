@@ -69,7 +69,10 @@ namespace Signorini
           else if (word == "force")
             result.force = Expression(value, where);
           else if (word == "region")
-            result.region = Expression(value, where);
+            {
+              refuse_time(value, where);
+              result.region = Expression(value, where);
+            }
           else if (word == "locked" && value.compare(0, 6, "after ") == 0)
             result.locked_after = parse_number(Utilities::trim(value.substr(6)), where);
           else

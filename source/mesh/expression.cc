@@ -7,6 +7,8 @@
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/utilities.h>
 
+#include <set>
+
 namespace Signorini
 {
   using namespace dealii;
@@ -27,8 +29,8 @@ namespace Signorini
     /// a bound of its own, and needs no recursion.)
     constexpr std::size_t longest_expression = 10000;
 
-    /// Whether one of the words of an expression is the parser's name of a random number, or of its seed.
-    bool is_random(const std::string &expression)
+    /// Whether an expression has one of some words.
+    bool has_word(const std::string &expression, const std::set<std::string> &words)
     {
       std::string word;
       for (const char c : expression + ' ')
@@ -36,7 +38,7 @@ namespace Signorini
           word += c;
         else
           {
-            if (word == "rand" || word == "rand_seed")
+            if (words.count(word) > 0)
               return true;
             word.clear();
           }
@@ -91,7 +93,7 @@ namespace Signorini
     if (source.size() > longest_expression)
       throw InputError(where + ": the expression " + in_quotes(source) + " is too long: at most " +
                        std::to_string(longest_expression) + " characters are read.");
-    if (is_random(source))
+    if (has_word(source, {"rand", "rand_seed"}))
       throw InputError(
           where + ": " + in_quotes(source) +
           " has random numbers: the problem would be another one at each evaluation, and on each "
@@ -141,6 +143,16 @@ namespace Signorini
         throw InputError(message.str());
       }
     return value;
+  }
+
+
+
+  void refuse_time(const std::string &text, const std::string &where)
+  {
+    if (has_word(text, {"t"}))
+      throw InputError(where + ": " + in_quotes(text) +
+                       " depends on the pseudo-time t, but obstacles, regions and gaps stay as they are. "
+                       "Let the body move instead: Dirichlet and Rigid may depend on t.");
   }
 
 

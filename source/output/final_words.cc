@@ -84,7 +84,10 @@ namespace Signorini
       out << "pair " << pair.name << ": ";
       if (!(pair.contact_area > 0.))
         {
-          out << "the surfaces are separated, there is no contact force\n";
+          if (pair.missed_penetration > 0.)
+            out << "no contact force, but the surfaces penetrate by " << pair.missed_penetration << '\n';
+          else
+            out << "the surfaces are separated, there is no contact force\n";
           return;
         }
       const double force = pair.force.norm();

@@ -70,3 +70,52 @@ def wrong_gap(p):
             raw, smooth = ([r['area'] * r[k] for r in rows] for k in ('pressure', 'recovered_pressure'))
             near(sum(smooth), sum(raw), 2e-2 if code else 1e-3, f'{surface}: force of the recovered pressure')
             check(min(r['recovered_pressure'] for r in rows) >= -1e-9 * max(r['pressure'] for r in rows), f'{surface}: recovered tension')
+
+
+MISSED = '''set Bodies        = block, roller
+set Contact pairs = c
+subsection Body block
+  set Upper corner  = 30, 20, 20
+  set Divisions     = 5, 3, 3
+  set Dirichlet     = bottom: (0, 0, 0)
+  set Young modulus = 2e5
+end
+subsection Body roller
+  set Mesh           = half cylinder
+  set Radius         = 10
+  set Height         = 20
+  set Rotation axis  = 1, 0, 0
+  set Rotation angle = 90
+  set Translation    = 15, 20, 30
+  set Dirichlet      = flat: (0, 0, -0.1)
+  set Young modulus  = 2e5
+end
+subsection Pair c
+  set First     = block: top
+  set Second    = roller: outer
+  set Nonmortar = first
+end
+subsection Refinement
+  set Global cycles = 0
+end
+'''
+
+
+def missed_contact(p):
+    """A roller that enters faces much wider than the contact: the gap of the faces stays open, there is no force, and the verdict is NO."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, 'roller.prm')
+        with open(path, 'w') as f:
+            f.write(MISSED)
+        s = p.solve(path, codes=(3,))
+        pair, objections = s['pairs'][0], s['certificate']['objections']
+        check(pair['contact_area'] == 0 and not s['certificate']['contact_conditions_hold'], f'{pair}')
+        near(pair['missed_penetration'], .1, .1, 'missed penetration')
+        check(len(objections) == 1 and 'no contact force' in objections[0] and 'Nonmortar' in objections[0], f'{objections}')
+        check(not any('separated' in note for note in s['notes']), f'{s["notes"]}')
+        # Raised by as much as it goes down it touches nothing.
+        s = p.solve(path, 'Body roller/Translation=15, 20, 30.11')
+        check(s['pairs'][0]['missed_penetration'] == 0 and any('separated' in note for note in s['notes']), f'{s["pairs"][0]}')
+        for settings in (['Pair c/Nonmortar=second'], ['Refinement/Initial global levels=2']):
+            pair = p.solve(path, *settings)['pairs'][0]
+            check(pair['load'] > 8e4 and pair['missed_penetration'] == 0, f'{settings}: {pair}')

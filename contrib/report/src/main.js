@@ -35,7 +35,7 @@ function cards(s, {units}) {
   const last = s.cycles.length - 1, cycle = `cycles.${last}`;
   const list = s.pairs.map((pair, p) => pair.contact_area > 0
     ? card(`${pair.name}: ${pair.pressures_cancel ? 'integral of the pressure' : 'contact force'}`, [format(pair.pressures_cancel ? pair.load : Math.hypot(...pair.force)), unitText(units.force)], 'largest pressure ', number(s, `pairs.${p}.max_pressure`), unitText(units.stress), pair.scatter_is_told && [', smoothed ', number(s, `pairs.${p}.max_recovered_pressure`), unitText(units.stress)], ', area ', number(s, `pairs.${p}.contact_area`), units.length && ` ${units.length}²`, pair.is_narrow && '; narrower than a face: the pressure is that of the mesh')
-    : card(`${pair.name}: contact force`, '0', 'the surfaces are separated'));
+    : card(`${pair.name}: contact force`, '0', pair.missed_penetration > 0 ? ['the surfaces penetrate by ', number(s, `pairs.${p}.missed_penetration`), unitText(units.length)] : 'the surfaces are separated'));
   s.bodies.forEach((body, b) => list.push(card(`${body.name}: largest displacement`, [number(s, `bodies.${b}.largest_displacement`), unitText(units.length)], 'largest von Mises stress ', number(s, `bodies.${b}.largest_von_mises`), unitText(units.stress))));
   list.push(card('Displacements are small', s.displacements_are_small ? 'yes' : 'NO', 'largest rotation ', format((Math.max(0, ...s.bodies.map(b => b.largest_rotation)) * 180) / Math.PI, 2), '°'));
   list.push(card('Meshes are fine', s.meshes_are_fine ? 'yes' : 'NO', 'estimated error of stresses ', format(100 * Math.max(1e-4, ...s.bodies.map(b => b.stress_error)), 2), s.bodies.length > 1 ? ' % or less' : ' %'));

@@ -43,6 +43,9 @@ namespace Signorini
 
 
 
+  /// For what stays as it is at all times. Errors: InputError if one of the words of a text is t.
+  void refuse_time(const std::string &text, const std::string &where);
+
   /// A number, which may be an expression like sqrt(2).
   double parse_number(const std::string &text, const std::string &where);
 

@@ -24,6 +24,16 @@ namespace Signorini
     double told = .5;
   };
 
+  /// When a pair without forces has missed a contact. Pure numbers.
+  struct MissedContactRule
+  {
+    /// Of the penetration, the approach up to which it carries no force.
+    double idle = 1e-3;
+    /// Of the width of the faces, the penetration that is rounding: meshes have five digits and more. Faces 6
+    /// wide under a roller of radius 10 miss penetrations of up to 0.05 of it.
+    double rounding = 1e-3;
+  };
+
   /// Below which part of the integral of the pressure its resultant is not what a contact carries. Pure
   /// number.
   struct CancellingPressureRule
