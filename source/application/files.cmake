@@ -51,6 +51,7 @@ signorini_add_layer(application COLD
   run_state.cc
   side_choice.cc
   ties.cc
+  turning_faces.cc
   write_report.cc
   write_results.cc
 )

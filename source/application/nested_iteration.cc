@@ -12,6 +12,7 @@
 #include <signorini/application/nested_iteration.h>
 #include <signorini/application/pair_fields.h>
 #include <signorini/application/point_holds.h>
+#include <signorini/application/turning_faces.h>
 #include <signorini/discretization/elasticity.h>
 #include <signorini/discretization/exact_error.h>
 #include <signorini/discretization/level_hierarchy.h>
@@ -102,6 +103,7 @@ namespace Signorini
           {
             space = std::make_shared<const ConstrainedSpace>(model, is_adaptive);
             check_free_parts(model, space->free_parts, parameters.solve.solver.method, journal);
+            note_turning_faces(model, *space, journal);
             return true;
           }
         journal.show("refining");
