@@ -129,7 +129,8 @@ namespace
     ContactModel model = make_model(file, comm, journal);
     if (line.check)
       {
-        const auto   space = std::make_shared<const ConstrainedSpace>(model);
+        const auto space = std::make_shared<const ConstrainedSpace>(model);
+        check_probes(model, space->nodal(), parameters.probes);
         std::ostream nowhere(nullptr);
         describe(is_root ? std::cout : nowhere, model, *discretize(model, space, {}, 0, journal));
         return 0;

@@ -237,6 +237,30 @@ namespace Signorini
       return std::sqrt(area / std::max<double>(1., d.n_contact_nodes));
     }
 
+    /// What is around the half-spaces of a problem.
+    FacesAtContact faces_at_contact(const Discretization &d)
+    {
+      std::vector<double> turn(d.coupling.n_rows(), 0.);
+      for (const NodalSpace::BoundaryFace &face : d.nodal().boundary_faces())
+        {
+          const NodalSpace::Cell &cell    = d.nodal().cells()[face.cell];
+          const auto              corners = CellShape::face(cell.n_vertices, face.face);
+          for (const unsigned int one : corners)
+            for (const unsigned int other : corners)
+              if (const std::ptrdiff_t a = d.coupling.find(d.nodal().nodes(cell)[one]),
+                  b                      = d.coupling.find(d.nodal().nodes(cell)[other]);
+                  a >= 0 && b >= 0)
+                if (const double angle = (d.projections[a].direction() - d.projections[b].direction()).norm();
+                    angle < LooseMotionRule().sharp)
+                  turn[a] = std::max(turn[a], angle);
+        }
+      FacesAtContact result{mean_width(d), {}};
+      for (std::size_t row = 0; row < turn.size(); ++row)
+        if (!d.tied[row] && d.owns_row(row))
+          result.turn.push_back(turn[row]);
+      return result;
+    }
+
     /// What contact leaves loose: notes it, and takes out of a solution what nothing determines. Returns the
     /// motions along which it drifts.
     std::vector<std::vector<double>> settle_loose_motions(AlgebraicProblem                 &algebraic,
@@ -254,9 +278,10 @@ namespace Signorini
         return drifting;
       note_undetermined(loose, model, d, journal);
       warn_of_facets(model, d.free_motions(),
-                     !loose.hardly_held.empty() ? loose.slides_on_facets
-                                                : find_rotations_of_the_mesh(d.free_motions(), fields, spaces,
-                                                                             active, algebraic.v, width),
+                     !loose.hardly_held.empty()
+                         ? loose.slides_on_facets
+                         : find_motions_of_the_mesh(d.free_motions(), fields, spaces, active, algebraic.v,
+                                                    faces_at_contact(d)),
                      journal);
       if (!loose.undetermined.empty())
         minimize_displacement(

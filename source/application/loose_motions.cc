@@ -133,21 +133,28 @@ namespace Signorini
       return result;
     }
 
-    /// Collective. The largest normal part of a motion at an active node (its coefficients are pure numbers,
-    /// and so is this).
-    double largest_normal_part(const std::vector<double> &motion, const std::vector<Vector> &fields,
-                               const HalfSpaces &spaces, const std::vector<unsigned char> &active)
+    /// Collective. Whether the normal parts of a motion (its coefficients are pure numbers, and so are these)
+    /// at active nodes are no more than what they change by within a face.
+    /// @param turned what a rotation changes them by
+    bool would_be_unopposed_beside(const std::vector<double> &motion, const double turned,
+                                   const std::vector<Vector> &fields, const HalfSpaces &spaces,
+                                   const std::vector<unsigned char> &active, const FacesAtContact &faces)
     {
-      double largest = 0.;
+      bool is_opposed = false;
       for (std::size_t p = 0; p < spaces.size(); ++p)
         if (active[p])
           {
-            double part = 0.;
+            double  part = 0.;
+            Vector3 whole;
             for (std::size_t i = 0; i < fields.size(); ++i)
-              part += motion[i] * spaces.normal_part(p, fields[i]);
-            largest = std::max(largest, std::abs(part));
+              {
+                part += motion[i] * spaces.normal_part(p, fields[i]);
+                whole += motion[i] * nodal_value(fields[i], spaces.nodes[p]);
+              }
+            is_opposed = is_opposed || std::abs(part) > LooseMotionRule().offset *
+                                                            std::max(turned, faces.turn[p] * whole.norm());
           }
-      return Utilities::MPI::max(largest, fields[0].get_mpi_communicator());
+      return Utilities::MPI::max(static_cast<int>(is_opposed), fields[0].get_mpi_communicator()) == 0;
     }
 
     /// How far a solution slides along the span of some motions (length).
@@ -237,11 +244,11 @@ namespace Signorini
 
 
 
-  std::vector<std::vector<double>> find_rotations_of_the_mesh(const std::vector<FreeMotion>    &motions,
-                                                              const std::vector<Vector>        &fields,
-                                                              const HalfSpaces                 &spaces,
-                                                              const std::vector<unsigned char> &active,
-                                                              const Vector &v, const double width)
+  std::vector<std::vector<double>> find_motions_of_the_mesh(const std::vector<FreeMotion>    &motions,
+                                                            const std::vector<Vector>        &fields,
+                                                            const HalfSpaces                 &spaces,
+                                                            const std::vector<unsigned char> &active,
+                                                            const Vector &v, const FacesAtContact &faces)
   {
     constexpr LooseMotionRule                         rule;
     std::map<unsigned int, std::vector<Eigen::Index>> parts;
@@ -266,9 +273,9 @@ namespace Signorini
               }
             if (opposed > rule.next_to_nothing * whole.diagonal().maxCoeff() &&
                 opposed <= rule.slides * x.dot(whole * x) &&
-                largest_normal_part(motion, fields, spaces, active) <=
-                    rule.offset * width * rotation.norm() &&
-                slip_along({motion}, fields, spaces, v) > rule.slip * width)
+                would_be_unopposed_beside(motion, faces.width * rotation.norm(), fields, spaces, active,
+                                          faces) &&
+                slip_along({motion}, fields, spaces, v) > rule.slip * faces.width)
               result.push_back(motion);
           }
       }

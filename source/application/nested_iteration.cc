@@ -104,6 +104,7 @@ namespace Signorini
             space = std::make_shared<const ConstrainedSpace>(model, is_adaptive);
             check_free_parts(model, space->free_parts, parameters.solve.solver.method, journal);
             note_turning_faces(model, *space, journal);
+            check_probes(model, space->nodal(), parameters.probes);
             return true;
           }
         journal.show("refining");

@@ -16,36 +16,65 @@ namespace Signorini
 
   namespace
   {
-    /// The cell of this rank whose reference coordinates of a point stick out least, by how much, and the
-    /// displacement there.
-    struct ProbedCell
+    /// How far reference coordinates of a point may stick out of its cell.
+    struct ProbeRule
     {
-      double  outside = std::numeric_limits<double>::max();
-      Vector3 displacement;
+      /// On the mesh of the solution; on the first mesh, which may lie inside of a curved boundary.
+      double solved = .05, first = 1.;
     };
 
-    ProbedCell probe_cells(const Bodies &bodies, const Discretization &d, const Vector &displacement,
-                           const Probe &probe)
+    /// The cell of this rank whose reference coordinates of a point stick out least, by how much, and these.
+    struct ProbedCell
+    {
+      double                  outside = std::numeric_limits<double>::max();
+      const NodalSpace::Cell *cell    = nullptr;
+      Point<3>                reference;
+    };
+
+    ProbedCell find_cell(const Bodies &bodies, const NodalSpace &space, const Probe &probe)
     {
       ProbedCell best;
-      for (const NodalSpace::Cell &cell : d.nodal().cells())
+      for (const NodalSpace::Cell &cell : space.cells())
         if (cell.is_owned && bodies.body_of_material(cell.material) == probe.body)
           {
-            const Element element(d.nodal(), cell);
+            const Element element(space, cell);
             Point<3>      reference;
-            if (probe.point.distance(element.corner(0)) > 2. * element.diameter() ||
-                !element.invert_map(reference, probe.point) || element.outside(reference) >= best.outside)
-              continue;
-            best.outside      = element.outside(reference);
-            best.displacement = Vector3();
-            const auto values = element.shape_values(reference);
-            for (unsigned int v = 0; v < cell.n_vertices; ++v)
-              best.displacement +=
-                  values[v] * nodal_value(displacement, d.partition().to_local(d.nodal().nodes(cell)[v]));
+            if (probe.point.distance(element.corner(0)) <= 2. * element.diameter() &&
+                element.invert_map(reference, probe.point) && element.outside(reference) < best.outside)
+              best = {element.outside(reference), &cell, reference};
           }
       return best;
     }
+
+    Vector3 displacement_in(const ProbedCell &place, const Discretization &d, const Vector &displacement)
+    {
+      const auto values = Element(d.nodal(), *place.cell).shape_values(place.reference);
+      Vector3    result;
+      for (unsigned int v = 0; v < place.cell->n_vertices; ++v)
+        result +=
+            values[v] * nodal_value(displacement, d.partition().to_local(d.nodal().nodes(*place.cell)[v]));
+      return result;
+    }
+
+    /// Collective. The rank that has the best cell.
+    unsigned int refuse_outside(const ContactModel &model, const Probe &probe, const double outside,
+                                const double bound)
+    {
+      const auto nearest = Utilities::MPI::min_max_avg(outside, model.communicator());
+      if (!(nearest.min < bound))
+        throw InputError("Body " + model.bodies().body_name(probe.body) + "/Probes, \"" + probe.name +
+                         "\": the point lies outside of the body.");
+      return nearest.min_index;
+    }
   } // namespace
+
+
+
+  void check_probes(const ContactModel &model, const NodalSpace &space, const std::vector<Probe> &probes)
+  {
+    for (const Probe &probe : probes)
+      refuse_outside(model, probe, find_cell(model.bodies(), space, probe).outside, ProbeRule().first);
+  }
 
 
 
@@ -56,15 +85,11 @@ namespace Signorini
     std::vector<ProbeResult> results;
     for (const Probe &probe : probes)
       {
-        const std::string body    = model.bodies().body_name(probe.body);
-        const ProbedCell  best    = probe_cells(model.bodies(), d, solution.displacement, probe);
-        const auto        nearest = Utilities::MPI::min_max_avg(best.outside, comm);
-        if (!(nearest.min < .05))
-          throw InputError("Body " + body + "/Probes, \"" + probe.name +
-                           "\": the point lies outside of the body.");
-        const bool mine = Utilities::MPI::this_mpi_process(comm) == nearest.min_index;
-        results.push_back(
-            {body + ": " + probe.name, probe.point, sum(mine ? best.displacement : Vector3(), comm)});
+        const ProbedCell place = find_cell(model.bodies(), d.nodal(), probe);
+        const bool       mine  = Utilities::MPI::this_mpi_process(comm) ==
+                          refuse_outside(model, probe, place.outside, ProbeRule().solved);
+        results.push_back({model.bodies().body_name(probe.body) + ": " + probe.name, probe.point,
+                           sum(mine ? displacement_in(place, d, solution.displacement) : Vector3(), comm)});
       }
     return results;
   }

@@ -168,22 +168,29 @@ namespace Signorini
   void SafetyNet::take_over(Vector &v, const ObstacleProblem &problem, ContactState &contact,
                             ConvergenceReport &report, const ObstacleSolver::Monitor &monitor)
   {
-    SafetyNetReport &net = report.safety_net;
     if (!steps)
-      {
-        net.after         = report.iterations;
-        net.rate          = std::exp(-decay_of(report.history, net_rule.n_watched));
-        net.linear_solver = planes->is_exact() ? "sparse factors" : "conjugate gradients with the V-cycle";
-        steps             = std::make_unique<ActiveSetSolver>(hierarchy, parameters, level, *planes);
-      }
-    const bool ended = steps->go_on(v, contact.active(), problem, report, monitor);
+      steps = std::make_unique<ActiveSetSolver>(hierarchy, parameters, level, *planes);
+    SafetyNetReport   &net      = report.safety_net;
+    const unsigned int n_before = steps->n_steps(), after = report.iterations;
+    const double       rate  = std::exp(-decay_of(report.history, net_rule.n_watched));
+    const bool         ended = steps->go_on(v, contact.active(), problem, report, monitor);
     for (std::size_t p = 0; p < contact.size(); ++p)
       contact.set_active(p, steps->active()[p]);
+    has_failed = !ended;
+    n_failed += ended ? 0 : 1;
+    // Longer each time.
+    not_before  = report.iterations + (static_cast<unsigned int>(net_rule.n_watched) << n_failed);
+    n_conjugate = 0;
+    // Bodies that would fly away on the first set: nothing was done.
+    if (steps->n_steps() == n_before)
+      return;
+    if (net.after == 0)
+      {
+        net.after         = after;
+        net.rate          = rate;
+        net.linear_solver = planes->is_exact() ? "sparse factors" : "conjugate gradients with the V-cycle";
+      }
     net.n_steps = steps->n_steps();
     net.n_failed += ended ? 0 : 1;
-    has_failed = !ended;
-    // Longer each time.
-    not_before  = report.iterations + (static_cast<unsigned int>(net_rule.n_watched) << net.n_failed);
-    n_conjugate = 0;
   }
 } // namespace Signorini

@@ -396,5 +396,7 @@ def check_says(p):
                  'smallest distance of the true surfaces: 0.25'):
         found = re.sub(r'[-+0-9.]+e-1[5-9]', '0', run.stdout)
         check(line in found, f'--check does not say "{line}": {found}')
+    run = p.call('--check', PATCH_TEST, '--set', 'Body upper/Probes=far: (9, 9, 9)')
+    check(run.returncode == 1 and 'outside of the body' in run.stderr, f'--check, a probe: {run.stdout}{run.stderr}')
     run = p.call('--check', PATCH_TEST, '--set', 'Body upper/Dirichlet=')
     check('body upper: the constraints leave 6 rigid motion(s) free' in run.stdout, f'--check: {run.stdout}')

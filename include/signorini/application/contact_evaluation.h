@@ -68,6 +68,9 @@ namespace Signorini
   ContactEvaluation evaluate_contact(const ContactModel &model, const Discretization &discretization,
                                      const ContactSolution &solution);
 
+  /// Collective. On the first mesh. Errors: InputError for points far outside of their bodies.
+  void check_probes(const ContactModel &model, const NodalSpace &space, const std::vector<Probe> &probes);
+
   /// Collective. Errors: InputError for points outside of their bodies.
   std::vector<ProbeResult> evaluate_probes(const ContactModel &model, const Discretization &discretization,
                                            const ContactSolution &solution, const std::vector<Probe> &probes);

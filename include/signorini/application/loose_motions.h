@@ -25,6 +25,8 @@ namespace Signorini
     /// a V-block turns by 3 degrees until two rows of nodes are active, half a face to either side of where
     /// it would touch.
     double offset = 1.;
+    /// Distance of unit normals within a face from which on they are those of two sides of an edge.
+    double sharp = .6;
     /// The mean square of normal parts relative to that of the motion, both at active nodes, up to which it
     /// slides there: 0.04 in that V-block. A block that tilts about an edge does not.
     double slides = .1;
@@ -73,15 +75,25 @@ namespace Signorini
                                               const HalfSpaces &half_spaces, const LooseMotions &loose,
                                               const Vector &v, const double width);
 
-  /// Collective. Rotations of single parts along which a solution slides by more than a tenth of a face, and
+  /// The faces around the contact nodes of half-spaces.
+  struct FacesAtContact
+  {
+    /// In the mean (length).
+    double width;
+    /// By half-space, how much the normal changes within a face there (1): the distance of unit vectors; zero
+    /// at sharp edges.
+    std::vector<double> turn;
+  };
+
+  /// Collective. Motions of single parts along which a solution slides by more than a tenth of a face, and
   /// that nothing would oppose if the surfaces touched a little way from the active nodes: how the nodes lie
   /// there stops them.
-  /// @param active of the solution v; @param width of a face (length)
-  std::vector<std::vector<double>> find_rotations_of_the_mesh(const std::vector<FreeMotion>    &motions,
-                                                              const std::vector<Vector>        &fields,
-                                                              const HalfSpaces                 &half_spaces,
-                                                              const std::vector<unsigned char> &active,
-                                                              const Vector &v, const double width);
+  /// @param active of the solution v
+  std::vector<std::vector<double>> find_motions_of_the_mesh(const std::vector<FreeMotion>    &motions,
+                                                            const std::vector<Vector>        &fields,
+                                                            const HalfSpaces                 &half_spaces,
+                                                            const std::vector<unsigned char> &active,
+                                                            const Vector &v, const FacesAtContact &faces);
 
   /// Warns of motions that only facets oppose.
   void warn_of_facets(const ContactModel &model, const std::vector<FreeMotion> &motions,
