@@ -32,6 +32,17 @@ namespace Signorini
                "weighted: integrals of the gap with the dual functions, consistent with the weak "
                "condition. nodal: the gap at the nodes along their normals (with an obstacle, or a "
                "prescribed initial gap).");
+    prm.add_parameter(
+        "Initial gap", initial_gap,
+        "geometry, or an expression in x, y, z (length) evaluated on the nonmortar surface, for "
+        "crowned surfaces that are meshed flat.");
+    add_treatment(prm);
+  }
+
+
+
+  void PairParameters::add_treatment(ParameterHandler &prm)
+  {
     add_choice(
         prm, "Nonmortar", nonmortar,
         {{NonmortarChoice::automatic, "auto"},
@@ -42,10 +53,6 @@ namespace Signorini
         "at the surface, then the finer mesh): with the stiffer one the solver needs many times more "
         "iterations; it takes the other one where this one could carry no contact stress (nodes of another "
         "pair, prescribed displacements).");
-    prm.add_parameter(
-        "Initial gap", initial_gap,
-        "geometry, or an expression in x, y, z (length) evaluated on the nonmortar surface, for "
-        "crowned surfaces that are meshed flat.");
     add_choice(
         prm, "Surface", surface,
         {{SurfaceKind::automatic, "automatic"},
@@ -74,16 +81,20 @@ namespace Signorini
 
   namespace
   {
-    /// From "body: boundary" and an expression.
-    PairSide parse_side(const std::string &text, const std::string &region, const std::string &where)
+    /// From "body: boundary".
+    PairSide parse_side(const std::string &text, const std::string &where)
     {
       const std::size_t colon = text.find(':');
       if (colon == std::string::npos)
         throw InputError(where + ": \"" + text + "\" should read \"body: boundary\".");
-      PairSide side{Utilities::trim(text.substr(0, colon)), Utilities::trim(text.substr(colon + 1)), {}};
-      if (!Utilities::trim(region).empty())
-        side.region = Expression(region, where + " region");
-      return side;
+      return {Utilities::trim(text.substr(0, colon)), Utilities::trim(text.substr(colon + 1)), {}};
+    }
+
+    void set_region(PairSide &side, const std::string &text, const std::string &where)
+    {
+      refuse_time(text, where);
+      if (!Utilities::trim(text).empty())
+        side.region = Expression(text, where);
     }
   } // namespace
 
@@ -94,28 +105,35 @@ namespace Signorini
     const std::string section = "Pair " + name + "/";
     PairDefinition    pair;
     for (const auto &[text, parameter] :
-         {std::pair(obstacle, "Obstacle"), std::pair(initial_gap, "Initial gap"),
-          std::pair(first_region, "First region"), std::pair(second_region, "Second region")})
+         {std::pair(obstacle, "Obstacle"), std::pair(initial_gap, "Initial gap")})
       refuse_time(text, section + parameter);
     pair.name  = name;
-    pair.first = parse_side(first, first_region, section + "First");
+    pair.first = parse_side(first, section + "First");
     if (!Utilities::trim(obstacle).empty())
       {
         pair.obstacle = RigidObstacle::parse(obstacle, section + "Obstacle");
-        // They make no sense, which is said where the pair is looked for.
+        // It makes no sense, nor does a region of it, which is said where the pair is looked for.
         pair.second.body = Utilities::trim(second);
-        if (!Utilities::trim(second_region).empty())
-          pair.second.region = Expression(second_region, section + "Second region");
       }
     else
-      pair.second = parse_side(second, second_region, section + "Second");
+      pair.second = parse_side(second, section + "Second");
     if (Utilities::trim(initial_gap) != "geometry")
       pair.prescribed_gap = Expression(initial_gap, section + "Initial gap");
-    pair.contact     = contact;
-    pair.gap         = gap;
+    pair.contact = contact;
+    pair.gap     = gap;
+    treat(pair);
+    return pair;
+  }
+
+
+
+  void PairParameters::treat(PairDefinition &pair) const
+  {
+    const std::string section = "Pair " + name + "/";
+    set_region(pair.first, first_region, section + "First region");
+    set_region(pair.second, second_region, section + "Second region");
     pair.nonmortar   = nonmortar;
     pair.surface     = surface;
     pair.penetration = penetration;
-    return pair;
   }
 } // namespace Signorini

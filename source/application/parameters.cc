@@ -295,8 +295,12 @@ namespace Signorini
     prm.add_parameter("Ignore", deck_ignore,
                       "Keywords, separated by commas, that are passed over although they change the result.");
     prm.leave_subsection();
-    for (const std::string &text : overrides)
-      apply_override(prm, text, false);
+    const auto apply = [&](const bool to_pairs) {
+      for (const std::string &text : overrides)
+        if ((text.compare(0, 5, "Pair ") == 0) == to_pairs)
+          apply_override(prm, text, false);
+    };
+    apply(false);
     DeckOptions options;
     options.strict = deck_strict;
     for (const std::string &name : Utilities::split_string_list(deck_ignore, ','))
@@ -305,6 +309,28 @@ namespace Signorini
     const DeckModel model(file, options);
     deck_problem    = std::make_unique<DeckProblem>(make_deck_problem(model));
     top_level.title = model.title();
+    declare_pairs_of_deck();
+    apply(true);
+    for (std::size_t p = 0; p < pairs.size(); ++p)
+      pairs[p].treat(deck_problem->problem.pairs[p]);
+  }
+
+
+
+  void ParameterFile::declare_pairs_of_deck()
+  {
+    pairs.resize(deck_problem->problem.pairs.size());
+    for (std::size_t p = 0; p < pairs.size(); ++p)
+      {
+        const PairDefinition &pair = deck_problem->problem.pairs[p];
+        pairs[p].name              = pair.name;
+        pairs[p].nonmortar         = pair.nonmortar;
+        pairs[p].surface           = pair.surface;
+        pairs[p].penetration       = pair.penetration;
+        prm.enter_subsection("Pair " + pair.name);
+        pairs[p].add_treatment(prm);
+        prm.leave_subsection();
+      }
   }
 
 

@@ -233,6 +233,16 @@ def deck_refined(d):
                 check(max(abs(a - b) for a, b in zip(nodes[label], x)) < 1e-5, f'node {label}')
         for label, x in nodes.items():
             check(abs(fields['DISP'][label][2] + .005 * (x[2] + 1)) < 1e-7, f'node {label}: {fields["DISP"][label]}')
+    # How a pair is treated is nothing that decks can say.
+    text = two_blocks('C3D8', (2, 2, 2), (3, 3, 2))[0]
+    first = d.solve(text)[0]
+    pair = first['pairs'][0]
+    sides = {}
+    for side in ('first', 'second'):
+        s = d.solve(text, '--set', f'Pair {pair["name"]}/Nonmortar={side}')[0]
+        sides[side] = s['pairs'][0]['nonmortar']
+        near(s['pairs'][0]['load'], pair['load'], 1e-8, f'{side}: force')
+    check(sorted(sides.values()) == sorted([pair['nonmortar'], pair['mortar']]), f'{sides}')
     # An edge that is held, and forces at corners.
     text, upper, lower = two_blocks('C3D8', (1, 1, 1), (2, 2, 2), None)
     corners = ''.join(f'{n}, 3, -1.\n' for n in upper.plane(2, 1))

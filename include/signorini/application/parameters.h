@@ -39,8 +39,14 @@ namespace Signorini
     /// Declares the parameters in the current subsection.
     void add_parameters(dealii::ParameterHandler &prm);
 
+    /// Of these, those that say how a pair is treated which something else defines.
+    void add_treatment(dealii::ParameterHandler &prm);
+
     /// Errors: InputError for texts that cannot be understood.
     PairDefinition definition() const;
+
+    /// Sets what add_treatment() declares. Errors: as above.
+    void treat(PairDefinition &pair) const;
   };
 
   /// What is written, and what is said meanwhile.
@@ -168,6 +174,7 @@ namespace Signorini
     /// Parameters from lines of a file.
     void read(const std::string &text, const std::vector<std::string> &overrides);
     void read_deck(const std::vector<std::string> &overrides);
+    void declare_pairs_of_deck();
 
     std::string                  file, base_folder;
     std::unique_ptr<DeckProblem> deck_problem;
