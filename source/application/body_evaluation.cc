@@ -253,16 +253,16 @@ namespace Signorini
       return result;
     }
 
-    /// How many of the triangles around its vertex each slip crosses: its length over their extent along it.
+    /// How many of the faces around its vertex each slip crosses: its length over their extent along it.
     /// Slabs of one layer are far longer in the direction in which nothing slides.
-    std::vector<double> slips_in_faces(const SurfaceMesh &mesh, const std::vector<Vector3> &slip)
+    std::vector<double> slips_in_faces(const ContactSurface &surface, const std::vector<Vector3> &slip)
     {
+      const auto         &x = surface.mesh.vertices;
       std::vector<double> extent(slip.size(), 0.), result(slip.size(), 0.);
-      for (const auto &t : mesh.triangles)
-        for (unsigned int i = 0; i < 3; ++i)
-          for (unsigned int j = 0; j < 3; ++j)
-            extent[t[i]] =
-                std::max(extent[t[i]], std::abs(slip[t[i]] * (mesh.vertices[t[j]] - mesh.vertices[t[i]])));
+      for (const ContactSurface::Face &face : surface.faces)
+        for (const unsigned int v : face.corners)
+          for (const unsigned int other : face.corners)
+            extent[v] = std::max(extent[v], std::abs(slip[v] * (x[other] - x[v])));
       for (std::size_t v = 0; v < slip.size(); ++v)
         if (extent[v] > 0.)
           result[v] = slip[v].norm_square() / extent[v];
@@ -291,7 +291,7 @@ namespace Signorini
           slip[v]          = jump - (jump * n) * n;
           result.length    = std::max(result.length, slip[v].norm());
         }
-    for (const double in_faces : slips_in_faces(non.mesh, slip))
+    for (const double in_faces : slips_in_faces(non, slip))
       result.in_faces = std::max(result.in_faces, in_faces);
     const MPI_Comm comm = d.nodal().communicator();
     return {Utilities::MPI::max(result.length, comm), Utilities::MPI::max(result.in_faces, comm)};
