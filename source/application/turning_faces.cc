@@ -74,8 +74,10 @@ namespace Signorini
       std::vector<Ending> result;
       for (const Ending &ending : gather_lists(std::move(mine), space.communicator(), Receivers::all))
         add(result, ending);
-      std::sort(result.begin(), result.end(),
-                [](const Ending &a, const Ending &b) { return a.face < b.face; });
+      // In an order that no rank changes.
+      std::sort(result.begin(), result.end(), [](const Ending &one, const Ending &other) {
+        return text_of_normal(one.normal) < text_of_normal(other.normal);
+      });
       return result;
     }
 
@@ -107,7 +109,8 @@ namespace Signorini
           return normals.size() > 1 ? m.rotation.norm() > TurningRule().same
                                           : cross_product_3d(m.rotation, normals[0]).norm() > TurningRule().same;
         });
-        if (!turns)
+        // Guided along a curved boundary.
+        if (!turns || normals.size() > dim)
           continue;
         std::string text;
         for (const Vector3 &normal : normals)
@@ -117,7 +120,7 @@ namespace Signorini
                      ", in which the body slides, and may turn about its edge there. If that is a plane of "
                      "symmetry, the whole would not: add " +
                      (normals.size() > 1 ? "\"rotation (0, 0, 0)\"" : advice(normals[0])) +
-                     " to Rigid (in a deck: hold its reference node).");
+                     " to Rigid (in a deck: hold these rotations of its reference node).");
       }
   }
 } // namespace Signorini

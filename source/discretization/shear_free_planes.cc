@@ -41,7 +41,8 @@ namespace Signorini
     , fixed(fixed)
     , partition(space.owned(), space.relevant(), space.communicator())
   {
-    partition.reinit(votes);
+    for (Vector &v : votes)
+      partition.reinit(v);
     std::set<types::boundary_id> loaded;
     for (const Traction &traction : loads.tractions)
       loaded.insert(traction.ids.begin(), traction.ids.end());
@@ -53,8 +54,11 @@ namespace Signorini
           if (is_one(conditions.held.project_free(conditions.normal), Vector3()))
             add(face, conditions, loaded.count(face.id) > 0);
         }
-    votes.compress(VectorOperation::add);
-    votes.update_ghost_values();
+    for (Vector &v : votes)
+      {
+        v.compress(VectorOperation::add);
+        v.update_ghost_values();
+      }
   }
 
 
@@ -93,13 +97,14 @@ namespace Signorini
         const auto         basis = directions(node);
         const unsigned int i     = dim * partition.to_local(node);
         for (unsigned int s = 0; s < shears.size(); ++s)
-          for (const bool turned : {false, true})
+          for (const unsigned int turned : {0, 1})
             {
-              const Vector3 &across = basis[shears[s][turned]], &along = basis[shears[s][!turned]];
+              const Vector3 &across = basis[shears[s][turned]], &along = basis[shears[s][1 - turned]];
               if (is_one(across, conditions.normal) || is_one(across, -conditions.normal))
-                votes.local_element(i + s) += !is_loaded && is_one(conditions.held.project_free(along), along)
-                                                  ? 1.
-                                                  : ShearFreeRule().against;
+                votes[turned].local_element(i + s) +=
+                    !is_loaded && is_one(conditions.held.project_free(along), along)
+                        ? 1.
+                        : ShearFreeRule().against;
             }
       }
   }
@@ -111,7 +116,7 @@ namespace Signorini
     const unsigned int i      = dim * partition.to_local(node);
     Block              result = stress;
     for (unsigned int s = 0; s < shears.size(); ++s)
-      if (votes.local_element(i + s) > 0.)
+      if (votes[0].local_element(i + s) > 0. || votes[1].local_element(i + s) > 0.)
         {
           const auto     basis = directions(node);
           const Vector3 &a = basis[shears[s][0]], &b = basis[shears[s][1]];

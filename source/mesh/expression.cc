@@ -152,7 +152,7 @@ namespace Signorini
     if (has_word(text, {"t"}))
       throw InputError(where + ": " + in_quotes(text) +
                        " depends on the pseudo-time t, but obstacles, regions and gaps stay as they are. "
-                       "Let the body move instead: Dirichlet and Rigid may depend on t.");
+                       "Displacements and loads may depend on t.");
   }
 
 

@@ -36,6 +36,21 @@ namespace Signorini
         return FixedDirections::span(result);
       }
 
+      /// Whether border edges along which the direction n is prescribed meet at a vertex, all in the plane
+      /// across n.
+      bool ends_at_plane(const unsigned int vertex, const Vector3 &n) const
+      {
+        bool any = false, all = true;
+        for_border_edges(vertex, [&](const unsigned int a, const unsigned int b) {
+          if (!fixed[a].contains(n) || !fixed[b].contains(n))
+            return;
+          const Vector3 way = mesh.vertices[b] - mesh.vertices[a];
+          all               = all && std::abs(way * n) <= rule.planarity * way.norm();
+          any               = true;
+        });
+        return any && all;
+      }
+
     private:
       /// Calls f with both ends of all border edges at a vertex.
       template <typename F>
@@ -62,21 +77,6 @@ namespace Signorini
             result.push_back(other[0]);
         });
         return result;
-      }
-
-      /// Whether border edges along which the direction n is prescribed meet at a vertex, all in the plane
-      /// across n.
-      bool ends_at_plane(const unsigned int vertex, const Vector3 &n) const
-      {
-        bool any = false, all = true;
-        for_border_edges(vertex, [&](const unsigned int a, const unsigned int b) {
-          if (!fixed[a].contains(n) || !fixed[b].contains(n))
-            return;
-          const Vector3 way = mesh.vertices[b] - mesh.vertices[a];
-          all               = all && std::abs(way * n) <= rule.planarity * way.norm();
-          any               = true;
-        });
-        return any && all;
       }
 
       /// Whether the facets around a vertex and those around their corners differ along n by as much as the
@@ -120,17 +120,28 @@ namespace Signorini
 
 
 
+  namespace
+  {
+    /// What is prescribed at the vertices; at hanging ones what is at all of their parents.
+    std::vector<FixedDirections> fixed_of_vertices(const ContactSurface &surface)
+    {
+      std::vector<FixedDirections> fixed = surface.vertex_fixed;
+      for (std::size_t v = 0; v < fixed.size(); ++v)
+        if (!surface.hanging[v].empty())
+          {
+            fixed[v] = all_fixed;
+            for (const auto &parent : surface.hanging[v])
+              fixed[v] = fixed[v].common(surface.vertex_fixed[parent.first]);
+          }
+      return fixed;
+    }
+  } // namespace
+
+
+
   void project_onto_symmetry_planes(ContactSurface &surface, const SymmetryPlaneRule &rule)
   {
-    // Prescribed components of hanging vertices are those of all of their parents.
-    std::vector<FixedDirections> fixed = surface.vertex_fixed;
-    for (std::size_t v = 0; v < fixed.size(); ++v)
-      if (!surface.hanging[v].empty())
-        {
-          fixed[v] = all_fixed;
-          for (const auto &parent : surface.hanging[v])
-            fixed[v] = fixed[v].common(surface.vertex_fixed[parent.first]);
-        }
+    const std::vector<FixedDirections> fixed = fixed_of_vertices(surface);
     // Vertices without any free component carry no multiplier.
     const auto is_partly_fixed = [](const FixedDirections &f) { return f.any() && !f.all(); };
     if (std::none_of(fixed.begin(), fixed.end(), is_partly_fixed))
@@ -179,22 +190,26 @@ namespace Signorini
           f(v, fixed);
     }
 
-    /// Collective. Directions across the normals that are prescribed at some of the vertices. Where that is
-    /// two directions, one of them is that of a plane which meets others alone, or both are axes.
+    /// Collective. Directions across the normals that are prescribed at some of the vertices, at the ends of
+    /// border edges in a plane across them (single nodes may be held anywhere). Where that is two directions,
+    /// one of them is that of a plane which meets others alone, or both are axes.
     std::vector<Vector3> guided_directions(const ContactSurface &surface, const std::vector<bool> &is_part,
                                            const MPI_Comm communicator, const SymmetryPlaneRule &rule)
     {
-      std::vector<Vector3> result;
-      const auto           add = [&](const Vector3 &direction) {
+      const std::vector<FixedDirections> all_fixed_directions = fixed_of_vertices(surface);
+      const SymmetryPlanes               planes(surface, all_fixed_directions, rule);
+      std::vector<Vector3>               result;
+      const auto                         add = [&](const Vector3 &direction) {
         if (std::all_of(result.begin(), result.end(),
-                                  [&](const Vector3 &other) { return std::abs(direction * other) < rule.same; }))
+                                                [&](const Vector3 &other) { return std::abs(direction * other) < rule.same; }))
           result.push_back(direction);
       };
       const auto add_of_all_ranks = [&](const std::size_t n_directions, const auto &directions) {
         for_guided_vertices(surface, is_part, [&](const std::size_t v, const FixedDirections &fixed) {
           if (const std::vector<Vector3> basis = fixed.basis(); basis.size() == n_directions)
             for (const Vector3 &direction : directions(fixed, basis))
-              if (std::abs(direction * surface.mesh.vertex_normals[v]) <= rule.across)
+              if (std::abs(direction * surface.mesh.vertex_normals[v]) <= rule.across &&
+                  planes.ends_at_plane(static_cast<unsigned int>(v), direction))
                 add(direction);
         });
         const auto of_ranks = Utilities::MPI::all_gather(communicator, result);

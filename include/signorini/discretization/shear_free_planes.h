@@ -38,9 +38,10 @@ namespace Signorini
     const NodalSpace                   &space;
     const std::vector<FixedDirections> &fixed;
     const NodePartition                 partition;
-    /// By node, for its directions 0 and 1, 1 and 2, 2 and 0: how many faces say that there is no shear
-    /// between these; far below zero where one says that there may be.
-    Vector votes;
+    /// By node, for its directions 0 and 1, 1 and 2, 2 and 0: how many faces across the first, and across the
+    /// second of them, say that there is no shear between these; far below zero where one says that there may
+    /// be. One of the two planes is enough.
+    std::array<Vector, 2> votes;
   };
 } // namespace Signorini
 

@@ -326,4 +326,6 @@ TEST(NodalStress, ShearOfASideThatIsHeldOrLoaded)
   EXPECT_EQ(shear("left: (0, 0, *)", "", {3}), xy);
   EXPECT_EQ(shear("left: (0, 0, *)", "", {5}), 0.);
   EXPECT_EQ(shear("left: (0, *, *)", "left: (0, 1, 0)", {3}), xy);
+  // Where a clamped side begins the plane of symmetry is still one.
+  EXPECT_EQ(shear("left: (0, *, *); bottom: (0, 0, 0)", "", {3, 5}), 0.);
 }

@@ -168,6 +168,10 @@ TEST(SymmetryPlanes, OfAPartOfASurface)
       turned.vertex_fixed[v] = FixedDirections::span(directions);
     }
   EXPECT_EQ(count(turned, everywhere), 2u);
+  // A node inside that is held.
+  ContactSurface held      = make_surface(-1., 5, cylinder);
+  held.vertex_fixed[6 + 2] = 1;
+  EXPECT_EQ(count(held, everywhere), 0u);
   ContactSurface plane_strain = make_surface(0., 5, cylinder);
   for (FixedDirections &fixed : plane_strain.vertex_fixed)
     fixed = fixed.components() | 2;
