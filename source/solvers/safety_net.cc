@@ -177,9 +177,9 @@ namespace Signorini
     for (std::size_t p = 0; p < contact.size(); ++p)
       contact.set_active(p, steps->active()[p]);
     has_failed = !ended;
-    n_failed += ended ? 0 : 1;
+    n_given_back += ended ? 0 : 1;
     // Longer each time.
-    not_before  = report.iterations + (static_cast<unsigned int>(net_rule.n_watched) << n_failed);
+    not_before  = report.iterations + (static_cast<unsigned int>(net_rule.n_watched) << n_given_back);
     n_conjugate = 0;
     // Bodies that would fly away on the first set: nothing was done.
     if (steps->n_steps() == n_before)

@@ -37,8 +37,9 @@ namespace Signorini
   void project_onto_symmetry_planes(ContactSurface &surface, const SymmetryPlaneRule &rule = {});
 
   /// Collective. How many planes of symmetry, at right angles to each other, a part of a surface is cut off
-  /// by: directions across its normals that are prescribed at some of its vertices, all of which lie in one
-  /// plane. (In plane strain they lie in two.)
+  /// by: directions across its normals that are prescribed at some of its vertices, ends of border edges in
+  /// the plane across them; all vertices where they are prescribed lie in one plane. (In plane strain they
+  /// lie in two.)
   /// @param is_part by vertex
   unsigned int count_symmetry_planes(const ContactSurface &surface, const std::vector<bool> &is_part,
                                      const MPI_Comm communicator, const SymmetryPlaneRule &rule = {});

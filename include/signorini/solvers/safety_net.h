@@ -78,8 +78,8 @@ namespace Signorini
     std::unique_ptr<ActiveSetSolver> steps;
     /// Steps of conjugate gradients in a row; the iteration before which the rate is not looked at (again).
     unsigned int n_conjugate = 0, not_before = 0;
-    /// How often active-set steps did not end.
-    unsigned int n_failed = 0;
+    /// How often active-set steps did not end, or could not begin.
+    unsigned int n_given_back = 0;
     /// Whether active-set steps did not end since the smoothers were as they are.
     bool has_failed = false;
   };
