@@ -31,6 +31,10 @@ namespace Signorini
       /// What there is of a motion of the size of 1 that should be zero: 1e-16 of matching surfaces of a
       /// body.
       double rounding = 1e-12;
+      /// How far nodes that touch may be apart in a start from a coarser mesh, relative to the largest
+      /// displacement there, and to the largest coordinate: rounding of the former (1e-14 of a block of which
+      /// every second node of a side had a gap), and of the latter.
+      double touching = 1e-8, touching_by_coordinates = 1e-14;
     };
 
     /// By motion: whether contact of any pair may oppose it, with an obstacle or with what does not move
@@ -242,6 +246,23 @@ namespace Signorini
 
 
 
+  namespace
+  {
+    /// Collective. Gaps of a start that are none (length).
+    double rounding_of_gaps(const Vector &v, const RigidProblem &rigid, const Discretization &d)
+    {
+      const FreedomRule rule;
+      double            result = 0.;
+      for (std::size_t p = 0; p < rigid.own.size(); ++p)
+        result = std::max(
+            {result, rule.touching * nodal_value(v, rigid.nodes[p]).norm(),
+             rule.touching_by_coordinates * d.nodal().position(d.coupling.rows[rigid.own[p]]).norm()});
+      return Utilities::MPI::max(result, d.nodal().communicator());
+    }
+  } // namespace
+
+
+
   std::vector<double> settle_free_parts(Vector &v, const ContactModel &model, const Discretization &d,
                                         const NodePartition &unknowns, const ObstacleProblem &problem)
   {
@@ -250,11 +271,12 @@ namespace Signorini
     std::vector<double> bounds = select_values(d.transformation->reduce_gaps(d.gaps), rigid.own);
     std::vector<double> rows   = rigid.rows;
     // What touches may hold the bodies where they are.
+    const double        rounding = rounding_of_gaps(v, rigid, d);
     std::vector<double> touching_rows, touching_gaps;
     for (std::size_t p = 0; p < rigid.own.size(); ++p)
       {
         bounds[p] -= rigid.directions[p] * nodal_value(v, rigid.nodes[p]);
-        if (bounds[p] > 0.)
+        if (bounds[p] > rounding)
           continue;
         touching_gaps.push_back(bounds[p]);
         touching_rows.insert(touching_rows.end(), rows.begin() + n * p, rows.begin() + n * (p + 1));

@@ -350,6 +350,61 @@ def stack_in_a_corner(p):
         check(s['bodies'][2]['largest_displacement'] > .1 and not any('facets' in note for note in s['notes']), f'{s["notes"]}')
 
 
+def rocker(length, young):
+    """A half cylinder that a force and a moment press on a block on a plane; lengths and stresses in other units."""
+    force, moment = young * length ** 2, .05 * young * length ** 3
+    return f'''
+set Bodies        = cylinder, block
+set Contact pairs = line, floor
+subsection Body cylinder
+  set Mesh           = half cylinder
+  set Radius         = {length}
+  set Height         = {2 * length}
+  set Rotation axis  = 1, 0, 0
+  set Rotation angle = 90
+  set Translation    = 0, {length}, {length}
+  set Young modulus  = {210 * young}
+  set Initial levels = 1
+  set Rigid          = flat: force (0, 0, {-force}), moment (0, {moment}, 0)
+end
+subsection Body block
+  set Lower corner   = {-2 * length}, {-2 * length}, {-2 * length}
+  set Upper corner   = {2 * length}, {2 * length}, 0
+  set Divisions      = 6, 6, 3
+  set Young modulus  = {70 * young}
+  set Poisson ratio  = 0.45
+  set Initial levels = 1
+end
+subsection Pair line
+  set First  = cylinder: outer
+  set Second = block: top
+end
+subsection Pair floor
+  set First    = block: bottom
+  set Obstacle = plane: (0, 0, {-2 * length}), (0, 0, 1)
+end
+subsection Refinement
+  set Adaptive cycles = 2
+end
+'''
+
+
+def rocker_in_units(p):
+    """What touches in a start from a coarser mesh does so up to rounding: it holds the bodies in any units, on any number of ranks."""
+    with tempfile.TemporaryDirectory() as folder:
+        cycles = []
+        for length, young in ((1, 1), (1e6, 1e6), (1e-6, 1e11)):
+            path = os.path.join(folder, 'rocker.prm')
+            with open(path, 'w') as f:
+                f.write(rocker(length, young))
+            s = p.solve(path)
+            near(s['pairs'][0]['force_on_mortar'][2], -s['pairs'][0]['force'][2], 1e-9, 'balance')
+            cycles.append([(c['nonlinear']['iterations'], c['active_nodes'], 'safety_net' in c['nonlinear']) for c in s['cycles']])
+            # The moment tilts the cylinder: without a start its solution takes 10 iterations more, and the safety net.
+            check(all(later[0] < cycles[-1][0][0] for later in cycles[-1][1:]), f'{cycles[-1]}')
+        check(all(one == cycles[0] for one in cycles), f'other units, other iterations: {cycles}')
+
+
 def tied_groups(p):
     """Bodies that are glued together, and that only contact holds, as one."""
     with tempfile.TemporaryDirectory() as folder:
