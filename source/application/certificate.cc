@@ -208,7 +208,7 @@ namespace Signorini
       const std::string     name = "pair " + pair.name + ": ";
       if (!(pair.approach > 0.) || scales.is_idle(pair))
         {
-          if (pair.missed_penetration > rule.geometric_penetration * scales.approach)
+          if (pair.missed_penetration > rule.missed_penetration * scales.approach)
             c.objections.push_back(
                 name + "the true surfaces penetrate by " + text_of(pair.missed_penetration) + " at " +
                 place_text(pair.min_gap_at) +

@@ -221,11 +221,23 @@ namespace Signorini
       if (pair.is_tied || pair.prescribed_gap || coupling.n_rows_of_all == 0 ||
           !(result.max_penetration > 0.) || result.approach > rule.idle * result.max_penetration)
         return 0.;
-      const double      width   = std::sqrt(coupling.area / static_cast<double>(coupling.n_rows_of_all));
-      const auto       &surface = pair.nonmortar.surface;
-      std::vector<bool> is_near;
-      for (const Point<3> &x : surface.mesh.vertices)
-        is_near.push_back(x.distance(result.min_gap_at) <= 2. * width);
+      const double width   = std::sqrt(coupling.area / static_cast<double>(coupling.n_rows_of_all));
+      const auto  &surface = pair.nonmortar.surface;
+      // What is known of the faces around that place; meshes are graded.
+      std::vector<bool> is_near(surface.mesh.vertices.size(), false);
+      for (const ContactSurface::Face &face : surface.faces)
+        {
+          double diameter = 0., distance = std::numeric_limits<double>::max();
+          for (const unsigned int v : face.corners)
+            {
+              distance = std::min(distance, surface.mesh.vertices[v].distance(result.min_gap_at));
+              for (const unsigned int w : face.corners)
+                diameter = std::max(diameter, surface.mesh.vertices[v].distance(surface.mesh.vertices[w]));
+            }
+          if (distance <= diameter)
+            for (const unsigned int v : face.corners)
+              is_near[v] = true;
+        }
       const double missed = result.max_penetration - doubt_of_gap(pair, is_near, comm);
       return missed > rule.rounding * width ? missed : 0.;
     }

@@ -125,19 +125,11 @@ namespace Signorini
 
   namespace
   {
-    Tensor<1, 3> normal_of(const SurfaceMesh &mesh, const unsigned int triangle)
-    {
-      const auto &[a, b, c] = mesh.triangles[triangle];
-      const Tensor<1, 3> n =
-          cross_product_3d(mesh.vertices[b] - mesh.vertices[a], mesh.vertices[c] - mesh.vertices[a]);
-      return n.norm() > 0. ? n / n.norm() : n;
-    }
-
     /// By triangle the smallest one that can be reached without crossing a crease or leaving the part.
-    std::vector<unsigned int> between_creases_of(const SurfaceMesh               &mesh,
+    std::vector<unsigned int> between_creases_of(const SmoothSurface             &surface,
                                                  const std::vector<unsigned int> &part)
     {
-      const double          cosine = std::cos(SmoothingRule().crease_angle * numbers::PI / 180.);
+      const SurfaceMesh    &mesh = surface.mesh();
       const SurfaceTopology topology(mesh.triangles, mesh.vertices.size());
       std::vector<bool>     is_in_part(mesh.triangles.size(), false);
       for (const unsigned int t : part)
@@ -145,8 +137,7 @@ namespace Signorini
       DisjointSets sets(mesh.triangles.size());
       for (unsigned int e = 0; e < topology.edges.size(); ++e)
         if (const auto &[s, t] = topology.edge_triangles[e];
-            !topology.is_border(e) && is_in_part[s] && is_in_part[t] &&
-            normal_of(mesh, s) * normal_of(mesh, t) >= cosine)
+            !topology.is_border(e) && is_in_part[s] && is_in_part[t] && !surface.creases()[e])
           sets.unite(s, t);
       std::vector<unsigned int> result;
       for (unsigned int t = 0; t < mesh.triangles.size(); ++t)
@@ -160,7 +151,7 @@ namespace Signorini
   void SmoothShape::divide()
   {
     const SurfaceMesh                                &mesh  = surface->mesh();
-    const std::vector<unsigned int>                   first = between_creases_of(mesh, part);
+    const std::vector<unsigned int>                   first = between_creases_of(*surface, part);
     std::map<unsigned int, std::vector<unsigned int>> triangles;
     for (const unsigned int t : part)
       triangles[first[t]].push_back(t);

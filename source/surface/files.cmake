@@ -2,6 +2,7 @@ signorini_add_layer(surface
   box_tree.cc
   common_polygon.cc
   contact_mapping.cc
+  crease_edges.cc
   incidence.cc
   mapping_quality.cc
   normal_projection.cc

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/surface/crease_edges.h>
 #include <signorini/surface/smooth_surface.h>
 
 #include <deal.II/base/numbers.h>
@@ -229,7 +230,8 @@ namespace Signorini
         , rule(rule)
         , topology(mesh.triangles, mesh.vertices.size())
         , normals(mesh.triangles.size())
-        , is_cut(topology.edges.size())
+        , is_crease(find_creases(mesh, topology))
+        , is_cut(is_crease)
         , is_flat(mesh.triangles.size(), false)
       {
         for (unsigned int t = 0; t < mesh.triangles.size(); ++t)
@@ -240,11 +242,13 @@ namespace Signorini
             if (const double length = normals[t].norm(); length > 0.)
               normals[t] /= length;
           }
-        const double cosine = std::cos(rule.crease_angle * numbers::PI / 180.);
         for (unsigned int e = 0; e < topology.edges.size(); ++e)
-          is_cut[e] =
-              topology.is_border(e) ||
-              normals[topology.edge_triangles[e][0]] * normals[topology.edge_triangles[e][1]] < cosine;
+          is_cut[e] = is_cut[e] || topology.is_border(e);
+      }
+
+      const std::vector<bool> &creases() const
+      {
+        return is_crease;
       }
 
       void make(std::vector<SmoothSurface::Patch> &patches, const std::vector<bool> &wanted)
@@ -405,6 +409,7 @@ namespace Signorini
       const SmoothingRule      &rule;
       const SurfaceTopology     topology;
       std::vector<Tensor<1, 3>> normals;
+      const std::vector<bool>   is_crease;
       /// Edges that separate smooth pieces; triangles of flat parts.
       std::vector<bool> is_cut, is_flat;
     };
@@ -415,7 +420,9 @@ namespace Signorini
   SmoothSurface::SmoothSurface(SurfaceMesh mesh, const std::vector<bool> &wanted, const SmoothingRule &rule)
     : surface(std::move(mesh))
   {
-    PatchMaker(surface, rule).make(patches, wanted);
+    PatchMaker maker(surface, rule);
+    maker.make(patches, wanted);
+    is_crease = maker.creases();
   }
 
 

@@ -13,9 +13,6 @@ namespace Signorini
   /// When a triangulated surface is taken for a smooth one.
   struct SmoothingRule
   {
-    /// Edges whose triangles meet at a larger angle (degrees) are creases. A circle of twelve edges has 30,
-    /// chamfers have 45.
-    double crease_angle = 40.;
     /// What the quadratic surfaces at the corners of a triangle may leave over, relative to the heights of
     /// the neighbours (root mean squares), for the triangle to count as a piece of a smooth surface; and the
     /// disagreement of the estimates of a height, relative to the height that the largest curvature there
@@ -67,6 +64,12 @@ namespace Signorini
       return surface;
     }
 
+    /// By edge of the topology of the facets (find_creases()).
+    const std::vector<bool> &creases() const
+    {
+      return is_crease;
+    }
+
     /// The patch over a triangle that was wanted.
     const Patch &patch(const unsigned int triangle) const
     {
@@ -80,6 +83,7 @@ namespace Signorini
   private:
     SurfaceMesh        surface;
     std::vector<Patch> patches;
+    std::vector<bool>  is_crease;
   };
 } // namespace Signorini
 

@@ -1,6 +1,7 @@
 signorini_add_unit_tests(surface RANKS "1;3"
   closed_surfaces.cc
   contact_mapping.cc
+  crease_edges.cc
   creases.cc
   degenerate_pairs.cc
   layers.cc

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_surface_crease_edges_h
+#define signorini_surface_crease_edges_h
+
+#include <signorini/surface/surface_mesh.h>
+
+#include <vector>
+
+namespace Signorini
+{
+  /// When an edge of a triangulated surface is a crease of the surface that the triangles stand for. Angles
+  /// in degrees.
+  struct CreaseEdgeRule
+  {
+    /// Edges whose triangles meet at a larger angle are creases. A circle of twelve edges has 30, chamfers
+    /// have 45.
+    double sharp = 40.;
+    /// At a smaller one edges of facets look the same. But facets turn from edge to edge, and a crease is
+    /// alone: within some heights of the triangle beside it the surface turns about it by less than a share
+    /// of its own angle; a smaller share says so, a larger one that it may be. On cones and cylinders of
+    /// unstructured triangles, 20 and 40 around, both are between .1 and .4 where they meet at 15 to 38
+    /// degrees; on balls, tori, ellipsoids, capsules, fillets of 6 to 40 around more than .6, but at single
+    /// edges (tests/unit/surface/crease_edges.cc).
+    double shallow = 10., reach = 1.5, is_alone = .4, may_be_alone = .6;
+    /// What part of the edges along a crease must be alone, and how many: single ones are so by chance.
+    double share_alone = .7;
+    int    least_alone = 2;
+  };
+
+  /// By edge whether it is a crease; borders are none. Shallow creases are closed, or end at sharp ones and
+  /// at borders. Needs all of a surface: where a part of it ends creases may.
+  std::vector<bool> find_creases(const SurfaceMesh &mesh, const SurfaceTopology &topology,
+                                 const CreaseEdgeRule &rule = {});
+} // namespace Signorini
+
+#endif
