@@ -78,7 +78,8 @@ namespace Signorini
 
     /// @param pressure by row
     GeometricPenetration penetration_of(const Discretization &d, const unsigned int p,
-                                        const Vector &displacement, const std::vector<double> &row_pressure)
+                                        const Vector &displacement, const std::vector<double> &row_pressure,
+                                        const std::vector<bool> &is_active)
     {
       const MPI_Comm     comm      = d.nodal().communicator();
       const ContactPair &pair      = d.pairs[p];
@@ -86,21 +87,22 @@ namespace Signorini
       const auto         displaced = vertex_values(pair.nonmortar.surface, d.partition(), displacement);
       if (pair.obstacle)
         return sample_rigid_penetration(pair.nonmortar.surface, *pair.obstacle, displaced, pressure,
-                                        faces_of_pair(pair), comm);
+                                        is_active, faces_of_pair(pair), comm);
       const std::vector<OverlayTriangle> overlay = covered_overlay(pair);
       const FacingSurfaces facing{pair.nonmortar.surface, pair.mortar.surface, overlay, sharp_vertices(pair)};
       const auto           mortar = vertex_values(pair.mortar.surface, d.partition(), displacement);
-      return sample_geometric_penetration(facing, displaced, mortar, pressure, pair.prescribed_gap, comm);
+      return sample_geometric_penetration(facing, displaced, mortar, pressure, is_active, pair.prescribed_gap,
+                                          comm);
     }
 
-    double doubt_of_gap(const ContactPair &pair, const std::vector<bool> &is_active, const MPI_Comm comm)
+    double doubt_of_gap(const ContactPair &pair, const std::vector<bool> &is_near, const MPI_Comm comm)
     {
-      return pair.obstacle ? sample_gap_doubt(pair.nonmortar.surface, is_active, comm)
+      return pair.obstacle ? sample_gap_doubt(pair.nonmortar.surface, is_near, comm)
                            : sample_gap_doubt(pair.nonmortar.surface, pair.mortar.surface,
-                                              covered_overlay(pair), is_active, comm);
+                                              covered_overlay(pair), is_near, comm);
     }
 
-    /// What contact does where bodies touch, and how well the gap is known there.
+    /// What contact does where bodies touch.
     /// @param is_active per vertex of the nonmortar surface
     /// @param moments sum of those on both sides
     void measure_contact(PairResult &result, const ContactPair &pair, const std::vector<bool> &is_active,
@@ -115,8 +117,6 @@ namespace Signorini
       result.approach     = 4. / 3. * result.load / width * std::sqrt(images) *
                         (pair.nonmortar.material.contact_compliance() +
                          (pair.obstacle ? 0. : pair.mortar.material.contact_compliance()));
-      if (!pair.prescribed_gap)
-        result.gap_doubt = doubt_of_gap(pair, is_active, comm);
       // With a prescribed gap the surfaces need not lie where they touch.
       if (!pair.obstacle && !pair.prescribed_gap && result.load > 0.)
         result.moment_balance = moments.norm() / (result.load * width);
@@ -268,13 +268,17 @@ namespace Signorini
     result.force_on_mortar = pair.obstacle ? -result.force : sum(forces.mortar.force, comm);
     result.moment          = sum(forces.nonmortar.moment, comm);
     measure_contact(result, pair, is_active, sum(forces.nonmortar.moment + forces.mortar.moment, comm), comm);
-    const auto penetration    = penetration_of(d, p, solution.displacement, stress.pressure);
+    const auto penetration    = penetration_of(d, p, solution.displacement, stress.pressure, is_active);
     result.min_gap            = penetration.min_gap;
     result.min_gap_at         = penetration.min_gap_at;
     result.max_penetration    = std::max(0., penetration.max_penetration());
     result.missed_penetration = missed_penetration(result, pair, coupling, comm);
     // Prescribed gaps are taken as they are, weighted ones.
-    result.loaded_gap          = pair.prescribed_gap ? 0. : penetration.loaded_gap;
+    if (!pair.prescribed_gap)
+      {
+        result.loaded_gap = penetration.loaded_gap;
+        result.gap_doubt  = result.contact_area > 0. && !pair.is_tied ? penetration.gap_doubt : 0.;
+      }
     result.mean_pressure       = result.contact_area > 0. ? result.load / result.contact_area : 0.;
     result.initial_penetration = std::max(0., -penetration.min_initial_gap);
     return result;

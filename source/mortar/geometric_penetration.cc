@@ -19,7 +19,8 @@ namespace Signorini
 
   namespace
   {
-    constexpr double                half = .5, third = 1. / 3.;
+    constexpr double half = .5, third = 1. / 3.;
+    /// The centre comes last.
     constexpr std::array<double, 3> samples[7] = {
         {{1., 0., 0.}},     {{0., 1., 0.}},     {{0., 0., 1.}},         {{half, half, 0.}},
         {{0., half, half}}, {{half, 0., half}}, {{third, third, third}}};
@@ -51,6 +52,34 @@ namespace Signorini
   {
     for (const auto &[gap, place] : gather_values(std::make_pair(least, where), communicator))
       add(gap, place);
+  }
+
+
+
+  DoubtOfGaps::DoubtOfGaps(const ContactSurface &surface)
+    : shares(surface.mesh.triangles.size(), 0.)
+    , doubts(shares)
+  {
+  }
+
+
+
+  void DoubtOfGaps::add(const unsigned int triangle, const double share, const double doubt, const double gap)
+  {
+    shares[triangle] += share;
+    if (gap <= GapDoubtRule().apart * doubt)
+      doubts[triangle] += share * doubt;
+  }
+
+
+
+  double DoubtOfGaps::largest(const MPI_Comm communicator) const
+  {
+    double result = 0.;
+    for (std::size_t t = 0; t < shares.size(); ++t)
+      if (shares[t] > 0.)
+        result = std::max(result, doubts[t] / shares[t]);
+    return Utilities::MPI::max(result, communicator);
   }
 
 
@@ -97,20 +126,71 @@ namespace Signorini
 
 
 
-  GeometricPenetration sample_geometric_penetration(const FacingSurfaces       &pair,
-                                                    const std::vector<Vector3> &displacement_nonmortar,
-                                                    const std::vector<Vector3> &displacement_mortar,
-                                                    const std::vector<double>  &pressure,
-                                                    const GapFunction          &prescribed_gap,
-                                                    const MPI_Comm              communicator)
+  namespace
+  {
+    Vector3 unused_offset(const ContactSurface &surface, const unsigned int triangle,
+                          const std::array<double, 3> &weights)
+    {
+      return surface.true_shape.unused_offset(surface.mesh, triangle, weights);
+    }
+
+    double doubt_of(const ContactSurface &surface, const unsigned int triangle)
+    {
+      return surface.true_shape.doubt(surface.mesh, triangle);
+    }
+  } // namespace
+
+
+
+  double gap_doubt(const ContactSurface &nonmortar, const ContactSurface &mortar, const OverlayTriangle &cell)
+  {
+    const SurfaceValues non(nonmortar);
+    double              unused = 0.;
+    for (const std::array<double, 3> &sample : samples)
+      {
+        const auto w = compose(cell.nonmortar, sample);
+        unused       = std::max(
+                  unused, std::abs((unused_offset(mortar, cell.mortar_triangle, compose(cell.mortar, sample)) -
+                              unused_offset(nonmortar, cell.nonmortar_triangle, w)) *
+                                   non.normal(cell.nonmortar_triangle, w)));
+      }
+    return unused + doubt_of(nonmortar, cell.nonmortar_triangle) + doubt_of(mortar, cell.mortar_triangle);
+  }
+
+
+
+  double gap_doubt(const ContactSurface &nonmortar, const unsigned int triangle)
+  {
+    double unused = 0.;
+    for (const std::array<double, 3> &sample : samples)
+      unused = std::max(unused, unused_offset(nonmortar, triangle, sample).norm());
+    return unused + doubt_of(nonmortar, triangle);
+  }
+
+
+
+  bool has_corner(const ContactSurface &surface, const unsigned int triangle, const std::vector<bool> &marked)
+  {
+    const auto &corners = surface.faces[surface.triangle_face[triangle]].corners;
+    return std::any_of(corners.begin(), corners.end(), [&](const unsigned int v) { return marked[v]; });
+  }
+
+
+
+  GeometricPenetration
+  sample_geometric_penetration(const FacingSurfaces &pair, const std::vector<Vector3> &displacement_nonmortar,
+                               const std::vector<Vector3> &displacement_mortar,
+                               const std::vector<double> &pressure, const std::vector<bool> &is_active,
+                               const GapFunction &prescribed_gap, const MPI_Comm communicator)
   {
     const auto &[nonmortar, mortar, overlay, sharp_vertices] = pair;
     const SurfaceValues non(nonmortar, sharp_vertices), mor(mortar);
     GapUnderLoad        under_load(nonmortar, pressure);
     LeastGap            initially, deformed;
+    DoubtOfGaps         doubts(nonmortar);
     for (const OverlayTriangle &cell : overlay)
       {
-        double least = std::numeric_limits<double>::infinity();
+        double least = std::numeric_limits<double>::infinity(), at_centre = least;
         for (const std::array<double, 3> &sample : samples)
           {
             const auto weights       = compose(cell.nonmortar, sample),
@@ -128,82 +208,45 @@ namespace Signorini
             const double gap     = initial - n * relative;
             initially.add(initial, x);
             deformed.add(gap, x);
-            least = std::min(least, gap);
+            least     = std::min(least, gap);
+            at_centre = gap;
           }
+        if (has_corner(nonmortar, cell.nonmortar_triangle, is_active))
+          doubts.add(cell.nonmortar_triangle, std::abs(cell.share()), gap_doubt(nonmortar, mortar, cell),
+                     at_centre);
         under_load.add(cell.nonmortar_triangle,
                        std::abs(cell.share()) * triangle_area(nonmortar.mesh, cell.nonmortar_triangle),
                        least);
       }
     initially.reduce(communicator);
     deformed.reduce(communicator);
-    return {initially.value(), deformed.value(), deformed.place(), under_load.mean(communicator)};
+    return {initially.value(), deformed.value(), deformed.place(), under_load.mean(communicator),
+            doubts.largest(communicator)};
   }
 
 
 
-  namespace
-  {
-    bool has_active_corner(const ContactSurface &surface, const unsigned int triangle,
-                           const std::vector<bool> &is_active)
-    {
-      const auto &corners = surface.faces[surface.triangle_face[triangle]].corners;
-      return std::any_of(corners.begin(), corners.end(), [&](const unsigned int v) { return is_active[v]; });
-    }
-
-    Vector3 unused_offset(const ContactSurface &surface, const unsigned int triangle,
-                          const std::array<double, 3> &weights)
-    {
-      return surface.true_shape.unused_offset(surface.mesh, triangle, weights);
-    }
-
-    double doubt_of(const ContactSurface &surface, const unsigned int triangle)
-    {
-      return surface.true_shape.doubt(surface.mesh, triangle);
-    }
-  } // namespace
-
-
-
   double sample_gap_doubt(const ContactSurface &nonmortar, const ContactSurface &mortar,
-                          const std::vector<OverlayTriangle> &overlay, const std::vector<bool> &is_active,
+                          const std::vector<OverlayTriangle> &overlay, const std::vector<bool> &is_near,
                           const MPI_Comm communicator)
   {
-    const SurfaceValues non(nonmortar);
-    double              largest = 0.;
+    double largest = 0.;
     for (const OverlayTriangle &cell : overlay)
-      if (has_active_corner(nonmortar, cell.nonmortar_triangle, is_active))
-        {
-          double unused = 0.;
-          for (const std::array<double, 3> &sample : samples)
-            {
-              const auto w = compose(cell.nonmortar, sample);
-              unused       = std::max(unused, std::abs((unused_offset(mortar, cell.mortar_triangle,
-                                                                      compose(cell.mortar, sample)) -
-                                                  unused_offset(nonmortar, cell.nonmortar_triangle, w)) *
-                                                       non.normal(cell.nonmortar_triangle, w)));
-            }
-          largest = std::max(largest, unused + doubt_of(nonmortar, cell.nonmortar_triangle) +
-                                          doubt_of(mortar, cell.mortar_triangle));
-        }
+      if (has_corner(nonmortar, cell.nonmortar_triangle, is_near))
+        largest = std::max(largest, gap_doubt(nonmortar, mortar, cell));
     return Utilities::MPI::max(largest, communicator);
   }
 
 
 
-  double sample_gap_doubt(const ContactSurface &nonmortar, const std::vector<bool> &is_active,
+  double sample_gap_doubt(const ContactSurface &nonmortar, const std::vector<bool> &is_near,
                           const MPI_Comm communicator)
   {
     const unsigned int rank    = Utilities::MPI::this_mpi_process(communicator);
     double             largest = 0.;
     for (unsigned int t = 0; t < nonmortar.mesh.triangles.size(); ++t)
-      if (nonmortar.faces[nonmortar.triangle_face[t]].worker == rank &&
-          has_active_corner(nonmortar, t, is_active))
-        {
-          double unused = 0.;
-          for (const std::array<double, 3> &sample : samples)
-            unused = std::max(unused, unused_offset(nonmortar, t, sample).norm());
-          largest = std::max(largest, unused + doubt_of(nonmortar, t));
-        }
+      if (nonmortar.faces[nonmortar.triangle_face[t]].worker == rank && has_corner(nonmortar, t, is_near))
+        largest = std::max(largest, gap_doubt(nonmortar, t));
     return Utilities::MPI::max(largest, communicator);
   }
 } // namespace Signorini

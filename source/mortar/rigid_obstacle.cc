@@ -288,6 +288,7 @@ namespace Signorini
   GeometricPenetration sample_rigid_penetration(const ContactSurface &surface, const RigidObstacle &obstacle,
                                                 const std::vector<Vector3> &displacement,
                                                 const std::vector<double>  &pressure,
+                                                const std::vector<bool>    &is_active,
                                                 const std::vector<bool> &faces, const MPI_Comm communicator)
   {
     // Corners, middles of edges and centres of triangles, displaced; normals as they were.
@@ -301,10 +302,11 @@ namespace Signorini
     const double                               size    = surface.extent();
     GapUnderLoad                               under_load(surface, pressure);
     LeastGap                                   initially, deformed;
+    DoubtOfGaps                                doubts(surface);
     for (unsigned int t = 0; t < surface.mesh.triangles.size(); ++t)
       if (faces[surface.triangle_face[t]])
         {
-          double least = std::numeric_limits<double>::infinity();
+          double least = std::numeric_limits<double>::infinity(), at_centre = least;
           for (const auto &w : samples)
             {
               Vector3 x, u, n;
@@ -326,14 +328,18 @@ namespace Signorini
                   if (obstacle.gap(gap, Point<3>(x + u), n, size))
                     {
                       deformed.add(gap, Point<3>(x));
-                      least = std::min(least, gap);
+                      least     = std::min(least, gap);
+                      at_centre = gap;
                     }
                 }
             }
+          if (has_corner(surface, t, is_active))
+            doubts.add(t, 1., gap_doubt(surface, t), at_centre);
           under_load.add(t, triangle_area(surface.mesh, t), least);
         }
     initially.reduce(communicator);
     deformed.reduce(communicator);
-    return {initially.value(), deformed.value(), deformed.place(), under_load.mean(communicator)};
+    return {initially.value(), deformed.value(), deformed.place(), under_load.mean(communicator),
+            doubts.largest(communicator)};
   }
 } // namespace Signorini

@@ -90,6 +90,27 @@ def make_mesh(geometry, mesh, *options):
     check(run.returncode == 0, f'gmsh: {run.stdout[-500:]}')
 
 
+LEAD_IN = """set Bodies        = shaft, hub
+set Contact pairs = fit
+subsection Body shaft
+  set Mesh          = lead_in.msh
+  set Volumes       = shaft
+  set Young modulus = 210e3
+  set Dirichlet     = at y: (*, 0, *); at x: (0, *, *); start: (*, *, 0)
+end
+subsection Body hub
+  set Mesh          = lead_in.msh
+  set Volumes       = hub
+  set Young modulus = 210e3
+  set Dirichlet     = at y: (*, 0, *); at x: (0, *, *); end: (*, *, 0)
+end
+subsection Pair fit
+  set First               = shaft: outer
+  set Second              = hub: bore
+  set Initial penetration = resolve
+end
+"""
+
 SEAT = """set Bodies        = block, plate
 set Contact pairs = seat
 subsection Body block
@@ -601,6 +622,25 @@ def chamfered_block(p):
         near(peak['second'], peak['first'], .25, 'pressure')
         for side in area:
             near(area[side], 86., .1, f'nonmortar {side}: area')
+
+
+def lead_in_chamfer(p):
+    """A press fit with a chamfer at the end of the shaft: cylinder and cone are two smooth surfaces, also where they meet at less than facets do elsewhere."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, 'fit.prm')
+        with open(path, 'w') as f:
+            f.write(LEAD_IN)
+        for angle in (20, 30, 45):
+            make_mesh(os.path.join(TOP, 'tests', 'application', 'lead_in.geo'), os.path.join(folder, 'lead_in.msh'), '-setnumber', 'angle', str(angle))
+            loads = []
+            for side in ('first', 'second'):
+                s = p.solve(path, f'Pair fit/Nonmortar={side}')
+                certificate(s)
+                check(s['certificate']['contact_conditions_hold'], f'{angle}, nonmortar {side}: {s["certificate"]}')
+                near(s['pairs'][0]['initial_penetration'], .02, .01, f'{angle}, nonmortar {side}: interference')
+                loads.append(s['pairs'][0]['load'])
+            # On faces of 2 the contact of 12 ends a row earlier or later.
+            near(loads[1], loads[0], .1, f'{angle}: load from either side')
 
 
 def chamfered_block_broken(p):

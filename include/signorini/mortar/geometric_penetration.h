@@ -24,12 +24,22 @@ namespace Signorini
     /// Over what gap the contact forces act: mean over them of the least gap after deformation of the face
     /// that they act on, none counted below zero; zero without forces.
     double loaded_gap;
+    /// The largest doubt of the gap of a triangle of faces with an active corner (DoubtOfGaps).
+    double gap_doubt;
 
     /// Largest n(x)·(u_non(x) - u_mor(Phi(x))) - initial_gap()·n(x): negative if the surfaces are apart.
     double max_penetration() const
     {
       return -min_gap;
     }
+  };
+
+  /// What a gap may be wrong by matters where contact may be. Pure numbers.
+  struct GapDoubtRule
+  {
+    /// In doubts, how far a triangle may be open at its centre. A chamfer beside a press fit: its shape is in
+    /// doubt by 0.007, a few per cent of how far it is open there.
+    double apart = 10.;
   };
 
   /// The least gap of a surface and where it is; infinite without any.
@@ -61,6 +71,25 @@ namespace Signorini
     dealii::Point<3> where;
   };
 
+  /// By how much the weighted gaps of a surface may be wrong: the mean over each of its triangles of what
+  /// gap_doubt() says of its parts, nothing of those that are far apart.
+  class DoubtOfGaps
+  {
+  public:
+    explicit DoubtOfGaps(const ContactSurface &surface);
+
+    /// A part of a triangle.
+    /// @param share of the triangle
+    /// @param gap after deformation (length)
+    void add(const unsigned int triangle, const double share, const double doubt, const double gap);
+
+    /// Collective. Of all triangles (length).
+    double largest(const MPI_Comm communicator) const;
+
+  private:
+    std::vector<double> shares, doubts;
+  };
+
   /// The least gap of every face, and its mean over the contact forces.
   class GapUnderLoad
   {
@@ -87,24 +116,35 @@ namespace Signorini
   /// @param pair with the overlay of this rank's own faces
   /// @param displacement_nonmortar displacement_mortar per vertex of each surface (hanging ones too)
   /// @param pressure per vertex of the nonmortar surface, zero at hanging ones
-  /// @param prescribed_gap replaces initial_gap()·n(x) if not empty
-  GeometricPenetration sample_geometric_penetration(const FacingSurfaces       &pair,
-                                                    const std::vector<Vector3> &displacement_nonmortar,
-                                                    const std::vector<Vector3> &displacement_mortar,
-                                                    const std::vector<double>  &pressure,
-                                                    const GapFunction          &prescribed_gap,
-                                                    const MPI_Comm              communicator);
-
-  /// Collective. By how much the gap may be wrong where bodies touch (length): what the shapes of both sides
-  /// do not know of themselves, and the heights over facets that a user wants to stand for the surface. The
-  /// largest of seven points of every overlay triangle of faces with an active corner.
   /// @param is_active per vertex of the nonmortar surface
+  /// @param prescribed_gap replaces initial_gap()·n(x) if not empty
+  GeometricPenetration
+  sample_geometric_penetration(const FacingSurfaces &pair, const std::vector<Vector3> &displacement_nonmortar,
+                               const std::vector<Vector3> &displacement_mortar,
+                               const std::vector<double> &pressure, const std::vector<bool> &is_active,
+                               const GapFunction &prescribed_gap, const MPI_Comm communicator);
+
+  /// By how much the gap of a triangle may be wrong (length): what the shapes of both sides do not know of
+  /// themselves, and the heights over facets that a user wants to stand for the surface; the largest of seven
+  /// points.
+  double gap_doubt(const ContactSurface &nonmortar, const ContactSurface &mortar,
+                   const OverlayTriangle &cell);
+
+  /// The same for a rigid partner: of the nonmortar surface alone.
+  double gap_doubt(const ContactSurface &nonmortar, const unsigned int triangle);
+
+  /// Whether a corner of the face of a triangle is marked.
+  bool has_corner(const ContactSurface &surface, const unsigned int triangle,
+                  const std::vector<bool> &marked);
+
+  /// Collective. The largest gap_doubt() of faces with a marked corner.
+  /// @param is_near per vertex of the nonmortar surface
   double sample_gap_doubt(const ContactSurface &nonmortar, const ContactSurface &mortar,
-                          const std::vector<OverlayTriangle> &overlay, const std::vector<bool> &is_active,
+                          const std::vector<OverlayTriangle> &overlay, const std::vector<bool> &is_near,
                           const MPI_Comm communicator);
 
   /// The same for a rigid partner: of the nonmortar surface alone.
-  double sample_gap_doubt(const ContactSurface &nonmortar, const std::vector<bool> &is_active,
+  double sample_gap_doubt(const ContactSurface &nonmortar, const std::vector<bool> &is_near,
                           const MPI_Comm communicator);
 } // namespace Signorini
 

@@ -122,11 +122,12 @@ TEST(GeometricPenetration, ConstantAndBilinearDisplacements)
   const auto overlay = make_overlay(s.non, s.mor, rank);
   for (Point<3> &x : s.mor.mesh.vertices)
     x[2] += .3;
-  std::vector<Vector3> u_non(s.non.vertex_node.size(), Point<3>(.1, .2, .5));
-  std::vector<Vector3> u_mor(s.mor.vertex_node.size(), Point<3>(7., 0., .1));
-  std::vector<double>  pressure(u_non.size(), 2.);
-  auto                 result =
-      sample_geometric_penetration({s.non, s.mor, overlay}, u_non, u_mor, pressure, {}, MPI_COMM_WORLD);
+  std::vector<Vector3>    u_non(s.non.vertex_node.size(), Point<3>(.1, .2, .5));
+  std::vector<Vector3>    u_mor(s.mor.vertex_node.size(), Point<3>(7., 0., .1));
+  std::vector<double>     pressure(u_non.size(), 2.);
+  const std::vector<bool> active(u_non.size(), true);
+  auto result = sample_geometric_penetration({s.non, s.mor, overlay}, u_non, u_mor, pressure, active, {},
+                                             MPI_COMM_WORLD);
   EXPECT_NEAR(result.min_initial_gap, .3, 1e-15);
   EXPECT_NEAR(result.max_penetration(), .1, 1e-15);
 
@@ -139,11 +140,12 @@ TEST(GeometricPenetration, ConstantAndBilinearDisplacements)
   };
   u_non  = bilinear(s.non);
   u_mor  = bilinear(s.mor);
-  result = sample_geometric_penetration({s.non, s.mor, overlay}, u_non, u_mor, pressure, {}, MPI_COMM_WORLD);
+  result = sample_geometric_penetration({s.non, s.mor, overlay}, u_non, u_mor, pressure, active, {},
+                                        MPI_COMM_WORLD);
   EXPECT_NEAR(result.min_gap, .3, 1e-14);
 
   result = sample_geometric_penetration(
-      {s.non, s.mor, overlay}, u_non, u_mor, pressure, [](const Point<3> &x) { return x[0] - 1.; },
+      {s.non, s.mor, overlay}, u_non, u_mor, pressure, active, [](const Point<3> &x) { return x[0] - 1.; },
       MPI_COMM_WORLD);
   EXPECT_NEAR(result.min_initial_gap, -1., 1e-15);
   EXPECT_NEAR(result.max_penetration(), 1., 1e-14);
@@ -173,22 +175,37 @@ TEST(GeometricPenetration, SharpEdges)
   const std::vector<Vector3> u(non.vertex_node.size(), Vector3({-.1, 0., 0.})),
       nothing(mor.vertex_node.size(), Vector3());
   const std::vector<double> pressure(u.size(), 1.);
+  const std::vector<bool>   active(u.size(), true);
   const auto                gap = [](const Point<3> &x) { return x[0] > 1. - 1e-9 ? .3 : 0.; };
-  EXPECT_NEAR(
-      sample_geometric_penetration({non, mor, overlay, on_edge}, u, nothing, pressure, gap, MPI_COMM_SELF)
-          .max_penetration(),
-      0., 1e-14);
+  EXPECT_NEAR(sample_geometric_penetration({non, mor, overlay, on_edge}, u, nothing, pressure, active, gap,
+                                           MPI_COMM_SELF)
+                  .max_penetration(),
+              0., 1e-14);
   const auto wrong =
-      sample_geometric_penetration({non, mor, overlay}, u, nothing, pressure, gap, MPI_COMM_SELF);
+      sample_geometric_penetration({non, mor, overlay}, u, nothing, pressure, active, gap, MPI_COMM_SELF);
   EXPECT_GT(wrong.max_penetration(), .03);
   EXPECT_LT(wrong.min_gap_at[0], 1.);
+}
+
+// What is far apart has no doubt that matters; the rest counts with its share of a triangle.
+TEST(GeometricPenetration, DoubtOfGaps)
+{
+  const Surfaces s;
+  DoubtOfGaps    doubts(s.non);
+  doubts.add(3, .25, .1, 0.);
+  doubts.add(3, .5, .1, 1.1);
+  doubts.add(3, .25, .2, 1.1);
+  EXPECT_NEAR(doubts.largest(MPI_COMM_SELF), .075, 1e-15);
+  doubts.add(1, .1, .3, -1.);
+  EXPECT_NEAR(doubts.largest(MPI_COMM_SELF), .3, 1e-15);
 }
 
 TEST(GeometricPenetration, NothingCovered)
 {
   Surfaces                   s;
   const std::vector<Vector3> u_non(s.non.vertex_node.size()), u_mor(s.mor.vertex_node.size());
-  const auto                 result = sample_geometric_penetration({s.non, s.mor, {}}, u_non, u_mor,
-                                                                   std::vector<double>(u_non.size(), 1.), {}, MPI_COMM_WORLD);
+  const auto                 result =
+      sample_geometric_penetration({s.non, s.mor, {}}, u_non, u_mor, std::vector<double>(u_non.size(), 1.),
+                                   std::vector<bool>(u_non.size(), true), {}, MPI_COMM_WORLD);
   EXPECT_EQ(result.min_gap, std::numeric_limits<double>::infinity());
 }
