@@ -261,21 +261,37 @@ namespace Signorini
       return result;
     }
 
+    /// Collective. By how much normals change within a face where bodies touch, at most (1).
+    double largest_turn(const FacesAtContact &faces, const std::vector<unsigned char> &active,
+                        const Discretization &d)
+    {
+      double result = 0.;
+      for (std::size_t p = 0; p < active.size(); ++p)
+        if (active[p])
+          result = std::max(result, faces.turn[p]);
+      return Utilities::MPI::max(result, d.nodal().communicator());
+    }
+
     /// What contact leaves loose: notes it, and takes out of a solution what nothing determines. Returns the
     /// motions along which it drifts.
-    std::vector<std::vector<double>> settle_loose_motions(AlgebraicProblem                 &algebraic,
-                                                          const std::vector<unsigned char> &active,
-                                                          const ContactModel &model, const Discretization &d,
-                                                          Journal &journal)
+    Drift settle_loose_motions(AlgebraicProblem &algebraic, const std::vector<unsigned char> &active,
+                               const ContactModel &model, const Discretization &d, Journal &journal)
     {
       const HalfSpaces    &spaces   = algebraic.problem.half_spaces;
       const NodePartition &unknowns = algebraic.hierarchy->finest().matrix.partition();
       const auto           fields   = motions_of_unknowns(model, d, unknowns);
       const LooseMotions   loose    = find_loose_motions(d.free_motions(), fields, spaces, active);
       const double         width    = mean_width(d);
-      auto                 drifting = find_drift(d.free_motions(), fields, spaces, loose, algebraic.v, width);
-      if (!drifting.empty())
-        return drifting;
+      Drift                drift{HoldReason::drifting,
+                  find_drift(d.free_motions(), fields, spaces, loose, algebraic.v, width), 0.};
+      if (!drift.motions.empty())
+        return drift;
+      drift = {HoldReason::sliding,
+               find_sliding(d.free_motions(), fields, spaces, normals_of_partners(d), active, loose,
+                            algebraic.v, width),
+               largest_turn(faces_at_contact(d), active, d)};
+      if (!drift.motions.empty())
+        return drift;
       note_undetermined(loose, model, d, journal);
       warn_of_facets(model, d.free_motions(),
                      !loose.hardly_held.empty()
@@ -308,7 +324,7 @@ namespace Signorini
       hierarchy.finest().matrix.symmetric_residual(algebraic.residual, algebraic.v, problem.rhs);
       deformation.restore();
       if (!d.free_motions().empty())
-        result.drifting = settle_loose_motions(algebraic, solver->active(), model, d, journal);
+        result.drift = settle_loose_motions(algebraic, solver->active(), model, d, journal);
       return solver->active();
     }
 
@@ -358,7 +374,7 @@ namespace Signorini
               settle_free_parts(algebraic->v, model, d, matrix.partition(), algebraic->problem);
           !turning.empty())
         {
-          result.drifting = {turning};
+          result.drift = {HoldReason::drifting, {turning}, 0.};
           return result;
         }
     const auto active = Signorini::solve(result, *algebraic, model, d, parameters, journal);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/algebra/collectives.h>
 #include <signorini/algebra/dense_matrix.h>
 #include <signorini/algebra/gathered_lists.h>
 #include <signorini/application/free_bodies.h>
@@ -240,6 +241,83 @@ namespace Signorini
         of_same_parts(motions, anywhere.undetermined, drifts_on_facets ? result : loose.next_to_undetermined);
     result.insert(result.end(), undetermined.begin(), undetermined.end());
     return result.empty() ? loose.next_to_undetermined : result;
+  }
+
+
+
+  std::vector<Vector3> normals_of_partners(const Discretization &d)
+  {
+    // The ranks that work on a surface tell those that own its nodes.
+    struct RowOfPair
+    {
+      NodeIndex   node;
+      std::size_t pair;
+    };
+    ListsByRank<RowOfPair> parcels;
+    std::vector<double>    sizes;
+    for (std::size_t p = 0; p < d.pairs.size(); ++p)
+      {
+        sizes.push_back(d.pairs[p].nonmortar.surface.extent());
+        if (d.pairs[p].obstacle)
+          for (const NodeIndex node : d.couplings[p].coupling.rows)
+            parcels[d.partition().owner(node)].push_back({node, p});
+      }
+    std::map<NodeIndex, std::size_t> pair_of_node;
+    for (const auto &[sender, rows] : send_lists(parcels, d.nodal().communicator()))
+      for (const auto &[node, pair] : rows)
+        pair_of_node[node] = pair;
+    std::vector<Vector3> result;
+    for (std::size_t row = 0; row < d.coupling.n_rows(); ++row)
+      if (!d.tied[row] && d.owns_row(row))
+        {
+          const Vector3  &own  = d.projections[row].direction();
+          const NodeIndex node = d.coupling.rows[row];
+          double          distance;
+          Vector3         normal;
+          if (const auto one = pair_of_node.find(node); one == pair_of_node.end())
+            result.push_back(own);
+          else
+            result.push_back(d.pairs[one->second].obstacle->contact_normal(
+                                 normal, distance, d.nodal().position(node), own, sizes[one->second])
+                                 ? normal
+                                 : Vector3());
+        }
+    return result;
+  }
+
+
+
+  std::vector<std::vector<double>> find_sliding(const std::vector<FreeMotion> &motions,
+                                                const std::vector<Vector> &fields, const HalfSpaces &spaces,
+                                                const std::vector<Vector3>       &partners,
+                                                const std::vector<unsigned char> &active,
+                                                const LooseMotions &loose, const Vector &v,
+                                                const double width)
+  {
+    constexpr LooseMotionRule rule;
+    HalfSpaces                of_partners = spaces;
+    of_partners.normals                   = partners;
+    const std::vector<unsigned char> all(spaces.size(), 1);
+    const MotionsAtContact           sums    = at_contact(fields, of_partners, all);
+    const SymmetricEigen             eigen   = symmetric_eigen(sums.normal);
+    const double                     scale   = sums.whole.diagonal().maxCoeff();
+    const Eigen::Index               n_along = (eigen.values.array() <= rule.next_to_nothing * scale).count();
+    if (n_along == 0)
+      return {};
+    const Eigen::MatrixXd            span = eigen.vectors.leftCols(n_along);
+    const SymmetricEigen             own  = symmetric_eigen(normal_products(span, fields, spaces, active));
+    std::vector<std::vector<double>> result;
+    for (Eigen::Index k = 0; k < n_along; ++k)
+      if (own.values[k] > rule.next_to_nothing * scale)
+        {
+          const Eigen::VectorXd motion = span * own.vectors.col(k);
+          result.emplace_back(motion.begin(), motion.end());
+        }
+    if (result.empty() || slip_along(result, fields, spaces, v) <= rule.slip * width)
+      return {};
+    const auto undetermined = of_same_parts(motions, loose.undetermined, result);
+    result.insert(result.end(), undetermined.begin(), undetermined.end());
+    return result;
   }
 
 

@@ -150,15 +150,15 @@ namespace Signorini
         sides               = last.discretization->sides;
         // Without points for that the solution shows whether it drifts.
         const auto      unopposed = find_unopposed_motions(model, *last.discretization);
-        const bool      holds_now = !unopposed.empty() && hold_points(unopposed, HoldReason::unopposed);
+        const bool      holds_now = !unopposed.empty() && hold_points({HoldReason::unopposed, unopposed, 0.});
         SolveParameters how_to    = parameters.solve;
         how_to.measure_sweeps     = how_to.measure_sweeps && cycle == refinement.n_cycles();
         const NestedStart *from   = cycle > 0 && !holds_now ? &start : nullptr;
         last.solution = solve_contact(model, *last.discretization, coarser, from, how_to, journal);
         unsigned int before_holds = 0;
-        while (!last.solution.drifting.empty())
+        while (!last.solution.drift.motions.empty())
           {
-            if (!hold_points(last.solution.drifting, HoldReason::drifting))
+            if (!hold_points(last.solution.drift))
               {
                 leave_drift(model, *last.discretization, last.solution, journal);
                 break;
@@ -194,9 +194,9 @@ namespace Signorini
       }
 
       /// False if there is no point for that.
-      bool hold_points(const std::vector<std::vector<double>> &motions, const HoldReason reason)
+      bool hold_points(const Drift &drift)
       {
-        const std::vector<PointHold> holds = choose_point_holds(model, *last.discretization, motions, reason);
+        const std::vector<PointHold> holds = choose_point_holds(model, *last.discretization, drift);
         if (holds.empty())
           return false;
         for (const PointHold &hold : holds)

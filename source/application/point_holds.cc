@@ -35,6 +35,10 @@ namespace Signorini
       /// The same of motions that the surfaces oppose by next to nothing: normal parts are 1e-5 of these at
       /// most (LooseMotionRule::next_to_nothing), and so are tangential parts of the contact forces.
       double unopposed = 1e-4;
+      /// The force of a hold of a motion along an obstacle, relative to that, and in the turn of normals
+      /// within a face: a node carries all at a place up to half a face away from where the bodies touch, and
+      /// its normal is turned by as much.
+      double sliding = .6;
       /// Contact forces below this share of the largest one of all bodies count as that: nothing loads the
       /// balls of a bearing opposite to its load, and what is held there carries what rounding leaves
       /// (4.8e-10 beside 890).
@@ -182,6 +186,22 @@ namespace Signorini
       return basis * orthonormal_columns(row, row.size()).rightCols(row.size() - 1);
     }
 
+    /// PointHold::largest_share.
+    double largest_share(const Drift &drift)
+    {
+      constexpr PointHoldRule rule;
+      switch (drift.reason)
+        {
+          case HoldReason::unopposed:
+            return rule.unopposed;
+          case HoldReason::sliding:
+            return std::max(rule.drifting, rule.sliding * drift.turn);
+          case HoldReason::drifting:
+            break;
+        }
+      return rule.drifting;
+    }
+
     /// An orthonormal basis of motions, by column.
     Eigen::MatrixXd orthonormal(const std::vector<std::vector<double>> &motions)
     {
@@ -195,12 +215,11 @@ namespace Signorini
 
 
   std::vector<PointHold> choose_point_holds(const ContactModel &model, const Discretization &d,
-                                            const std::vector<std::vector<double>> &motions,
-                                            const HoldReason                        reason)
+                                            const Drift &drift)
   {
     const std::vector<FreeMotion> &free       = d.free_motions();
     const std::vector<Candidate>   candidates = find_candidates(model, d);
-    Eigen::MatrixXd                basis      = orthonormal(motions);
+    Eigen::MatrixXd                basis      = orthonormal(drift.motions);
     const double                   size       = size_at_contact(model, d, basis);
     std::vector<PointHold>         result;
     while (basis.cols() > 0)
@@ -214,11 +233,11 @@ namespace Signorini
         hold.start_vertex = choice->candidate.start_vertex;
         hold.component    = choice->component;
         hold.position     = choice->candidate.position;
-        hold.motion       = describe_motion(free, std::vector<double>(held.data(), held.data() + held.size()),
-                                            model.bodies());
-        hold.arm          = size > 0. ? choice->row.norm() / size : 0.;
-        hold.largest_share =
-            reason == HoldReason::unopposed ? PointHoldRule().unopposed : PointHoldRule().drifting;
+        const std::vector<double> coefficients(held.data(), held.data() + held.size());
+        hold.motion         = describe_motion(free, coefficients, model.bodies());
+        hold.is_translation = !is_rotation(free, coefficients);
+        hold.arm            = size > 0. ? choice->row.norm() / size : 0.;
+        hold.largest_share  = largest_share(drift);
         result.push_back(hold);
         basis = without(basis, choice->row);
       }
@@ -230,11 +249,11 @@ namespace Signorini
   void leave_drift(const ContactModel &model, const Discretization &d, const ContactSolution &solution,
                    Journal &journal)
   {
-    if (solution.drifting.empty())
+    if (solution.drift.motions.empty())
       return;
     if (solution.displacement.size() == 0)
-      refuse_flight(model, d.free_motions(), solution.drifting[0]);
-    warn_of_facets(model, d.free_motions(), solution.drifting, journal);
+      refuse_flight(model, d.free_motions(), solution.drift.motions[0]);
+    warn_of_facets(model, d.free_motions(), solution.drift.motions, journal);
   }
 
 
@@ -272,7 +291,12 @@ namespace Signorini
       {
         std::ostringstream text;
         text << std::setprecision(2);
-        if (points.size() == 1)
+        if (points.size() == 1 && points[0]->is_translation)
+          text << points[0]->motion << ": frictionless contact does not hold it, so the point "
+               << place(*points[0]) << " is held in " << component(*points[0]) << " and carries a force of "
+               << reaction << ", " << share
+               << " of the contact force: an error of the mesh, or a force of the loads.";
+        else if (points.size() == 1)
           text << points[0]->motion << ": frictionless contact does not hold it, so the point "
                << place(*points[0]) << " is held in " << component(*points[0]) << " and carries a force of "
                << reaction << ", whose moment is " << share

@@ -174,7 +174,7 @@ namespace Signorini
     const PretensionRule     rule;
     std::vector<Pretension> &bolts    = model.pretensions();
     ContactSolution          solution = solver.solve(d);
-    if (bolts.empty() || !solution.drifting.empty())
+    if (bolts.empty() || !solution.drift.motions.empty())
       return solution;
     std::vector<unsigned int> iterations = {solution.report.iterations};
     const std::vector<Shank>  shanks     = find_shanks(model, d);
@@ -199,7 +199,7 @@ namespace Signorini
         journal.show("tightening bolts");
         solver.change_loads(d, start);
         solution = solver.solve(d);
-        if (!solution.drifting.empty())
+        if (!solution.drift.motions.empty())
           return solution;
         iterations.push_back(solution.report.iterations);
         const Eigen::VectorXd present = forces_of(shanks, solution.displacement);
@@ -260,7 +260,7 @@ namespace Signorini
         foretell_pretension(model, there);
         solver.change_loads(there, displacement);
         ContactSolution solution = solve_with_pretension(model, solver, there, journal);
-        if (!solution.report.converged || !solution.drifting.empty())
+        if (!solution.report.converged || !solution.drift.motions.empty())
           {
             // It is no solution of the present time.
             model.set_time(now);

@@ -122,7 +122,7 @@ namespace Signorini
   template <typename Archive>
   void transfer(Archive &a, PointHold &h)
   {
-    a(h.body, h.start_vertex, h.component, h.position, h.motion, h.arm, h.largest_share);
+    a(h.body, h.start_vertex, h.component, h.position, h.motion, h.is_translation, h.arm, h.largest_share);
   }
 
   namespace

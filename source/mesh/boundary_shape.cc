@@ -9,6 +9,7 @@
 
 #include <deal.II/base/utilities.h>
 
+#include <algorithm>
 #include <filesystem>
 
 namespace Signorini
@@ -193,12 +194,17 @@ namespace Signorini
   {
     if (shapes.size() == 1)
       return shapes[0]->project(p);
+    // Those that are exact come last: where patches over facets end beside them, a node on a plane of
+    // symmetry must not leave it.
+    std::vector<BoundaryShapePointer> ordered = shapes;
+    std::stable_partition(ordered.begin(), ordered.end(),
+                          [](const BoundaryShapePointer &shape) { return !shape->is_exact(); });
     // Alternating projections converge linearly to the edge, quickly where the shapes meet at a large angle.
     Point<3> x = p;
     for (unsigned int i = 0; i < 100; ++i)
       {
         const Point<3> old = x;
-        for (const BoundaryShapePointer &shape : shapes)
+        for (const BoundaryShapePointer &shape : ordered)
           x = shape->project(x);
         if (x.distance(old) <= 1e-14 * x.distance(p))
           break;

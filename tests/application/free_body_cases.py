@@ -90,6 +90,25 @@ def make_mesh(geometry, mesh, *options):
     check(run.returncode == 0, f'gmsh: {run.stdout[-500:]}')
 
 
+TURNED_BALL = """set Bodies        = ball
+set Contact pairs = floor, wall
+subsection Body ball
+  set Mesh           = ball
+  set Translation    = 1, 0, 1
+  set Young modulus  = 5e6
+  set Initial levels = 2
+  set Volume force   = (-0.5, 0, -1)
+end
+subsection Pair floor
+  set First    = ball: sphere
+  set Obstacle = plane: (0, 0, 0), (0, 0, 1)
+end
+subsection Pair wall
+  set First    = ball: sphere
+  set Obstacle = plane: (0, 0, 0), (1, 0, 0)
+end
+"""
+
 LEAD_IN = """set Bodies        = shaft, hub
 set Contact pairs = fit
 subsection Body shaft
@@ -424,6 +443,26 @@ def rocker_in_units(p):
             # The moment tilts the cylinder: without a start its solution takes 10 iterations more, and the safety net.
             check(all(later[0] < cycles[-1][0][0] for later in cycles[-1][1:]), f'{cycles[-1]}')
         check(all(one == cycles[0] for one in cycles), f'other units, other iterations: {cycles}')
+
+
+def turned_ball_on_walls(p):
+    """A ball between a floor and a wall with no node where it should touch them: it must not slide along them until nodes on either side do."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, 'ball.prm')
+        with open(path, 'w') as f:
+            f.write(TURNED_BALL)
+        for angle in (0, 13):
+            s = p.solve(path, f'Body ball/Rotation angle={angle}', codes=(0, 3))
+            check(s['converged'], 'not converged')
+            floor, wall = s['pairs']
+            weight = -s['bodies'][0]['load'][2]
+            near(floor['force'][2], weight, 1e-9, f'{angle}: floor')
+            near(wall['force'][0], -s['bodies'][0]['load'][0], 1e-9, f'{angle}: wall')
+            # Half a face is 0.1, and what the nodes are above the floor 0.0012.
+            check(s['bodies'][0]['largest_displacement'] < .002, f'{angle}: moves by {s["bodies"][0]["largest_displacement"]}')
+            held = [note for note in s['notes'] if 'points are held' in note]
+            check(len(held) == (angle > 0), f'{angle}: {s["notes"]}')
+            check(abs(s['bodies'][0]['reaction'][1]) < .05 * weight, f'{angle}: held with {s["bodies"][0]["reaction"]}')
 
 
 def tied_groups(p):

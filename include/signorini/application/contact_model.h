@@ -51,10 +51,12 @@ namespace Signorini
     dealii::Point<3> position;
     /// What it holds, in words.
     std::string motion;
+    bool        is_translation = false;
     /// The displacement of that motion there, relative to its mean size on the contact surfaces.
     double arm = 0.;
     /// The largest moment that it may carry, relative to that of the contact force with the size of the
-    /// surfaces as its arm: more than facets make of loads that do not move the body.
+    /// surfaces as its arm (of translations: force, relative to the contact force): more than facets make of
+    /// loads that do not move the body.
     double largest_share = 0.;
     /// Index into Loads::dirichlet, of a model that has it.
     std::size_t condition = 0;

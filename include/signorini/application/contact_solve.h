@@ -64,6 +64,27 @@ namespace Signorini
   /// No stress, all gaps as they are, nothing active.
   ContactStress no_stress(const Discretization &discretization);
 
+  /// Why motions of bodies are held at points.
+  enum class HoldReason
+  {
+    /// A solution drifts along them, and only facets oppose that.
+    drifting,
+    /// It slides along rigid obstacles, and only the normals of the body oppose that.
+    sliding,
+    /// The surfaces oppose them by next to nothing, before there is a solution.
+    unopposed
+  };
+
+  /// Motions along which a solution slides far although the true bodies do not oppose them.
+  struct Drift
+  {
+    HoldReason reason = HoldReason::drifting;
+    /// Coefficients of the free motions; empty if it does not.
+    std::vector<std::vector<double>> motions;
+    /// Of one that slides: by how much normals change within a face where bodies touch (1).
+    double turn = 0.;
+  };
+
   /// The solution of the contact problem of one mesh. The same on all ranks but for displacement and stress.
   struct ContactSolution
   {
@@ -78,10 +99,9 @@ namespace Signorini
     std::size_t n_active = 0;
     /// Of the multigrid hierarchy.
     unsigned int n_levels = 0;
-    /// Motions along which it slides far although only facets oppose them, as coefficients of the free
-    /// motions: no property of the true bodies. Or one that nothing opposes, which has to be held before
-    /// anything can be solved: then all but this is empty.
-    std::vector<std::vector<double>> drifting;
+    /// What it slides along far. Or a motion that nothing opposes, which has to be held before anything can
+    /// be solved: then all but this is empty.
+    Drift drift;
     /// If they were to be measured.
     SweepMeasurement sweeps;
     /// If it was wanted and the linear problem has a unique solution.

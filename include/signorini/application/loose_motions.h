@@ -75,6 +75,22 @@ namespace Signorini
                                               const HalfSpaces &half_spaces, const LooseMotions &loose,
                                               const Vector &v, const double width);
 
+  /// Collective. By half-space of a discretization the unit normal that a rigid obstacle has there, against
+  /// its outward one; that of the body where there is no obstacle; zero where none is seen.
+  std::vector<Vector3> normals_of_partners(const Discretization &discretization);
+
+  /// Collective. What has to be held if a solution slides by more than a tenth of a face along motions that
+  /// lead along rigid obstacles everywhere, and that only the normals of the bodies oppose: that, and what is
+  /// undetermined of the same parts; else none. (A ball between a floor and a wall slides along both until
+  /// nodes on either side of where it should touch are active. A ring between a shaft and a bore carries an
+  /// axial force by the curvature of its section.)
+  /// @param partners normals_of_partners()
+  std::vector<std::vector<double>>
+  find_sliding(const std::vector<FreeMotion> &motions, const std::vector<Vector> &fields,
+               const HalfSpaces &half_spaces, const std::vector<Vector3> &partners,
+               const std::vector<unsigned char> &active, const LooseMotions &loose, const Vector &v,
+               const double width);
+
   /// The faces around the contact nodes of half-spaces.
   struct FacesAtContact
   {

@@ -17,20 +17,12 @@ namespace Signorini
   // motions are held at single points, as many as there are motions: what these carry is the error of the
   // moment, and it says whether the loads turn the body.
 
-  /// A solution drifts along a motion; or the surfaces oppose it by next to nothing, before there is one.
-  enum class HoldReason
-  {
-    drifting,
-    unopposed
-  };
-
   /// Collective. The nodes and directions that hold some motions best: of the start meshes, away from
   /// contact, conditions and loads, where the motions are largest. Fewer than motions where there are no such
   /// nodes.
-  /// @param motions linearly independent, as coefficients of the free motions
+  /// @param drift with linearly independent motions
   std::vector<PointHold> choose_point_holds(const ContactModel &model, const Discretization &discretization,
-                                            const std::vector<std::vector<double>> &motions,
-                                            const HoldReason                        reason);
+                                            const Drift &drift);
 
   /// Goes on with a solution that drifts: warns. Errors: InputError where the loads have nothing against
   /// them.

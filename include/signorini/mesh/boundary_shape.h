@@ -49,6 +49,13 @@ namespace Signorini
       return 0.;
     }
 
+    /// Whether it is the shape itself, which does not end. Patches over facets end where these do, with
+    /// normals of one side: where they meet a plane they lie off it a little.
+    virtual bool is_exact() const
+    {
+      return true;
+    }
+
     /// Remarks for the user; empty if there are none.
     virtual std::string note() const
     {

@@ -24,6 +24,11 @@ namespace Signorini
     dealii::Point<3>     project(const dealii::Point<3> &p) const override;
     dealii::Tensor<1, 3> normal(const dealii::Point<3> &p, const dealii::Tensor<1, 3> &facing) const override;
 
+    bool is_exact() const override
+    {
+      return false;
+    }
+
     std::string note() const override
     {
       return remark;
@@ -56,6 +61,11 @@ namespace Signorini
     const std::vector<BoundaryShapePointer> &pieces() const override
     {
       return between_creases;
+    }
+
+    bool is_exact() const override
+    {
+      return false;
     }
 
     /// Whether the part consists of plane pieces.

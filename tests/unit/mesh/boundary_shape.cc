@@ -401,3 +401,41 @@ TEST(NodeMovement, NodesInsideGiveWay)
         EXPECT_EQ(mesh.vertices[v], before[v]);
       }
 }
+
+
+
+namespace
+{
+  /// A patch that ends beside the plane y = 0.
+  class EndingPatch : public BoundaryShape
+  {
+  public:
+    Point<3> project(const Point<3> &p) const override
+    {
+      return {p[0], std::max(p[1], 1e-4), 1.};
+    }
+
+    Tensor<1, 3> normal(const Point<3> &, const Tensor<1, 3> &facing) const override
+    {
+      return facing / facing.norm();
+    }
+
+    bool is_exact() const override
+    {
+      return false;
+    }
+  };
+} // namespace
+
+
+
+// Alternating projections do not end there. A node on a plane of symmetry stays on it, whatever comes first.
+TEST(BoundaryShape, PlanesBesidePatchesThatEnd)
+{
+  const auto     patch = std::make_shared<const EndingPatch>();
+  const auto     plane = make_plane_shape(Point<3>(), Point<3>(0., 1., 0.));
+  const Point<3> p(.3, .01, .9);
+  for (const auto &shapes :
+       {std::vector<BoundaryShapePointer>{patch, plane}, std::vector<BoundaryShapePointer>{plane, patch}})
+    EXPECT_EQ(project_onto(shapes, p), Point<3>(.3, 0., 1.));
+}
