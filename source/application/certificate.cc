@@ -150,12 +150,22 @@ namespace Signorini
 
   namespace
   {
-    /// Errors of the mapping at faces in contact or up to two faces away, in words; elsewhere a note must do.
-    std::string errors_in_contact(const Discretization &d, const ContactStress &stress, const unsigned int p)
+    /// Errors of a mapping where bodies touch.
+    struct ErrorsInContact
+    {
+      /// In words; empty if there are none.
+      std::string text;
+      /// Their area (area); infinite if pieces are lost whose area is not known.
+      double area = 0.;
+    };
+
+    /// Those at faces in contact or up to two faces away; elsewhere a note must do.
+    ErrorsInContact errors_in_contact(const Discretization &d, const ContactStress &stress,
+                                      const unsigned int p)
     {
       const ContactPair &pair = d.pairs[p];
       if (!pair.mapping)
-        return "";
+        return {};
       const MappingReport        report  = sum_reports(pair.mapping->report(), d.nodal().communicator());
       const auto                 active  = stress_of_pair(d, stress, p).active;
       std::vector<unsigned char> is_near = spread_rows(d.couplings[p], *pair.halo, active);
@@ -173,10 +183,29 @@ namespace Signorini
             is_near[v] = 1;
           pair.halo->update(is_near);
         }
-      const bool here = has_lost_edges_near(pair, d.couplings[p], active) ||
-                        std::any_of(pair.wrong_places.begin(), pair.wrong_places.end(), touches);
-      const bool any = Utilities::MPI::max(static_cast<int>(here), d.nodal().communicator()) > 0;
-      return any ? describe_errors(report) : "";
+      struct NumberedArea
+      {
+        std::size_t number;
+        double      area;
+      };
+      std::vector<NumberedArea> places;
+      for (const ContactPair::WrongPlace &place : pair.wrong_places)
+        if (touches(place.vertices))
+          places.push_back({place.number, place.area});
+      // Several ranks may know of one.
+      std::map<std::size_t, double> areas;
+      for (const auto &[number, area] :
+           gather_lists(std::move(places), d.nodal().communicator(), Receivers::all))
+        areas[number] = area;
+      ErrorsInContact result;
+      for (const auto &[number, area] : areas)
+        result.area += area;
+      if (Utilities::MPI::max(static_cast<int>(has_lost_edges_near(pair, d.couplings[p], active)),
+                              d.nodal().communicator()) > 0)
+        result.area = std::numeric_limits<double>::infinity();
+      if (result.area > 0.)
+        result.text = describe_errors(report);
+      return result;
     }
 
     /// Why the discrete solution is not one.
@@ -201,7 +230,7 @@ namespace Signorini
 
     /// Why the solution of the discrete problem is not that of the bodies.
     void object_to_pair(Certificate &c, const PairResult &pair, const PairModel &model,
-                        const std::string &mapping_errors, const Scales &scales)
+                        const ErrorsInContact &mapping_errors, const Scales &scales)
     {
       const SurfaceKind     surface = model.definition.surface;
       const CertificateRule rule;
@@ -237,9 +266,9 @@ namespace Signorini
             " of what contact does there; refine the contact surfaces" +
             (model.definition.obstacle ? "" : ", or choose the other side as \"Nonmortar\"") +
             ". If it stays, surfaces slide that far around a bend, which linear kinematics do not follow");
-      if (!mapping_errors.empty())
+      if (mapping_errors.area > rule.wrongly_mapped * pair.contact_area)
         c.objections.push_back(
-            name + "the contact mapping has errors where the bodies touch (" + mapping_errors +
+            name + "the contact mapping has errors where the bodies touch (" + mapping_errors.text +
             "); look at the surfaces with signorini-map, or refine where they are bent or folded");
       if (pair.moment_balance > rule.moment_balance)
         c.objections.push_back(name + "the moments of the contact forces on both sides differ by " +
@@ -270,8 +299,8 @@ namespace Signorini
     object_to_solver(c, tolerance, has_converged, has_forces);
     for (unsigned int p = 0; p < d.pairs.size(); ++p)
       {
-        const std::string mapping_errors = errors_in_contact(d, solution.stress, p);
-        if (!mapping_errors.empty())
+        const ErrorsInContact mapping_errors = errors_in_contact(d, solution.stress, p);
+        if (!mapping_errors.text.empty())
           c.wrongly_mapped_pairs.push_back(p);
         object_to_pair(c, evaluation.pairs[p], model.pairs()[p], mapping_errors, scales);
       }

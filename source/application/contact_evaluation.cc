@@ -227,14 +227,11 @@ namespace Signorini
       std::vector<bool> is_near(surface.mesh.vertices.size(), false);
       for (const ContactSurface::Face &face : surface.faces)
         {
-          double diameter = 0., distance = std::numeric_limits<double>::max();
+          const Point<3> &first = surface.mesh.vertices[face.corners[0]];
+          double          reach = 0.;
           for (const unsigned int v : face.corners)
-            {
-              distance = std::min(distance, surface.mesh.vertices[v].distance(result.min_gap_at));
-              for (const unsigned int w : face.corners)
-                diameter = std::max(diameter, surface.mesh.vertices[v].distance(surface.mesh.vertices[w]));
-            }
-          if (distance <= diameter)
+            reach = std::max(reach, 2. * first.distance(surface.mesh.vertices[v]));
+          if (first.distance(result.min_gap_at) <= reach)
             for (const unsigned int v : face.corners)
               is_near[v] = true;
         }
@@ -274,11 +271,9 @@ namespace Signorini
     result.max_penetration    = std::max(0., penetration.max_penetration());
     result.missed_penetration = missed_penetration(result, pair, coupling, comm);
     // Prescribed gaps are taken as they are, weighted ones.
-    if (!pair.prescribed_gap)
-      {
-        result.loaded_gap = penetration.loaded_gap;
-        result.gap_doubt  = result.contact_area > 0. && !pair.is_tied ? penetration.gap_doubt : 0.;
-      }
+    result.loaded_gap = pair.prescribed_gap ? 0. : penetration.loaded_gap;
+    if (!pair.prescribed_gap && !pair.is_tied && result.contact_area > 0.)
+      result.gap_doubt = penetration.gap_doubt;
     result.mean_pressure       = result.contact_area > 0. ? result.load / result.contact_area : 0.;
     result.initial_penetration = std::max(0., -penetration.min_initial_gap);
     return result;

@@ -14,16 +14,21 @@ namespace Signorini
   namespace
   {
     /// Collective. The vertices of the nonmortar triangles and edges where the mapping has errors.
-    std::vector<std::vector<unsigned int>> wrong_places(const ContactMapping &mapping,
-                                                        const MPI_Comm        communicator)
+    std::vector<ContactPair::WrongPlace> wrong_places(const ContactPair &pair, const MPI_Comm communicator)
     {
-      const MappingReport                    report   = sum_reports(mapping.report(), communicator);
-      const SurfaceTopology                 &topology = mapping.nonmortar_topology();
-      std::vector<std::vector<unsigned int>> places;
+      const MappingReport                  report   = sum_reports(pair.mapping->report(), communicator);
+      const SurfaceTopology               &topology = pair.mapping->nonmortar_topology();
+      const SurfaceMesh                   &mesh     = pair.nonmortar.surface.mesh;
+      std::vector<ContactPair::WrongPlace> places;
       for (const unsigned int t : report.wrong_triangles)
-        places.emplace_back(topology.triangles[t].begin(), topology.triangles[t].end());
+        places.push_back({places.size(),
+                          {topology.triangles[t].begin(), topology.triangles[t].end()},
+                          triangle_area(mesh, t)});
       for (const unsigned int e : report.torn_edges)
-        places.emplace_back(topology.edges[e].begin(), topology.edges[e].end());
+        {
+          const auto &[a, b] = topology.edges[e];
+          places.push_back({places.size(), {a, b}, .5 * mesh.vertices[a].distance_square(mesh.vertices[b])});
+        }
       return places;
     }
 
@@ -40,17 +45,18 @@ namespace Signorini
       return edges;
     }
 
-    void keep_places(std::vector<std::vector<unsigned int>> &places, const Renumbering &vertices)
+    void keep_places(std::vector<ContactPair::WrongPlace> &places, const Renumbering &vertices)
     {
-      for (auto &place : places)
+      for (ContactPair::WrongPlace &place : places)
         {
-          for (unsigned int &v : place)
+          for (unsigned int &v : place.vertices)
             v = vertices[v];
-          place.erase(std::remove(place.begin(), place.end(), Renumbering::none), place.end());
+          place.vertices.erase(std::remove(place.vertices.begin(), place.vertices.end(), Renumbering::none),
+                               place.vertices.end());
         }
-      places.erase(
-          std::remove_if(places.begin(), places.end(), [](const auto &place) { return place.empty(); }),
-          places.end());
+      places.erase(std::remove_if(places.begin(), places.end(),
+                                  [](const auto &place) { return place.vertices.empty(); }),
+                   places.end());
     }
 
     /// Widths, means and rings of faces want all triangles around the vertices of the own ones.
@@ -106,7 +112,7 @@ namespace Signorini
   {
     if (pair.mapping)
       {
-        pair.wrong_places = wrong_places(*pair.mapping, communicator);
+        pair.wrong_places = wrong_places(pair, communicator);
         pair.lost_edges   = lost_edges(pair, communicator);
       }
     if (Utilities::MPI::n_mpi_processes(communicator) == 1)

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
-#include <signorini/algebra/disjoint_sets.h>
 #include <signorini/surface/crease_edges.h>
 
 #include <deal.II/base/numbers.h>
@@ -11,6 +10,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 
 namespace Signorini
 {
@@ -187,15 +187,23 @@ namespace Signorini
       /// Edges that hang together.
       std::vector<std::vector<unsigned int>> connected(const std::map<unsigned int, double> &edges) const
       {
-        DisjointSets sets(mesh.vertices.size());
+        std::map<unsigned int, std::vector<unsigned int>> at_vertex;
         for (const auto &[e, share] : edges)
-          sets.unite(topology.edges[e][0], topology.edges[e][1]);
-        std::map<std::size_t, std::vector<unsigned int>> by_root;
-        for (const auto &[e, share] : edges)
-          by_root[sets.find(topology.edges[e][0])].push_back(e);
+          for (const unsigned int v : topology.edges[e])
+            at_vertex[v].push_back(e);
         std::vector<std::vector<unsigned int>> result;
-        for (auto &[root, list] : by_root)
-          result.push_back(std::move(list));
+        std::set<unsigned int>                 found;
+        for (const auto &[first, share] : edges)
+          if (found.insert(first).second)
+            {
+              std::vector<unsigned int> list = {first};
+              for (std::size_t i = 0; i < list.size(); ++i)
+                for (const unsigned int v : topology.edges[list[i]])
+                  for (const unsigned int e : at_vertex[v])
+                    if (found.insert(e).second)
+                      list.push_back(e);
+              result.push_back(std::move(list));
+            }
         return result;
       }
 

@@ -62,8 +62,18 @@ namespace Signorini
     std::shared_ptr<const ContactMapping> mapping;
     /// Seconds it took.
     double mapping_time = 0.;
-    /// Where it has errors, on any rank: vertices of the nonmortar surface, as far as they are known here.
-    std::vector<std::vector<unsigned int>> wrong_places;
+    /// A nonmortar triangle, or torn edge, where it has errors.
+    struct WrongPlace
+    {
+      /// The same on all ranks.
+      std::size_t number;
+      /// Vertices of the nonmortar surface, as far as they are known here.
+      std::vector<unsigned int> vertices;
+      /// Of the triangle; of an edge half its square.
+      double area;
+    };
+    /// Those of all ranks of which a vertex is known here.
+    std::vector<WrongPlace> wrong_places;
     /// A mortar edge whose image could not be followed.
     struct LostEdge
     {
