@@ -155,8 +155,9 @@ namespace Signorini
     {
       /// In words; empty if there are none.
       std::string text;
-      /// Their area (area); infinite if pieces are lost whose area is not known.
-      double area = 0.;
+      /// Their area, and the pressure on it (area, force); infinite if pieces are lost whose area is not
+      /// known.
+      double area = 0., force = 0.;
     };
 
     /// Those at faces in contact or up to two faces away; elsewhere a note must do.
@@ -183,23 +184,35 @@ namespace Signorini
             is_near[v] = 1;
           pair.halo->update(is_near);
         }
-      struct NumberedArea
+      const std::vector<double> pressure =
+          spread_rows(d.couplings[p], *pair.halo, stress_of_pair(d, stress, p).pressure);
+      struct Error
       {
         std::size_t number;
-        double      area;
+        double      area, force;
       };
-      std::vector<NumberedArea> places;
+      std::vector<Error> places;
       for (const ContactPair::WrongPlace &place : pair.wrong_places)
         if (touches(place.vertices))
-          places.push_back({place.number, place.area});
-      // Several ranks may know of one.
-      std::map<std::size_t, double> areas;
-      for (const auto &[number, area] :
-           gather_lists(std::move(places), d.nodal().communicator(), Receivers::all))
-        areas[number] = area;
+          {
+            double largest = 0.;
+            for (const unsigned int v : place.vertices)
+              largest = std::max(largest, pressure[v]);
+            places.push_back({place.number, place.area, largest * place.area});
+          }
+      // Several ranks may know of one, each of some of its vertices.
+      std::map<std::size_t, Error> errors;
+      for (const Error &one : gather_lists(std::move(places), d.nodal().communicator(), Receivers::all))
+        {
+          Error &error = errors.insert({one.number, one}).first->second;
+          error.force  = std::max(error.force, one.force);
+        }
       ErrorsInContact result;
-      for (const auto &[number, area] : areas)
-        result.area += area;
+      for (const auto &[number, error] : errors)
+        {
+          result.area += error.area;
+          result.force += error.force;
+        }
       if (Utilities::MPI::max(static_cast<int>(has_lost_edges_near(pair, d.couplings[p], active)),
                               d.nodal().communicator()) > 0)
         result.area = std::numeric_limits<double>::infinity();
@@ -266,7 +279,8 @@ namespace Signorini
             " of what contact does there; refine the contact surfaces" +
             (model.definition.obstacle ? "" : ", or choose the other side as \"Nonmortar\"") +
             ". If it stays, surfaces slide that far around a bend, which linear kinematics do not follow");
-      if (mapping_errors.area > rule.wrongly_mapped * pair.contact_area)
+      if (mapping_errors.area > rule.wrongly_mapped * pair.contact_area ||
+          mapping_errors.force > rule.wrongly_mapped * pair.load)
         c.objections.push_back(
             name + "the contact mapping has errors where the bodies touch (" + mapping_errors.text +
             "); look at the surfaces with signorini-map, or refine where they are bent or folded");

@@ -85,14 +85,17 @@ namespace Signorini
       const ContactPair &pair      = d.pairs[p];
       const auto         pressure  = spread_rows(d.couplings[p], *pair.halo, row_pressure);
       const auto         displaced = vertex_values(pair.nonmortar.surface, d.partition(), displacement);
+      // Ties and prescribed gaps are taken as they are.
+      const std::vector<bool> doubted =
+          pair.is_tied || pair.prescribed_gap ? std::vector<bool>(is_active.size(), false) : is_active;
+      const ContactAtVertices contact{pressure, doubted};
       if (pair.obstacle)
-        return sample_rigid_penetration(pair.nonmortar.surface, *pair.obstacle, displaced, pressure,
-                                        is_active, faces_of_pair(pair), comm);
+        return sample_rigid_penetration(pair.nonmortar.surface, *pair.obstacle, displaced, contact,
+                                        faces_of_pair(pair), comm);
       const std::vector<OverlayTriangle> overlay = covered_overlay(pair);
       const FacingSurfaces facing{pair.nonmortar.surface, pair.mortar.surface, overlay, sharp_vertices(pair)};
       const auto           mortar = vertex_values(pair.mortar.surface, d.partition(), displacement);
-      return sample_geometric_penetration(facing, displaced, mortar, pressure, is_active, pair.prescribed_gap,
-                                          comm);
+      return sample_geometric_penetration(facing, displaced, mortar, contact, pair.prescribed_gap, comm);
     }
 
     double doubt_of_gap(const ContactPair &pair, const std::vector<bool> &is_near, const MPI_Comm comm)
@@ -265,15 +268,13 @@ namespace Signorini
     result.force_on_mortar = pair.obstacle ? -result.force : sum(forces.mortar.force, comm);
     result.moment          = sum(forces.nonmortar.moment, comm);
     measure_contact(result, pair, is_active, sum(forces.nonmortar.moment + forces.mortar.moment, comm), comm);
-    const auto penetration    = penetration_of(d, p, solution.displacement, stress.pressure, is_active);
-    result.min_gap            = penetration.min_gap;
-    result.min_gap_at         = penetration.min_gap_at;
-    result.max_penetration    = std::max(0., penetration.max_penetration());
-    result.missed_penetration = missed_penetration(result, pair, coupling, comm);
-    // Prescribed gaps are taken as they are, weighted ones.
-    result.loaded_gap = pair.prescribed_gap ? 0. : penetration.loaded_gap;
-    if (!pair.prescribed_gap && !pair.is_tied && result.contact_area > 0.)
-      result.gap_doubt = penetration.gap_doubt;
+    const auto penetration     = penetration_of(d, p, solution.displacement, stress.pressure, is_active);
+    result.min_gap             = penetration.min_gap;
+    result.min_gap_at          = penetration.min_gap_at;
+    result.max_penetration     = std::max(0., penetration.max_penetration());
+    result.missed_penetration  = missed_penetration(result, pair, coupling, comm);
+    result.loaded_gap          = pair.prescribed_gap ? 0. : penetration.loaded_gap;
+    result.gap_doubt           = penetration.gap_doubt;
     result.mean_pressure       = result.contact_area > 0. ? result.load / result.contact_area : 0.;
     result.initial_penetration = std::max(0., -penetration.min_initial_gap);
     return result;

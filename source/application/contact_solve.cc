@@ -286,24 +286,34 @@ namespace Signorini
                   find_drift(d.free_motions(), fields, spaces, loose, algebraic.v, width), 0.};
       if (!drift.motions.empty())
         return drift;
-      drift = {HoldReason::sliding,
-               find_sliding(d.free_motions(), fields, spaces, normals_of_partners(d), active, loose,
-                            algebraic.v, width),
-               largest_turn(faces_at_contact(d), active, d)};
-      if (!drift.motions.empty())
-        return drift;
+      const FreeSolution   solution{d.free_motions(), fields, spaces, active, algebraic.v};
+      const FacesAtContact faces = faces_at_contact(d);
+      if (auto sliding = find_sliding(solution, normals_of_partners(d), width); !sliding.empty())
+        {
+          const auto undetermined = of_same_parts(d.free_motions(), loose.undetermined, sliding);
+          sliding.insert(sliding.end(), undetermined.begin(), undetermined.end());
+          return {HoldReason::sliding, sliding, largest_turn(faces, active, d)};
+        }
       note_undetermined(loose, model, d, journal);
       warn_of_facets(model, d.free_motions(),
-                     !loose.hardly_held.empty()
-                         ? loose.slides_on_facets
-                         : find_motions_of_the_mesh(d.free_motions(), fields, spaces, active, algebraic.v,
-                                                    faces_at_contact(d)),
+                     !loose.hardly_held.empty() ? loose.slides_on_facets
+                                                : find_motions_of_the_mesh(solution, faces),
                      journal);
       if (!loose.undetermined.empty())
         minimize_displacement(
             algebraic.v, d.transformation->to_displacement(algebraic.v, unknowns), loose.undetermined, fields,
             motion_fields(d.free_motions(), model.bodies(), d.nodal(), d.partition()), spaces);
       return {};
+    }
+
+    void refuse_what_obstacles_cannot_hold(const AlgebraicProblem &algebraic, const ContactModel &model,
+                                           const Discretization &d)
+    {
+      const auto fields = motions_of_unknowns(model, d, algebraic.hierarchy->finest().matrix.partition());
+      const std::vector<unsigned char> none(algebraic.problem.half_spaces.size(), 0);
+      refuse_loads_along_obstacles(
+          {d.free_motions(), fields, algebraic.problem.half_spaces, none, algebraic.v},
+          normals_of_partners(d), algebraic.problem.rhs, model);
     }
 
     /// Solves; returns the active half-spaces.
@@ -377,6 +387,8 @@ namespace Signorini
           result.drift = {HoldReason::drifting, {turning}, 0.};
           return result;
         }
+    if (!d.free_motions().empty())
+      refuse_what_obstacles_cannot_hold(*algebraic, model, d);
     const auto active = Signorini::solve(result, *algebraic, model, d, parameters, journal);
     solving.stop();
 

@@ -287,48 +287,83 @@ namespace Signorini
 
 
 
-  std::vector<std::vector<double>> find_sliding(const std::vector<FreeMotion> &motions,
-                                                const std::vector<Vector> &fields, const HalfSpaces &spaces,
-                                                const std::vector<Vector3>       &partners,
-                                                const std::vector<unsigned char> &active,
-                                                const LooseMotions &loose, const Vector &v,
-                                                const double width)
+  namespace
+  {
+    /// Motions that lead along all obstacles.
+    struct MotionsAlongObstacles
+    {
+      /// An orthonormal basis of them, by column: coefficients of the free motions.
+      Eigen::MatrixXd span;
+      /// The largest mean square of a motion at the contact nodes times their number.
+      double scale;
+    };
+
+    MotionsAlongObstacles motions_along_obstacles(const FreeSolution         &solution,
+                                                  const std::vector<Vector3> &partners)
+    {
+      HalfSpaces of_partners = solution.half_spaces;
+      of_partners.normals    = partners;
+      const MotionsAtContact sums =
+          at_contact(solution.fields, of_partners, std::vector<unsigned char>(partners.size(), 1));
+      const SymmetricEigen eigen = symmetric_eigen(sums.normal);
+      const double         scale = sums.whole.diagonal().maxCoeff();
+      return {
+          eigen.vectors.leftCols((eigen.values.array() <= LooseMotionRule().next_to_nothing * scale).count()),
+          scale};
+    }
+  } // namespace
+
+
+
+  void refuse_loads_along_obstacles(const FreeSolution &solution, const std::vector<Vector3> &partners,
+                                    const Vector &loads, const ContactModel &model)
+  {
+    const auto [span, scale] = motions_along_obstacles(solution, partners);
+    if (span.cols() == 0)
+      return;
+    Eigen::VectorXd all(solution.fields.size());
+    for (std::size_t m = 0; m < solution.fields.size(); ++m)
+      all[m] = loads * solution.fields[m];
+    const Eigen::VectorXd work = span.transpose() * all;
+    const double          n_nodes =
+        Utilities::MPI::sum(static_cast<double>(partners.size()), loads.get_mpi_communicator());
+    const double mean = std::sqrt(scale / std::max(n_nodes, 1.));
+    if (!(work.norm() > LooseMotionRule().work_of_mesh * loads.l1_norm() * mean))
+      return;
+    const Eigen::VectorXd motion = span * work / work.norm();
+    refuse_flight(model, solution.motions, std::vector<double>(motion.begin(), motion.end()));
+  }
+
+
+
+  std::vector<std::vector<double>> find_sliding(const FreeSolution         &solution,
+                                                const std::vector<Vector3> &partners, const double width)
   {
     constexpr LooseMotionRule rule;
-    HalfSpaces                of_partners = spaces;
-    of_partners.normals                   = partners;
-    const std::vector<unsigned char> all(spaces.size(), 1);
-    const MotionsAtContact           sums    = at_contact(fields, of_partners, all);
-    const SymmetricEigen             eigen   = symmetric_eigen(sums.normal);
-    const double                     scale   = sums.whole.diagonal().maxCoeff();
-    const Eigen::Index               n_along = (eigen.values.array() <= rule.next_to_nothing * scale).count();
-    if (n_along == 0)
+    const auto &[motions, fields, spaces, active, v] = solution;
+    const auto [span, scale]                         = motions_along_obstacles(solution, partners);
+    if (span.cols() == 0)
       return {};
-    const Eigen::MatrixXd            span = eigen.vectors.leftCols(n_along);
-    const SymmetricEigen             own  = symmetric_eigen(normal_products(span, fields, spaces, active));
+    const SymmetricEigen             own = symmetric_eigen(normal_products(span, fields, spaces, active));
     std::vector<std::vector<double>> result;
-    for (Eigen::Index k = 0; k < n_along; ++k)
+    for (Eigen::Index k = 0; k < span.cols(); ++k)
       if (own.values[k] > rule.next_to_nothing * scale)
         {
           const Eigen::VectorXd motion = span * own.vectors.col(k);
           result.emplace_back(motion.begin(), motion.end());
         }
-    if (result.empty() || slip_along(result, fields, spaces, v) <= rule.slip * width)
-      return {};
-    const auto undetermined = of_same_parts(motions, loose.undetermined, result);
-    result.insert(result.end(), undetermined.begin(), undetermined.end());
-    return result;
+    return !result.empty() && slip_along(result, fields, spaces, v) > rule.slip * width
+               ? result
+               : std::vector<std::vector<double>>();
   }
 
 
 
-  std::vector<std::vector<double>> find_motions_of_the_mesh(const std::vector<FreeMotion>    &motions,
-                                                            const std::vector<Vector>        &fields,
-                                                            const HalfSpaces                 &spaces,
-                                                            const std::vector<unsigned char> &active,
-                                                            const Vector &v, const FacesAtContact &faces)
+  std::vector<std::vector<double>> find_motions_of_the_mesh(const FreeSolution   &solution,
+                                                            const FacesAtContact &faces)
   {
-    constexpr LooseMotionRule                         rule;
+    constexpr LooseMotionRule rule;
+    const auto &[motions, fields, spaces, active, v] = solution;
     std::map<unsigned int, std::vector<Eigen::Index>> parts;
     for (std::size_t m = 0; m < motions.size(); ++m)
       parts[motions[m].first_part()].push_back(m);

@@ -235,7 +235,7 @@ namespace Signorini
         hold.position     = choice->candidate.position;
         const std::vector<double> coefficients(held.data(), held.data() + held.size());
         hold.motion         = describe_motion(free, coefficients, model.bodies());
-        hold.is_translation = !is_rotation(free, coefficients);
+        hold.is_translation = is_translation(free, coefficients);
         hold.arm            = size > 0. ? choice->row.norm() / size : 0.;
         hold.largest_share  = largest_share(drift);
         result.push_back(hold);
@@ -308,9 +308,9 @@ namespace Signorini
                  << " of its motions, so points are held: ";
             for (const PointHold *const point : points)
               text << (point == points[0] ? "" : ", ") << place(*point) << " in " << component(*point);
-            text << ". They carry forces of at most " << reaction << ", whose moments are at most " << share
-                 << " of contact force times size of the surfaces: errors of the facets, or moments of the "
-                    "loads.";
+            text << ". They carry forces of at most " << reaction
+                 << "; these, or their moments over the size of the surfaces, are at most " << share
+                 << " of the contact force: errors of the mesh, or of the loads.";
           }
         return text.str();
       }

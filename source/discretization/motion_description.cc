@@ -101,6 +101,20 @@ namespace Signorini
 
 
 
+  bool is_translation(const std::vector<FreeMotion> &motions, const std::vector<double> &coefficients)
+  {
+    double turned = 0., moved = 0.;
+    for (const FreeMotion &one : motions)
+      {
+        const FreeMotion motion = motion_of_part(motions, coefficients, one.first_part());
+        turned                  = std::max(turned, motion.rotation.norm());
+        moved                   = std::max(moved, motion.translation.norm());
+      }
+    return turned <= negligible * moved;
+  }
+
+
+
   namespace
   {
     /// What the part that moves most does.

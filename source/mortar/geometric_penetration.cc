@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <tuple>
 
 namespace Signorini
@@ -177,22 +178,25 @@ namespace Signorini
 
 
 
-  GeometricPenetration
-  sample_geometric_penetration(const FacingSurfaces &pair, const std::vector<Vector3> &displacement_nonmortar,
-                               const std::vector<Vector3> &displacement_mortar,
-                               const std::vector<double> &pressure, const std::vector<bool> &is_active,
-                               const GapFunction &prescribed_gap, const MPI_Comm communicator)
+  GeometricPenetration sample_geometric_penetration(const FacingSurfaces       &pair,
+                                                    const std::vector<Vector3> &displacement_nonmortar,
+                                                    const std::vector<Vector3> &displacement_mortar,
+                                                    const ContactAtVertices    &contact,
+                                                    const GapFunction          &prescribed_gap,
+                                                    const MPI_Comm              communicator)
   {
     const auto &[nonmortar, mortar, overlay, sharp_vertices] = pair;
     const SurfaceValues non(nonmortar, sharp_vertices), mor(mortar);
-    GapUnderLoad        under_load(nonmortar, pressure);
+    GapUnderLoad        under_load(nonmortar, contact.pressure);
     LeastGap            initially, deformed;
     DoubtOfGaps         doubts(nonmortar);
     for (const OverlayTriangle &cell : overlay)
       {
-        double least = std::numeric_limits<double>::infinity(), at_centre = least;
+        double                least = std::numeric_limits<double>::infinity();
+        std::optional<double> at_centre;
         for (const std::array<double, 3> &sample : samples)
           {
+            at_centre.reset();
             const auto weights       = compose(cell.nonmortar, sample),
                        image_weights = compose(cell.mortar, sample);
             const Point<3> x         = non.point(cell.nonmortar_triangle, weights);
@@ -211,9 +215,9 @@ namespace Signorini
             least     = std::min(least, gap);
             at_centre = gap;
           }
-        if (has_corner(nonmortar, cell.nonmortar_triangle, is_active))
+        if (has_corner(nonmortar, cell.nonmortar_triangle, contact.doubted))
           doubts.add(cell.nonmortar_triangle, std::abs(cell.share()), gap_doubt(nonmortar, mortar, cell),
-                     at_centre);
+                     at_centre.value_or(least));
         under_load.add(cell.nonmortar_triangle,
                        std::abs(cell.share()) * triangle_area(nonmortar.mesh, cell.nonmortar_triangle),
                        least);

@@ -287,8 +287,7 @@ namespace Signorini
 
   GeometricPenetration sample_rigid_penetration(const ContactSurface &surface, const RigidObstacle &obstacle,
                                                 const std::vector<Vector3> &displacement,
-                                                const std::vector<double>  &pressure,
-                                                const std::vector<bool>    &is_active,
+                                                const ContactAtVertices    &contact,
                                                 const std::vector<bool> &faces, const MPI_Comm communicator)
   {
     // Corners, middles of edges and centres of triangles, displaced; normals as they were.
@@ -300,15 +299,17 @@ namespace Signorini
                                                            {{.5, 0., .5}},
                                                            {{1. / 3., 1. / 3., 1. / 3.}}}};
     const double                               size    = surface.extent();
-    GapUnderLoad                               under_load(surface, pressure);
+    GapUnderLoad                               under_load(surface, contact.pressure);
     LeastGap                                   initially, deformed;
     DoubtOfGaps                                doubts(surface);
     for (unsigned int t = 0; t < surface.mesh.triangles.size(); ++t)
       if (faces[surface.triangle_face[t]])
         {
-          double least = std::numeric_limits<double>::infinity(), at_centre = least;
+          double                least = std::numeric_limits<double>::infinity();
+          std::optional<double> at_centre;
           for (const auto &w : samples)
             {
+              at_centre.reset();
               Vector3 x, u, n;
               for (unsigned int i = 0; i < 3; ++i)
                 {
@@ -333,8 +334,8 @@ namespace Signorini
                     }
                 }
             }
-          if (has_corner(surface, t, is_active))
-            doubts.add(t, 1., gap_doubt(surface, t), at_centre);
+          if (has_corner(surface, t, contact.doubted))
+            doubts.add(t, 1., gap_doubt(surface, t), at_centre.value_or(least));
           under_load.add(t, triangle_area(surface.mesh, t), least);
         }
     initially.reduce(communicator);

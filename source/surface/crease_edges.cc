@@ -75,11 +75,11 @@ namespace Signorini
       /// (degrees); infinite if there is nothing beyond its triangles.
       double largest_turn_beside(const unsigned int edge) const
       {
-        double result = -1.;
-        for (const unsigned int t : topology.edge_triangles[edge])
-          if (const std::optional<double> turn = turn_beside(edge, t))
-            result = std::max(result, *turn);
-        return result < 0. ? std::numeric_limits<double>::infinity() : result;
+        const auto &[s, t]              = topology.edge_triangles[edge];
+        const std::optional<double> one = turn_beside(edge, s), other = turn_beside(edge, t);
+        if (!one && !other)
+          return std::numeric_limits<double>::infinity();
+        return one && other ? std::max(*one, *other) : rule.one_sided * (one ? *one : *other);
       }
 
       /// The same on the side of one of its triangles; nothing if that ends at a border or sharp edge.

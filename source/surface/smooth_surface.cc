@@ -165,48 +165,20 @@ namespace Signorini
       q.v = cross_product_3d(q.normal, q.u);
     }
 
-    /// What the surface around a vertex may be.
-    enum class Model
-    {
-      quadratic,
-      /// Straight in one direction: z = (e v² + f u v²) / 2 in place of c, d, e. A chamfer of one cell
-      /// between its creases says nothing of a curvature across.
-      ruled
-    };
-
-    /// Turns a frame about its normal until its second axis is the direction in which points reach farthest.
-    void turn_along(Quadric &q, const std::vector<Tensor<1, 3>> &points)
-    {
-      double uu = 0., uv = 0., vv = 0.;
-      for (const auto &x : points)
-        {
-          uu += (x * q.u) * (x * q.u);
-          uv += (x * q.u) * (x * q.v);
-          vv += (x * q.v) * (x * q.v);
-        }
-      const double       angle = .5 * std::atan2(2. * uv, uu - vv);
-      const Tensor<1, 3> far   = std::cos(angle) * q.u + std::sin(angle) * q.v;
-      q.u                      = cross_product_3d(far, q.normal);
-      q.v                      = far;
-    }
-
-    /// Fits a surface to the vectors from a vertex to its neighbours, with weights 1/distance², and turns the
-    /// frame to the normal found until it rests. Returns false if they do not determine one.
-    bool fit(Quadric &q, const std::vector<Tensor<1, 3>> &neighbours, const Model model)
+    /// Fits a quadratic surface to the vectors from a vertex to its neighbours, with weights 1/distance², and
+    /// turns the frame to the normal found until it rests. Returns false if they do not determine one.
+    bool fit(Quadric &q, const std::vector<Tensor<1, 3>> &neighbours)
     {
       constexpr unsigned int n_steps = 20;
-      const Eigen::Index     n       = static_cast<Eigen::Index>(neighbours.size()),
-                         n_unknowns  = model == Model::ruled ? 4 : 5;
-      if (n < n_unknowns)
+      const Eigen::Index     n       = static_cast<Eigen::Index>(neighbours.size());
+      if (n < 5)
         return false;
-      if (model == Model::ruled)
-        turn_along(q, neighbours);
       double size = 0.;
       for (const auto &x : neighbours)
         size = std::max(size, x.norm());
-      Eigen::MatrixXd a(n, n_unknowns);
-      Eigen::VectorXd b(n);
-      double          curvature = 0., last = std::numeric_limits<double>::max();
+      Eigen::Matrix<double, Eigen::Dynamic, 5> a(n, 5);
+      Eigen::VectorXd                          b(n);
+      double                                   curvature = 0., last = std::numeric_limits<double>::max();
       for (unsigned int step = 0; step < n_steps; ++step)
         {
           double highest = 0.;
@@ -216,24 +188,21 @@ namespace Signorini
               const double       s = x * q.u, t = x * q.v, z = x * q.normal;
               highest             = std::max(highest, std::abs(z));
               const double weight = 1. / x.norm_square();
-              if (model == Model::ruled)
-                a.row(i) << s, t, .5 * t * t, .5 * s * t * t;
-              else
-                a.row(i) << s, t, .5 * s * s, s * t, .5 * t * t;
+              a.row(i) << s, t, .5 * s * s, s * t, .5 * t * t;
               a.row(i) *= weight;
               b[i] = weight * (z - .5 * curvature * z * z);
             }
-          Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(a);
+          Eigen::ColPivHouseholderQR<Eigen::Matrix<double, Eigen::Dynamic, 5>> qr(a);
           qr.setThreshold(1e-4);
-          if (qr.rank() < n_unknowns)
+          if (qr.rank() < 5)
             return false;
-          const Eigen::VectorXd x = qr.solve(b);
-          q.c                     = model == Model::ruled ? 0. : x[2];
-          q.d                     = model == Model::ruled ? 0. : x[3];
-          q.e                     = model == Model::ruled ? x[2] : x[4];
-          const double turn       = std::hypot(x[0], x[1]);
-          const double heights    = (b - a.leftCols<2>() * x.head<2>()).norm();
-          q.residual              = heights > 0. ? (b - a * x).norm() / heights : 0.;
+          const Eigen::Matrix<double, 5, 1> x = qr.solve(b);
+          q.c                                 = x[2];
+          q.d                                 = x[3];
+          q.e                                 = x[4];
+          const double turn                   = std::hypot(x[0], x[1]);
+          const double heights                = (b - a.leftCols<2>() * x.head<2>()).norm();
+          q.residual                          = heights > 0. ? (b - a * x).norm() / heights : 0.;
           turn_frame(q, q.normal - x[0] * q.u - x[1] * q.v);
           // Where the surface is wild k may do harm: a hemisphere is as far as it can reach.
           const double limit  = 1. / highest;
@@ -394,12 +363,8 @@ namespace Signorini
                       mesh.vertices[pieces.vertices[q].vertex] - mesh.vertices[centre.vertex];
                   x.norm() > 0.)
                 points.push_back(x);
-            const bool is_strip =
-                !centre.is_closed && std::none_of(near.begin(), near.end(), [&](const unsigned int q) {
-                  return pieces.vertices[q].is_closed;
-                });
             Quadric found = quadric;
-            if (fit(found, points, is_strip ? Model::ruled : Model::quadratic))
+            if (fit(found, points))
               {
                 quadric = found;
                 return true;

@@ -34,8 +34,8 @@ namespace Signorini
     /// Forces that are smaller than this part of E·u·width are rounding, and what contact does than that of
     /// u.
     double rounding = 1e-11;
-    /// The area of faces where the mapping has errors, relative to that of contact. A taper of 1,500 nodes
-    /// with one triangle that is covered wrongly: 2e-3, and the force to all digits.
+    /// The area of faces where the mapping has errors, relative to that of contact, and the force on them. A
+    /// taper of 1,500 nodes with one triangle that is covered wrongly: 2e-3, and the force to all digits.
     double wrongly_mapped = .01;
     /// Directions that contradict each other.
     double moment_balance = .05;

@@ -78,6 +78,7 @@ namespace Signorini
   /// Motions along which a solution slides far although the true bodies do not oppose them.
   struct Drift
   {
+    /// Why they are to be held.
     HoldReason reason = HoldReason::drifting;
     /// Coefficients of the free motions; empty if it does not.
     std::vector<std::vector<double>> motions;

@@ -33,6 +33,10 @@ namespace Signorini
     /// How far surfaces may slide along a motion that facets oppose, in widths of a face: on a radius of
     /// ten faces that is a hundredth of a radian. Solutions that drift slide by 1e2 to 1e6 of them.
     double slip = .1;
+    /// The work of loads on a motion along obstacles, relative to that of all loads with the mean size of
+    /// motions at the contact nodes as their way, which may come from the mesh (as of rotations in sockets:
+    /// FreedomRule::work_of_facets).
+    double work_of_mesh = .05;
     /// The coefficient of a motion of a part with which it takes part in another one.
     double moves = 1e-3;
     /// The normal part of a motion at a node, relative to the motion, that does not oppose it: rounding of
@@ -79,17 +83,32 @@ namespace Signorini
   /// its outward one; that of the body where there is no obstacle; zero where none is seen.
   std::vector<Vector3> normals_of_partners(const Discretization &discretization);
 
-  /// Collective. What has to be held if a solution slides by more than a tenth of a face along motions that
-  /// lead along rigid obstacles everywhere, and that only the normals of the bodies oppose: that, and what is
-  /// undetermined of the same parts; else none. (A ball between a floor and a wall slides along both until
-  /// nodes on either side of where it should touch are active. A ring between a shaft and a bore carries an
-  /// axial force by the curvature of its section.)
+  /// A solution, and how bodies may move; all must outlive this.
+  struct FreeSolution
+  {
+    /// The free motions, and fields of motions_of_unknowns().
+    const std::vector<FreeMotion> &motions;
+    const std::vector<Vector>     &fields;
+    /// Of the problem, and which are active.
+    const HalfSpaces                 &half_spaces;
+    const std::vector<unsigned char> &active;
+    /// Its unknowns.
+    const Vector &v;
+  };
+
+  /// Collective. Errors: InputError if loads do work on a motion that leads along all rigid obstacles
+  /// everywhere, more than a mesh makes of loads that do none: no frictionless obstacle holds it, though the
+  /// normals of the body may.
   /// @param partners normals_of_partners()
-  std::vector<std::vector<double>>
-  find_sliding(const std::vector<FreeMotion> &motions, const std::vector<Vector> &fields,
-               const HalfSpaces &half_spaces, const std::vector<Vector3> &partners,
-               const std::vector<unsigned char> &active, const LooseMotions &loose, const Vector &v,
-               const double width);
+  void refuse_loads_along_obstacles(const FreeSolution &solution, const std::vector<Vector3> &partners,
+                                    const Vector &loads, const ContactModel &model);
+
+  /// Collective. Such motions that only the normals of the body oppose, if a solution slides along them by
+  /// more than a tenth of a face; else none. (A ball between a floor and a wall slides along both until nodes
+  /// on either side of where it should touch are active.)
+  /// @param partners normals_of_partners()
+  std::vector<std::vector<double>> find_sliding(const FreeSolution         &solution,
+                                                const std::vector<Vector3> &partners, const double width);
 
   /// The faces around the contact nodes of half-spaces.
   struct FacesAtContact
@@ -104,12 +123,8 @@ namespace Signorini
   /// Collective. Motions of single parts along which a solution slides by more than a tenth of a face, and
   /// that nothing would oppose if the surfaces touched a little way from the active nodes: how the nodes lie
   /// there stops them.
-  /// @param active of the solution v
-  std::vector<std::vector<double>> find_motions_of_the_mesh(const std::vector<FreeMotion>    &motions,
-                                                            const std::vector<Vector>        &fields,
-                                                            const HalfSpaces                 &half_spaces,
-                                                            const std::vector<unsigned char> &active,
-                                                            const Vector &v, const FacesAtContact &faces);
+  std::vector<std::vector<double>> find_motions_of_the_mesh(const FreeSolution   &solution,
+                                                            const FacesAtContact &faces);
 
   /// Warns of motions that only facets oppose.
   void warn_of_facets(const ContactModel &model, const std::vector<FreeMotion> &motions,

@@ -14,6 +14,9 @@ namespace Signorini
   /// Whether a motion only turns parts about axes, without moving them along these.
   bool is_rotation(const std::vector<FreeMotion> &motions, const std::vector<double> &coefficients);
 
+  /// Whether a motion moves parts without turning them.
+  bool is_translation(const std::vector<FreeMotion> &motions, const std::vector<double> &coefficients);
+
   /// A motion in words: "body cube, translation (0, 0, -1)", "body lug, rotation about the axis through (0,
   /// 0, 0) along (0, 0, 1)".
   std::string describe_motion(const std::vector<FreeMotion> &motions, const std::vector<double> &coefficients,

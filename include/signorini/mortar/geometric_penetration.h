@@ -34,6 +34,15 @@ namespace Signorini
     }
   };
 
+  /// Contact at the vertices of a nonmortar surface; both lists must outlive this.
+  struct ContactAtVertices
+  {
+    /// Zero at hanging ones.
+    const std::vector<double> &pressure;
+    /// Those around which the doubt of the gap is wanted: the active ones, or none.
+    const std::vector<bool> &doubted;
+  };
+
   /// What a gap may be wrong by matters where contact may be. Pure numbers.
   struct GapDoubtRule
   {
@@ -76,6 +85,7 @@ namespace Signorini
   class DoubtOfGaps
   {
   public:
+    /// No parts yet.
     explicit DoubtOfGaps(const ContactSurface &surface);
 
     /// A part of a triangle.
@@ -115,14 +125,13 @@ namespace Signorini
   /// the surface that is covered at all is PairCoupling::covered_area / PairCoupling::area.
   /// @param pair with the overlay of this rank's own faces
   /// @param displacement_nonmortar displacement_mortar per vertex of each surface (hanging ones too)
-  /// @param pressure per vertex of the nonmortar surface, zero at hanging ones
-  /// @param is_active per vertex of the nonmortar surface
   /// @param prescribed_gap replaces initial_gap()·n(x) if not empty
-  GeometricPenetration
-  sample_geometric_penetration(const FacingSurfaces &pair, const std::vector<Vector3> &displacement_nonmortar,
-                               const std::vector<Vector3> &displacement_mortar,
-                               const std::vector<double> &pressure, const std::vector<bool> &is_active,
-                               const GapFunction &prescribed_gap, const MPI_Comm communicator);
+  GeometricPenetration sample_geometric_penetration(const FacingSurfaces       &pair,
+                                                    const std::vector<Vector3> &displacement_nonmortar,
+                                                    const std::vector<Vector3> &displacement_mortar,
+                                                    const ContactAtVertices    &contact,
+                                                    const GapFunction          &prescribed_gap,
+                                                    const MPI_Comm              communicator);
 
   /// By how much the gap of a triangle may be wrong (length): what the shapes of both sides do not know of
   /// themselves, and the heights over facets that a user wants to stand for the surface; the largest of seven

@@ -109,8 +109,7 @@ namespace Signorini
   /// @param faces those of this rank to look at
   GeometricPenetration sample_rigid_penetration(const ContactSurface &surface, const RigidObstacle &obstacle,
                                                 const std::vector<Vector3> &displacement,
-                                                const std::vector<double>  &pressure,
-                                                const std::vector<bool>    &is_active,
+                                                const ContactAtVertices    &contact,
                                                 const std::vector<bool> &faces, const MPI_Comm communicator);
 } // namespace Signorini
 

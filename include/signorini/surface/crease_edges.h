@@ -24,6 +24,9 @@ namespace Signorini
     /// degrees; on balls, tori, ellipsoids, capsules, fillets of 6 to 40 around more than .6, but at single
     /// edges (tests/unit/surface/crease_edges.cc).
     double shallow = 10., reach = 1.5, is_alone = .4, may_be_alone = .6;
+    /// How many times the turn on one side counts if the other one ends at once (a chamfer of one cell): the
+    /// facets of a round surface may get larger toward a sharp edge.
+    double one_sided = 2.;
     /// What part of the edges along a crease must be alone, and how many: single ones are so by chance.
     double share_alone = .7;
     int    least_alone = 2;

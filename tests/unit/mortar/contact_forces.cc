@@ -126,7 +126,7 @@ TEST(GeometricPenetration, ConstantAndBilinearDisplacements)
   std::vector<Vector3>    u_mor(s.mor.vertex_node.size(), Point<3>(7., 0., .1));
   std::vector<double>     pressure(u_non.size(), 2.);
   const std::vector<bool> active(u_non.size(), true);
-  auto result = sample_geometric_penetration({s.non, s.mor, overlay}, u_non, u_mor, pressure, active, {},
+  auto result = sample_geometric_penetration({s.non, s.mor, overlay}, u_non, u_mor, {pressure, active}, {},
                                              MPI_COMM_WORLD);
   EXPECT_NEAR(result.min_initial_gap, .3, 1e-15);
   EXPECT_NEAR(result.max_penetration(), .1, 1e-15);
@@ -140,12 +140,12 @@ TEST(GeometricPenetration, ConstantAndBilinearDisplacements)
   };
   u_non  = bilinear(s.non);
   u_mor  = bilinear(s.mor);
-  result = sample_geometric_penetration({s.non, s.mor, overlay}, u_non, u_mor, pressure, active, {},
+  result = sample_geometric_penetration({s.non, s.mor, overlay}, u_non, u_mor, {pressure, active}, {},
                                         MPI_COMM_WORLD);
   EXPECT_NEAR(result.min_gap, .3, 1e-14);
 
   result = sample_geometric_penetration(
-      {s.non, s.mor, overlay}, u_non, u_mor, pressure, active, [](const Point<3> &x) { return x[0] - 1.; },
+      {s.non, s.mor, overlay}, u_non, u_mor, {pressure, active}, [](const Point<3> &x) { return x[0] - 1.; },
       MPI_COMM_WORLD);
   EXPECT_NEAR(result.min_initial_gap, -1., 1e-15);
   EXPECT_NEAR(result.max_penetration(), 1., 1e-14);
@@ -177,12 +177,12 @@ TEST(GeometricPenetration, SharpEdges)
   const std::vector<double> pressure(u.size(), 1.);
   const std::vector<bool>   active(u.size(), true);
   const auto                gap = [](const Point<3> &x) { return x[0] > 1. - 1e-9 ? .3 : 0.; };
-  EXPECT_NEAR(sample_geometric_penetration({non, mor, overlay, on_edge}, u, nothing, pressure, active, gap,
+  EXPECT_NEAR(sample_geometric_penetration({non, mor, overlay, on_edge}, u, nothing, {pressure, active}, gap,
                                            MPI_COMM_SELF)
                   .max_penetration(),
               0., 1e-14);
   const auto wrong =
-      sample_geometric_penetration({non, mor, overlay}, u, nothing, pressure, active, gap, MPI_COMM_SELF);
+      sample_geometric_penetration({non, mor, overlay}, u, nothing, {pressure, active}, gap, MPI_COMM_SELF);
   EXPECT_GT(wrong.max_penetration(), .03);
   EXPECT_LT(wrong.min_gap_at[0], 1.);
 }
@@ -204,8 +204,9 @@ TEST(GeometricPenetration, NothingCovered)
 {
   Surfaces                   s;
   const std::vector<Vector3> u_non(s.non.vertex_node.size()), u_mor(s.mor.vertex_node.size());
+  const std::vector<double>  pressure(u_non.size(), 1.);
+  const std::vector<bool>    active(u_non.size(), true);
   const auto                 result =
-      sample_geometric_penetration({s.non, s.mor, {}}, u_non, u_mor, std::vector<double>(u_non.size(), 1.),
-                                   std::vector<bool>(u_non.size(), true), {}, MPI_COMM_WORLD);
+      sample_geometric_penetration({s.non, s.mor, {}}, u_non, u_mor, {pressure, active}, {}, MPI_COMM_WORLD);
   EXPECT_EQ(result.min_gap, std::numeric_limits<double>::infinity());
 }
