@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <optional>
 #include <tuple>
 
@@ -53,6 +54,45 @@ namespace Signorini
   {
     for (const auto &[gap, place] : gather_values(std::make_pair(least, where), communicator))
       add(gap, place);
+  }
+
+
+
+  ChordEdges::ChordEdges(const ContactSurface &surface)
+    : is_chord(surface.mesh.triangles.size(), {{false, false, false}})
+  {
+    const auto height = [&](const unsigned int triangle, const unsigned int corner) {
+      std::array<double, 3> middle = {{half, half, half}};
+      middle[corner]               = 0.;
+      return surface.offset(triangle, middle).norm();
+    };
+    // The largest height over the middle of an edge, of either triangle.
+    std::map<std::pair<unsigned int, unsigned int>, double> largest;
+    const auto edge = [&](const unsigned int triangle, const unsigned int corner) {
+      const auto &v = surface.mesh.triangles[triangle];
+      return std::minmax({v[(corner + 1) % 3], v[(corner + 2) % 3]});
+    };
+    for (unsigned int t = 0; t < is_chord.size(); ++t)
+      for (unsigned int i = 0; i < 3; ++i)
+        {
+          double &value = largest[edge(t, i)];
+          value         = std::max(value, height(t, i));
+        }
+    for (unsigned int t = 0; t < is_chord.size(); ++t)
+      for (unsigned int i = 0; i < 3; ++i)
+        is_chord[t][i] = height(t, i) < half * largest[edge(t, i)];
+  }
+
+
+
+  bool ChordEdges::has_point(const unsigned int triangle, const std::array<double, 3> &weights) const
+  {
+    constexpr double rounding = 1e-12;
+    for (unsigned int i = 0; i < 3; ++i)
+      if (is_chord[triangle][i] && weights[i] <= rounding && weights[(i + 1) % 3] > rounding &&
+          weights[(i + 2) % 3] > rounding)
+        return true;
+    return false;
   }
 
 
@@ -187,6 +227,7 @@ namespace Signorini
   {
     const auto &[nonmortar, mortar, overlay, sharp_vertices] = pair;
     const SurfaceValues non(nonmortar, sharp_vertices), mor(mortar);
+    const ChordEdges    chords(nonmortar), chords_of_mortar(mortar);
     GapUnderLoad        under_load(nonmortar, contact.pressure);
     LeastGap            initially, deformed;
     DoubtOfGaps         doubts(nonmortar);
@@ -199,9 +240,12 @@ namespace Signorini
             at_centre.reset();
             const auto weights       = compose(cell.nonmortar, sample),
                        image_weights = compose(cell.mortar, sample);
-            const Point<3> x         = non.point(cell.nonmortar_triangle, weights);
-            const Point<3> image     = mor.point(cell.mortar_triangle, image_weights);
-            const Vector3  n         = non.normal(cell.nonmortar_triangle, weights);
+            if (chords.has_point(cell.nonmortar_triangle, weights) ||
+                chords_of_mortar.has_point(cell.mortar_triangle, image_weights))
+              continue;
+            const Point<3> x     = non.point(cell.nonmortar_triangle, weights);
+            const Point<3> image = mor.point(cell.mortar_triangle, image_weights);
+            const Vector3  n     = non.normal(cell.nonmortar_triangle, weights);
             if (!prescribed_gap && !may_touch(n, facet_normal(mortar, cell.mortar_triangle)))
               continue;
             const Vector3 relative = non.value(displacement_nonmortar, cell.nonmortar_triangle, x) -

@@ -90,6 +90,26 @@ def make_mesh(geometry, mesh, *options):
     check(run.returncode == 0, f'gmsh: {run.stdout[-500:]}')
 
 
+RING_ON_CONE = """set Bodies        = ring
+set Contact pairs = cone
+subsection Body ring
+  set Mesh            = tube
+  set Radius          = 1.2
+  set Inner radius    = 1
+  set Height          = 0.3
+  set Round divisions = 4, 48, 6
+  set Young modulus   = 1e5
+  set Forces          = end: (0, 0, -10)
+end
+subsection Pair cone
+  set First    = ring: inner + start
+  set Obstacle = function: (sqrt(x*x + y*y) - 1 + 0.8*z)/sqrt(1.64)
+end
+subsection Refinement
+  set Global cycles = 1
+end
+"""
+
 TURNED_ROLLER = """set Bodies        = roller
 set Contact pairs = floor
 subsection Body roller
@@ -484,6 +504,19 @@ def turned_ball_on_walls(p):
             check(abs(s['bodies'][0]['reaction'][1]) < .05 * weight, f'{angle}: held with {s["bodies"][0]["reaction"]}')
             # What walls do not hold, nothing does, whatever the mesh.
             refused(p, path, f'Body ball/Rotation angle={angle}', 'Body ball/Volume force=(-0.5, 0.2, -1)')
+
+
+def ring_on_cone(p):
+    """A ring with its flat end in the pair stands on a cone with its rim, which is an arc: the chords that the end has there are no places of it."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, 'ring.prm')
+        with open(path, 'w') as f:
+            f.write(RING_ON_CONE)
+        s = p.solve(path)
+        certificate(s)
+        near(s['pairs'][0]['force'][2], 10, 1e-4, 'force')
+        # The sagitta of a chord, R (1 - cos(pi / 96)) cos(39 degrees), is 4.2e-4.
+        check(s['pairs'][0]['max_penetration'] < 1e-4, f'penetration between the nodes: {s["pairs"][0]["max_penetration"]}')
 
 
 def turned_roller(p):

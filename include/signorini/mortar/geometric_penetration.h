@@ -34,6 +34,22 @@ namespace Signorini
     }
   };
 
+  /// Edges at which a curved part of a surface ends beside a flatter one, such as the rim of a bore. The true
+  /// edge is an arc; its chord, where the triangles of the flat side end, is no place of the body.
+  class ChordEdges
+  {
+  public:
+    /// Those of a surface.
+    explicit ChordEdges(const ContactSurface &surface);
+
+    /// Whether a point of a triangle lies inside of such an edge, and the triangle is that of the flat side.
+    bool has_point(const unsigned int triangle, const std::array<double, 3> &weights) const;
+
+  private:
+    /// By triangle and corner, of the edge opposite to it.
+    std::vector<std::array<bool, 3>> is_chord;
+  };
+
   /// Contact at the vertices of a nonmortar surface; both lists must outlive this.
   struct ContactAtVertices
   {
@@ -121,7 +137,8 @@ namespace Signorini
   };
 
   /// Collective. Samples seven points (corners, middles of edges, centre) of every overlay triangle of all
-  /// ranks, with displacements at their true reference points and normals linear on triangles. The share of
+  /// ranks but for chords (ChordEdges), with displacements at their true reference points and normals linear
+  /// on triangles. The share of
   /// the surface that is covered at all is PairCoupling::covered_area / PairCoupling::area.
   /// @param pair with the overlay of this rank's own faces
   /// @param displacement_nonmortar displacement_mortar per vertex of each surface (hanging ones too)
