@@ -227,7 +227,7 @@ namespace Signorini
   {
     const auto &[nonmortar, mortar, overlay, sharp_vertices] = pair;
     const SurfaceValues non(nonmortar, sharp_vertices), mor(mortar);
-    const ChordEdges    chords(nonmortar), chords_of_mortar(mortar);
+    const ChordEdges    chords(nonmortar);
     GapUnderLoad        under_load(nonmortar, contact.pressure);
     LeastGap            initially, deformed;
     DoubtOfGaps         doubts(nonmortar);
@@ -240,8 +240,7 @@ namespace Signorini
             at_centre.reset();
             const auto weights       = compose(cell.nonmortar, sample),
                        image_weights = compose(cell.mortar, sample);
-            if (chords.has_point(cell.nonmortar_triangle, weights) ||
-                chords_of_mortar.has_point(cell.mortar_triangle, image_weights))
+            if (chords.has_point(cell.nonmortar_triangle, weights))
               continue;
             const Point<3> x     = non.point(cell.nonmortar_triangle, weights);
             const Point<3> image = mor.point(cell.mortar_triangle, image_weights);

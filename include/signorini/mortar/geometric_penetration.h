@@ -39,7 +39,8 @@ namespace Signorini
   class ChordEdges
   {
   public:
-    /// Those of a surface.
+    /// Those of a surface. All triangles beside those that are asked for must be there: on the mortar side
+    /// not all are that lie on one rank.
     explicit ChordEdges(const ContactSurface &surface);
 
     /// Whether a point of a triangle lies inside of such an edge, and the triangle is that of the flat side.
