@@ -49,7 +49,7 @@ namespace Signorini
     /// Of which body; NodalSpace::start_vertices(); x, y or z; where.
     unsigned int     body = 0, start_vertex = StartNodes::none, component = 0;
     dealii::Point<3> position;
-    /// What it holds, in words.
+    /// What it holds, in words, and whether that moves bodies without turning them.
     std::string motion;
     bool        is_translation = false;
     /// The displacement of that motion there, relative to its mean size on the contact surfaces.

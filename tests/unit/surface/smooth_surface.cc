@@ -10,16 +10,7 @@ namespace
   using namespace Signorini;
   using dealii::Point;
   using dealii::Tensor;
-
-  SurfaceMesh bent(const unsigned int n, const double jitter, const TestSurfaces::Shape &shape)
-  {
-    const auto  grid = TestSurfaces::flat_grid(n, n, jitter, 7);
-    SurfaceMesh mesh;
-    for (const auto &[s, t] : grid.vertices)
-      mesh.vertices.push_back(shape(s, t));
-    mesh.triangles = grid.triangles;
-    return mesh;
-  }
+  using TestSurfaces::bent;
 
   SmoothSurface smooth(const SurfaceMesh &mesh)
   {

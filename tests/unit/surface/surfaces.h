@@ -64,6 +64,17 @@ namespace TestSurfaces
     return grid;
   }
 
+  /// Such a grid in space, its inner vertices moved by up to `jitter` cells.
+  inline SurfaceMesh bent(const unsigned int n, const double jitter, const Shape &shape)
+  {
+    const FlatGrid grid = flat_grid(n, n, jitter, 7);
+    SurfaceMesh    mesh;
+    for (const auto &[s, t] : grid.vertices)
+      mesh.vertices.push_back(shape(s, t));
+    mesh.triangles = grid.triangles;
+    return mesh;
+  }
+
   /// Maps a grid into space. `up`: normals to +z.
   inline SurfaceMesh in_space(const FlatGrid &grid, const Shape &shape, const bool up)
   {
