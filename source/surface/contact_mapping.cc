@@ -109,7 +109,7 @@ namespace Signorini
                                           [](const auto &polygon) { return polygon.share < turned_share; });
       const bool is_wrong = polygons.is_lost() || polygons.n_broken > 0 || n_flips > 0 ||
                             polygons.defect() > MappingReport::torn;
-      if (is_wrong && !polygons.list.empty() && !polygons.can_touch())
+      if (is_wrong && (polygons.is_lost() || !polygons.list.empty()) && !polygons.can_touch())
         {
           ++report.n_turned_away;
           return;

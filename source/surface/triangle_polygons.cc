@@ -74,6 +74,7 @@ namespace Signorini
     sides.clear();
     triangle       = t;
     faces_any      = false;
+    touches_any    = false;
     covered        = 0.;
     n_broken       = 0;
     is_covered_all = true;
@@ -98,7 +99,8 @@ namespace Signorini
           ++last;
         if (!meet(t, m, first, last))
           continue;
-        faces_any = true;
+        faces_any   = true;
+        touches_any = touches_any || !incidence.triangles_turn_away(t, m);
         if (last - first >= 3)
           add_polygon(t, m, first, last);
       }

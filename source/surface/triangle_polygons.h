@@ -45,10 +45,10 @@ namespace Signorini
       return is_covered_all && faces_any && list.empty();
     }
 
-    /// Whether it meets a triangle that it can touch.
+    /// Whether it meets a triangle that it can touch, or would if it were not lost.
     bool can_touch() const
     {
-      return std::any_of(list.begin(), list.end(), [&](const Polygon &polygon) {
+      return is_lost() ? touches_any : std::any_of(list.begin(), list.end(), [&](const Polygon &polygon) {
         return !incidence.triangles_turn_away(triangle, polygon.mortar_triangle);
       });
     }
@@ -96,7 +96,7 @@ namespace Signorini
     std::vector<std::array<double, 2>> flat;
     CommonPolygon                      sorter;
     unsigned int                       triangle;
-    bool                               is_covered_all, faces_any;
+    bool                               is_covered_all, faces_any, touches_any;
   };
 } // namespace Signorini
 

@@ -94,6 +94,23 @@ TEST(ClosedSurfaces, BallOnPlane)
     }
 }
 
+// Two balls that touch anywhere. Where they turn away from each other,
+// triangles are without their part of the overlay: no error, for nothing touches there.
+TEST(ClosedSurfaces, BallBesideBall)
+{
+  for (const unsigned int n : {5u, 8u, 13u})
+    for (const unsigned int m : {6u, 9u, 14u})
+      for (const double x : {0., .2, .5, .9})
+        for (const double y : {.1, .4})
+          {
+            const double      z     = std::sqrt(4.04 - x * x - y * y);
+            const SurfaceMesh ball  = sphere(n, 1., Point<3>(x, y, z), true, .2),
+                              other = sphere(m, 1., Point<3>(), true);
+            const ContactMapping mapping(ball, other);
+            EXPECT_EQ(mapping.report().n_lost_triangles, 0u) << n << ' ' << m << ' ' << x << ' ' << y;
+          }
+}
+
 namespace
 {
   /// The same surface with the vertices numbered the other way round.
