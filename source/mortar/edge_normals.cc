@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include "crease_normals.h"
+
 #include <signorini/mesh/facing_parts.h>
 #include <signorini/mesh/surface_normals.h>
 #include <signorini/mesh/surface_sight.h>
@@ -441,7 +443,8 @@ namespace Signorini
   namespace
   {
     /// Hanging vertices between others that were turned have the mean of their parents, as always.
-    void turn_hanging(ContactSurface &surface)
+    /// @param is_turned by vertex, whether it was turned
+    void turn_hanging(ContactSurface &surface, const std::vector<bool> &is_turned)
     {
       for (std::size_t v = 0; v < surface.hanging.size(); ++v)
         {
@@ -450,7 +453,7 @@ namespace Signorini
           for (const auto &[parent, weight] : surface.hanging[v])
             {
               mean += weight * surface.mesh.vertex_normals[parent];
-              any = any || surface.has_partner_normal[parent];
+              any = any || is_turned[parent];
               all = all && surface.has_partner_normal[parent];
             }
           if (!any)
@@ -465,15 +468,22 @@ namespace Signorini
 
   void turn_edges(ContactSurface &surface, const PartnerSight &partner)
   {
-    const std::map<unsigned int, Vector3> normals = EdgeNormals(surface, partner).find();
+    const std::map<unsigned int, Vector3> normals    = EdgeNormals(surface, partner).find();
+    const std::map<unsigned int, Vector3> on_creases = normals_on_creases(surface, partner);
     surface.beyond.clear();
     surface.has_partner_normal.assign(surface.mesh.vertices.size(), false);
-    for (const auto &[v, normal] : normals)
-      if (surface.hanging[v].empty())
-        {
-          surface.mesh.vertex_normals[v] = normal;
-          surface.has_partner_normal[v]  = true;
-        }
-    turn_hanging(surface);
+    std::vector<bool> is_turned(surface.mesh.vertices.size(), false);
+    const auto        turn = [&](const std::map<unsigned int, Vector3> &new_normals) {
+      for (const auto &[v, normal] : new_normals)
+        if (surface.hanging[v].empty() && !is_turned[v])
+          {
+            surface.mesh.vertex_normals[v] = normal;
+            is_turned[v]                   = true;
+          }
+    };
+    turn(normals);
+    surface.has_partner_normal = is_turned;
+    turn(on_creases);
+    turn_hanging(surface, is_turned);
   }
 } // namespace Signorini

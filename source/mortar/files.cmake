@@ -1,6 +1,7 @@
 signorini_add_layer(mortar
   contact_forces.cc
   contact_indicator.cc
+  crease_normals.cc
   dual_basis.cc
   edge_normals.cc
   face_claims.cc

@@ -301,6 +301,33 @@ TEST(EdgeNormals, LongPiecesOfAnEdgeOverFacets)
       }
 }
 
+// A crease of less than 60 degrees has all normals between those of its sides: that of a plane before it, or
+// that of the side which is nearest to it. A groove has its own.
+TEST(EdgeNormals, CreasesHaveTheNormalBetweenTheirSides)
+{
+  for (const double half : {.1, .2, .35, -.1, -.2, -.35})
+    for (const double tilted : {0., .05, -.15, .3, .5})
+      {
+        ContactSurface       surface = prism(half);
+        const ContactSurface before  = surface;
+        const RigidObstacle  below =
+            RigidObstacle::plane(Point<3>(0., 0., -2.), Vector3({std::sin(tilted), 0., std::cos(tilted)}));
+        turn_edges(surface, sight_of(below, 1.));
+        const double  angle = half < 0. ? 0. : std::max(-half, std::min(half, tilted));
+        const Vector3 expected({-std::sin(angle), 0., -std::cos(angle)});
+        for (unsigned int v = 0; v < surface.mesh.vertices.size(); ++v)
+          {
+            const bool is_on_crease = std::abs(surface.mesh.vertices[v][0]) < 1e-10;
+            EXPECT_LT((surface.mesh.vertex_normals[v] -
+                       (is_on_crease ? expected : Vector3(before.mesh.vertex_normals[v])))
+                          .norm(),
+                      1e-12)
+                << half << ' ' << tilted << ' ' << surface.mesh.vertices[v];
+            EXPECT_FALSE(surface.has_partner_normal[v]);
+          }
+      }
+}
+
 // Of the faces beside a groove one is along a plane before it; the other one looks elsewhere.
 TEST(EdgeNormals, GroovesPressOnNothing)
 {
