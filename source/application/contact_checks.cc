@@ -298,6 +298,14 @@ namespace Signorini
         const LostContact  lost    = lost_contact(pair, coupled.couplings[p], comm);
         const bool         is_void = coupled.couplings[p].n_rows_of_all == 0;
         const std::string  choice  = pair.obstacle ? "" : " or choose the other side as \"Nonmortar\",";
+        if (is_void && !(lost.by_conditions > 0.) && !(lost.by_other_pairs > 0.))
+          throw InputError(
+              "Pair " + pair.name + ": no node of \"" + pair.nonmortar.name +
+              "\" can carry a contact stress, because \"" + pair.mortar.name +
+              "\" covers next to nothing of the faces around it: they are too wide for what they "
+              "touch. Refine body " +
+              coupled.model.bodies().body_name(pair.nonmortar.body) +
+              " there (\"Initial levels\", \"Refinement/Regions\")," + choice + " or remove the pair.");
         if (lost.by_other_pairs > ContactRule().lost_share * lost.covered ||
             (is_void && lost.by_other_pairs > lost.by_conditions))
           throw InputError(

@@ -375,6 +375,18 @@ namespace Signorini
       return std::make_pair(static_cast<unsigned int>(name[1] - 'x'), name[0] == '+' ? 1. : -1.);
     }
 
+    /// Without blanks around them.
+    std::vector<std::string> split_at(const std::string &text, const std::string &between)
+    {
+      std::vector<std::string> parts;
+      for (std::size_t begin = 0, end = 0; end != std::string::npos; begin = end + between.size())
+        {
+          end = text.find(between, begin);
+          parts.push_back(Utilities::trim(text.substr(begin, end == std::string::npos ? end : end - begin)));
+        }
+      return parts;
+    }
+
     /// The boundaries of a surface that are flat and face a direction, within a tenth of a degree.
     std::set<types::boundary_id> boundaries_facing(const std::string &name, const SurfaceMesh &mesh,
                                                    const std::vector<types::boundary_id> &boundary)
@@ -400,15 +412,18 @@ namespace Signorini
   std::set<types::boundary_id> Bodies::boundary_ids(const unsigned int body, const std::string &name,
                                                     const std::string &where) const
   {
-    const std::string            between = " + ";
-    std::set<types::boundary_id> ids;
-    if (name.find(between) == std::string::npos || has_boundary(body, name))
+    if (has_boundary(body, name))
       return ids_of_one_boundary(body, name, where);
-    for (std::size_t begin = 0, end = 0; end != std::string::npos; begin = end + between.size())
+    std::vector<std::string> parts = split_at(name, " + ");
+    // Without blanks a plus may belong to a name.
+    if (const std::vector<std::string> close = split_at(name, "+");
+        parts.size() == 1 && std::all_of(close.begin(), close.end(),
+                                         [&](const std::string &part) { return has_boundary(body, part); }))
+      parts = close;
+    std::set<types::boundary_id> ids;
+    for (const std::string &part : parts)
       {
-        end                                     = name.find(between, begin);
-        const std::set<types::boundary_id> more = ids_of_one_boundary(
-            body, Utilities::trim(name.substr(begin, end == std::string::npos ? end : end - begin)), where);
+        const std::set<types::boundary_id> more = ids_of_one_boundary(body, part, where);
         ids.insert(more.begin(), more.end());
       }
     return ids;

@@ -12,16 +12,31 @@ namespace Signorini
 
   namespace
   {
+    /// The mean of those of the diagonal entries of a block that are not zero, or `scale` if all are: not
+    /// the entry of other nodes, beside which the block's own ones may look like rounding.
+    double mean_stiffness(const double *const b, const double scale)
+    {
+      double sum = 0., n = 0.;
+      for (unsigned int c = 0; c < dim; ++c)
+        if (const double entry = b[dim * c + c]; entry > 0.)
+          {
+            sum += entry;
+            n += 1.;
+          }
+      return n > 0. ? sum / n : scale;
+    }
+
     /// Rows and columns of prescribed components; the diagonal stays what it is.
     void eliminate_components(double *const b, const FixedMask of_row, const FixedMask of_column,
                               const bool is_diagonal, const double scale)
     {
+      const double filling = is_diagonal ? mean_stiffness(b, scale) : 0.;
       for (unsigned int c = 0; c < dim; ++c)
         for (unsigned int d = 0; d < dim; ++d)
           if ((of_row & (1u << c)) || (of_column & (1u << d)))
             {
               if (is_diagonal && c == d)
-                b[dim * c + d] = b[dim * c + d] > 0. ? b[dim * c + d] : scale;
+                b[dim * c + d] = b[dim * c + d] > 0. ? b[dim * c + d] : filling;
               else
                 b[dim * c + d] = 0.;
             }
@@ -37,7 +52,7 @@ namespace Signorini
         {
           const Block  fixed     = static_cast<Block>(unit_symmetric_tensor<dim>()) - free_row;
           const double stiffness = trace(fixed * block) / trace(fixed);
-          result += (stiffness > 0. ? stiffness : scale) * fixed;
+          result += (stiffness > 0. ? stiffness : mean_stiffness(b, scale)) * fixed;
         }
       write_block(b, result);
     }

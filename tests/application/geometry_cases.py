@@ -668,4 +668,4 @@ def edge_contact(p):
     upright = ['Body bar/Rotation angle=-45', 'Body bar/Dirichlet=front + back: (*, 0, *); top + right: (0, *, -0.02)']
     # On the floor the force is spread over the widths of both faces then.
     for partner, tolerance in ((rigid, 1e-6), ([], 1e-4)):
-        near(force(*upright, *partner, 'Pair ground/First=bar: bottom + left'), force(*upright, *partner), tolerance, 'force with both faces')
+        near(force(*upright, *partner, 'Pair ground/First=bar: bottom+left'), force(*upright, *partner), tolerance, 'force with both faces')

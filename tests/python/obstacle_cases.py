@@ -73,6 +73,17 @@ class Scalar(unittest.TestCase):
         mirrored = signorini.solve_obstacle(A, -f, prolongations, upper=-stairs(x))
         np.testing.assert_allclose(mirrored.u, -expected, atol=1e-10)
 
+    def test_soft_beside_stiff(self):
+        """Two membranes that know nothing of each other; the second one has the same solution, however soft it is."""
+        A, f, prolongations, x, _ = membrane(4)
+        alone, n = signorini.solve_obstacle(A, f, prolongations, lower=stairs(x)), len(f)
+        both = [sp.block_diag([P, P]) for P in prolongations]
+        for ratio in (1e-3, 5e-7, 1e-9, 1e-12):
+            for P in (both, ()):
+                solution = signorini.solve_obstacle(sp.block_diag([A, ratio * A]), np.concatenate([f, ratio * f]), P, lower=np.tile(stairs(x), 2))
+                np.testing.assert_allclose(solution.u, np.tile(alone.u, 2), atol=1e-9)
+                np.testing.assert_array_equal(solution.active, np.concatenate([alone.active, n + alone.active]))
+
     def test_iterations_do_not_grow(self):
         iterations = []
         for levels in (5, 6, 7):

@@ -60,8 +60,8 @@ namespace Signorini
   /// Collective. coarse_defect += P^T residual, zero in fixed components; level is the coarse one.
   void restrict_defect(const MultigridLevel &level, Vector &coarse_defect, const Vector &residual);
 
-  /// Zeroes rows and columns of fixed components; the diagonal entry stays, or becomes `scale` where it is
-  /// zero. `rows` are owned rows.
+  /// Zeroes rows and columns of fixed components; the diagonal entry stays, or where it is zero becomes the
+  /// mean of the others of its block, `scale` where these are zero, too. `rows` are owned rows.
   void eliminate_fixed_components(NodeBlockMatrix &matrix, const std::vector<FixedDirections> &fixed,
                                   const std::vector<unsigned int> &rows, const double scale);
 
