@@ -244,6 +244,47 @@ namespace Signorini
 
   namespace
   {
+    /// Calls f(polygon, x, y, width, area) for the cells of the overlay on this rank: their centre, its
+    /// image, the width of the nonmortar triangle (lengths), and the area of the cell.
+    template <typename F>
+    void for_cells(const ContactPair &pair, const F &f)
+    {
+      const ContactSurface        &non = pair.nonmortar.surface;
+      const SurfaceMesh           &mor = pair.mortar.surface.mesh;
+      std::vector<OverlayTriangle> cells;
+      for (std::size_t i = 0; i < pair.mapping->n_polygons(); ++i)
+        {
+          const unsigned int t    = pair.mapping->polygon_triangles[i].first;
+          const double       area = triangle_area(non.mesh, t);
+          cells.clear();
+          pair.mapping->triangulate(cells, i);
+          for (const OverlayTriangle &cell : cells)
+            {
+              constexpr std::array<double, 3> centre = {{1. / 3., 1. / 3., 1. / 3.}};
+              f(i, evaluate(non.mesh, t, compose(cell.nonmortar, centre)),
+                evaluate(mor, cell.mortar_triangle, compose(cell.mortar, centre)), std::sqrt(area),
+                std::abs(cell.share()) * area);
+            }
+        }
+    }
+
+    /// Whether the image of a place lies behind it by more than the face is wide.
+    bool is_far_behind(const ContactPair &pair, const std::size_t polygon, const Point<3> &x,
+                       const Point<3> &y, const double width)
+    {
+      const unsigned int t = pair.mapping->polygon_triangles[polygon].first;
+      return (y - x) * facet_normal(pair.nonmortar.surface, t) <= -width;
+    }
+
+    /// Collective.
+    bool has_images_far_behind(const ContactPair &pair, const MPI_Comm communicator)
+    {
+      bool any = false;
+      for_cells(pair, [&](const std::size_t i, const Point<3> &x, const Point<3> &y, const double width,
+                          const double) { any = any || is_far_behind(pair, i, x, y, width); });
+      return Utilities::MPI::max(static_cast<int>(any), communicator) > 0;
+    }
+
     /// What of a mapping has its image behind the nonmortar body.
     struct ImagesBehind
     {
@@ -251,39 +292,24 @@ namespace Signorini
       std::vector<bool>   polygons;
       std::vector<double> covered, behind;
 
-      explicit ImagesBehind(const ContactPair &pair)
-        : polygons(pair.mapping->n_polygons(), false)
-        , covered(pair.nonmortar.surface.faces.size(), 0.)
+      ImagesBehind(const ContactPair &pair, const WayOut &way_out)
+        : covered(pair.nonmortar.surface.faces.size(), 0.)
         , behind(covered)
       {
-        const ContactSurface        &non = pair.nonmortar.surface;
-        const SurfaceMesh           &mor = pair.mortar.surface.mesh;
-        std::optional<WayOut>        way_out;
-        std::vector<OverlayTriangle> cells;
-        for (std::size_t i = 0; i < polygons.size(); ++i)
+        std::vector<double> of_polygon(pair.mapping->n_polygons(), 0.), behind_of_polygon(of_polygon);
+        for_cells(pair, [&](const std::size_t i, const Point<3> &x, const Point<3> &y, const double width,
+                            const double area) {
+          of_polygon[i] += area;
+          if (is_far_behind(pair, i, x, y, width) && way_out.leads_from(x, y, width))
+            behind_of_polygon[i] += area;
+        });
+        for (std::size_t i = 0; i < of_polygon.size(); ++i)
           {
-            const unsigned int t = pair.mapping->polygon_triangles[i].first, f = non.triangle_face[t];
-            const double       whole = triangle_area(non.mesh, t), width = std::sqrt(whole);
-            double             area = 0., area_behind = 0.;
-            cells.clear();
-            pair.mapping->triangulate(cells, i);
-            for (const OverlayTriangle &cell : cells)
-              {
-                constexpr std::array<double, 3> centre = {{1. / 3., 1. / 3., 1. / 3.}};
-                const double                    part   = std::abs(cell.share()) * whole;
-                const Point<3>                  x = evaluate(non.mesh, t, compose(cell.nonmortar, centre)),
-                               y = evaluate(mor, cell.mortar_triangle, compose(cell.mortar, centre));
-                area += part;
-                if ((y - x) * facet_normal(non, t) > -width)
-                  continue;
-                if (!way_out)
-                  way_out.emplace(pair.nonmortar.boundary());
-                if (way_out->leads_from(x, y, width))
-                  area_behind += part;
-              }
-            covered[f] += area;
-            behind[f] += area_behind;
-            polygons[i] = area_behind > .5 * area;
+            const unsigned int f =
+                pair.nonmortar.surface.triangle_face[pair.mapping->polygon_triangles[i].first];
+            covered[f] += of_polygon[i];
+            behind[f] += behind_of_polygon[i];
+            polygons.push_back(behind_of_polygon[i] > .5 * of_polygon[i]);
           }
       }
 
@@ -316,7 +342,6 @@ namespace Signorini
 
     void leave_out(ContactSide &side, const std::vector<bool> &faces)
     {
-      keep_whole(side);
       std::vector<bool> kept = faces;
       kept.flip();
       side.surface =
@@ -329,23 +354,28 @@ namespace Signorini
 
 
   void leave_out_images_behind(ContactPair &pair, const std::function<std::shared_ptr<ContactMapping>()> &map,
-                               const MPI_Comm communicator)
+                               const std::function<SurfaceMesh()> &boundary_of_body,
+                               const MPI_Comm                      communicator)
   {
     std::shared_ptr<ContactMapping> mapping = map();
     pair.mapping                            = mapping;
-    ImagesBehind images(pair);
+    pair.nonmortar.whole.reset();
+    pair.mortar.whole.reset();
+    if (!has_images_far_behind(pair, communicator))
+      return;
+    const SurfaceMesh boundary = boundary_of_body();
+    const WayOut      way_out(boundary);
+    ImagesBehind      images(pair, way_out);
     if (const std::vector<bool> faces = images.faces(communicator); !faces.empty())
       {
         pair.n_images_behind = std::count(faces.begin(), faces.end(), true);
         leave_out(pair.nonmortar, faces);
         mapping      = map();
         pair.mapping = mapping;
-        images       = ImagesBehind(pair);
+        images       = ImagesBehind(pair, way_out);
       }
     if (images.leave_anything(communicator) &&
         std::find(images.polygons.begin(), images.polygons.end(), true) != images.polygons.end())
       mapping->leave_out(images.polygons);
-    pair.nonmortar.whole.reset();
-    pair.mortar.whole.reset();
   }
 } // namespace Signorini

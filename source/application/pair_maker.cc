@@ -88,6 +88,15 @@ namespace Signorini
       return result;
     }
 
+    /// Collective. The whole of it, on all ranks.
+    SurfaceMesh boundary_of(const NodalSpace &space, const Bodies &bodies, const unsigned int body)
+    {
+      std::set<types::boundary_id> ids;
+      for (unsigned int i = 0; i < bodies.boundary_names(body).size(); ++i)
+        ids.insert(bodies.boundary_id(body, i));
+      return extract_contact_surface(space, ids, [](const NodeIndex) { return FixedDirections(); }, {}).mesh;
+    }
+
     /// Before anything is measured along normals.
     void turn_edges_of(ContactPair &pair, Journal &journal)
     {
@@ -143,6 +152,7 @@ namespace Signorini
 
   PairMaker::PairMaker(const ContactModel &model, const ConstrainedSpace &constrained, Journal &journal)
     : model(model)
+    , space(constrained.nodal())
     , journal(journal)
   {
     const auto time = journal.measure(Phase::mesh);
@@ -212,7 +222,7 @@ namespace Signorini
           share(pair);
           return map_surfaces(pair, model.communicator(), journal);
         },
-        model.communicator());
+        [&] { return boundary_of(space, model.bodies(), pair.nonmortar.body); }, model.communicator());
     integrate(pair, model.communicator(), journal);
     return pair;
   }

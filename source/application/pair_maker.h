@@ -50,6 +50,7 @@ namespace Signorini
     void share(ContactPair &pair) const;
 
     const ContactModel &model;
+    const NodalSpace   &space;
     Journal            &journal;
     /// By pair: what of the surfaces is mapped, in the order of the definition.
     std::vector<std::vector<ContactSide>> sides;

@@ -145,6 +145,14 @@ namespace Signorini
     Vector3 sum;
     if (shapes.empty() || shape_of_triangle[triangle] == no_shape)
       return sum;
+    if (const BoundaryShape &shape = *shapes[shape_of_triangle[triangle]]; shape.is_exact())
+      {
+        const auto    &v = mesh.triangles[triangle];
+        const Point<3> x(weights[0] * Tensor<1, 3>(mesh.vertices[v[0]]) +
+                         weights[1] * Tensor<1, 3>(mesh.vertices[v[1]]) +
+                         weights[2] * Tensor<1, 3>(mesh.vertices[v[2]]));
+        return shape.project(x) - x;
+      }
     const Cubic &coefficients = cubic(mesh, triangle);
     const auto   m            = monomials(weights[1], weights[2]);
     for (unsigned int j = 0; j < n_terms; ++j)

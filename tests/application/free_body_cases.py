@@ -693,6 +693,9 @@ def chain_links(p):
             near(pair['max_recovered_pressure'], largest, .04, 'largest pressure')
             check(not any('penetrate' in text or 'mapping' in text for text in s['certificate']['objections']), s['certificate']['objections'])
             check(any('behind their own body' in note for note in s['notes']), f'notes: {s["notes"]}')
+            # Cut down to the bends, outer and inner side: what lies behind them does so with the rest of the bodies, too.
+            cut = p.solve(path, f'Pair bend/Nonmortar={side}', 'Pair bend/First region=x - 6.5', 'Pair bend/Second region=9.5 - x', codes=(0,) if side == 'first' else (0, 3))
+            near(cut['pairs'][0]['max_recovered_pressure'], pair['max_recovered_pressure'], .01, 'largest pressure with regions')
 
 
 def roller_between_plates(p):

@@ -44,6 +44,53 @@ def fitting_press(p):
         v.check_press_fit(p, name, kind, GEOMETRIC, INTERFERENCE)
 
 
+COARSE_FIT = '''set Bodies        = shaft, hub
+set Contact pairs = fit
+subsection Body shaft
+  set Mesh          = quarter of cylinder
+  set Radius        = 10
+  set Height        = 4
+  set Dirichlet     = symmetry x: (0, *, *); symmetry y: (*, 0, *); bottom: (*, *, 0)
+  set Young modulus = 2.1e5
+end
+subsection Body hub
+  set Mesh            = quarter of tube
+  set Inner radius    = 9.999
+  set Radius          = 20
+  set Height          = 4
+  set Round divisions = 6, 24, 4
+  set Translation     = 0, 0, -4
+  set Dirichlet       = symmetry x: (0, *, *); symmetry y: (*, 0, *); start: (*, *, 0)
+  set Young modulus   = 2.1e5
+end
+subsection Pair fit
+  set First  = shaft: side
+  set Second = hub: inner
+end
+subsection Refinement
+  set Initial global levels = 0
+end
+'''
+
+
+def coarse_fit(p):
+    """A shaft with 8 faces around, in a hub with 96 that is smaller by a ten thousandth of its radius: both are the cylinders that they stand for,
+    whatever their facets."""
+    pressure = .001 * 2.1e5 * (20 ** 2 - 10 ** 2) / (2 * 10 * 20 ** 2)
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, 'fit.prm')
+        with open(path, 'w') as f:
+            f.write(COARSE_FIT)
+        # From the fine side; from the coarse one as near as its cells allow, or NO.
+        for side, level, tolerance in (('second', 0, .01), ('second', 1, .01), ('first', 1, .1), ('first', 2, .03)):
+            settings = [f'Pair fit/Nonmortar={side}', f'Body shaft/Initial levels={level}']
+            pair = p.solve(path, *settings)['pairs'][0]
+            near(pair['initial_penetration'], .001, .01, f'{side}, {level}: interference')
+            near(pair['load'] / pair['contact_area'], pressure, tolerance, f'{side}, {level}: mean pressure')
+            loose = p.solve(path, *settings, 'Body hub/Inner radius=10.0005')
+            check(loose['pairs'][0]['load'] == 0. == loose['pairs'][0]['initial_penetration'], f'{side}, {level}: clearance')
+
+
 def wrong_gap(p):
     """Facets in place of the surfaces: the same problem gets the verdict NO, and exit code 3, with the results written."""
     with tempfile.TemporaryDirectory() as folder:

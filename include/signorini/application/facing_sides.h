@@ -28,8 +28,11 @@ namespace Signorini
   /// other one, backward, through both bodies; near the tip of a tooth they lead through it. Nothing is left
   /// out where nothing else would be left.
   /// @param map makes the mapping of the pair as it is
+  /// @param boundary_of_body the whole boundary of the nonmortar body, with what does not belong to the pair:
+  /// collective, asked for where images lie far behind
   void leave_out_images_behind(ContactPair &pair, const std::function<std::shared_ptr<ContactMapping>()> &map,
-                               const MPI_Comm communicator);
+                               const std::function<SurfaceMesh()> &boundary_of_body,
+                               const MPI_Comm                      communicator);
 } // namespace Signorini
 
 #endif

@@ -24,9 +24,12 @@ namespace Signorini
     bool                                                       are_used = true;
   };
 
-  /// Where the true surface lies over the facets of a contact surface: the offset from a point to its shape,
-  /// on each triangle the cubic that has the right values at ten points (error of fourth order; on the
-  /// triangles that a smooth shape was made from, none). Worked out for the triangles that are asked for.
+  /// Where the true surface lies over the facets of a contact surface: the offset from a point to its shape.
+  /// Of patches over facets, whose nearest point takes a search, on each triangle the cubic that has the
+  /// right values at ten points (error of fourth order; on the triangles that they were made from, none),
+  /// worked out for the triangles that are asked for. Of exact shapes the offset itself
+  /// (BoundaryShape::is_exact()): on coarse faces a cubic is off by a ten thousandth of the radius (16
+  /// around), as much as fits are tight.
   class TrueShape
   {
   public:
