@@ -4,11 +4,10 @@
 // Temperatures of a deck, as strains of its bodies without stress.
 
 #include "deck_bodies.h"
+#include "deck_joined_sets.h"
 #include "deck_series.h"
-#include "interpolated_field.h"
 
 #include <algorithm>
-#include <memory>
 
 namespace Signorini
 {
@@ -60,15 +59,7 @@ namespace Signorini
       if (std::all_of(at_vertices.begin(), at_vertices.end(),
                       [&](const DeckSeries &s) { return s.values == at_vertices[0].values; }))
         return at_vertices[0].field();
-      return [mesh   = std::make_shared<const MeshInterpolation>(body.cells->mesh),
-              values = std::make_shared<const std::vector<DeckSeries>>(at_vertices)](const Point<3> &p,
-                                                                                     const double    t) {
-        const MeshInterpolation::Weights weights = mesh->weights(p);
-        double                           result  = 0.;
-        for (unsigned int i = 0; i < weights.n; ++i)
-          result += weights.values[i] * (*values)[weights.vertices[i]].at(t);
-        return result;
-      };
+      return nodal_field(body, at_vertices);
     }
   } // namespace
 

@@ -4,6 +4,7 @@
 // Conditions and forces of a deck on its bodies.
 
 #include "deck_bodies.h"
+#include "deck_joined_sets.h"
 #include "deck_series.h"
 
 #include <signorini/algebra/input_error.h>
@@ -17,32 +18,59 @@ namespace Signorini
 
   namespace
   {
-    using Values = std::array<std::optional<DeckSeries>, 3>;
-
-    bool is_zero(const Values &values)
+    bool is_zero(const DeckValues &values)
     {
       return std::all_of(values.begin(), values.end(), [](const auto &v) { return v && v->is_zero(); });
     }
 
+    bool are_equal(const DeckValues &one, const DeckValues &other)
+    {
+      for (unsigned int c = 0; c < 3; ++c)
+        if (one[c].has_value() != other[c].has_value() || (one[c] && one[c]->values != other[c]->values))
+          return false;
+      return true;
+    }
+
+    /// The axis of space that a unit vector lies along, or 3; up to rounding of the numbers in a file.
+    unsigned int axis_along(const Tensor<1, 3> &direction)
+    {
+      for (unsigned int c = 0; c < 3; ++c)
+        if (std::abs(std::abs(direction[c]) - 1.) < 1e-12)
+          return c;
+      return 3;
+    }
+
+    /// Of a cylindrical frame: nothing across its axis, or all of it held at zero.
+    bool to_global_from_cylindrical(DeckValues &result, const DeckValues &values, const DeckFrame &frame)
+    {
+      const Tensor<1, 3> axis  = (frame.second - frame.first) / frame.second.distance(frame.first);
+      const unsigned int along = axis_along(axis);
+      if (along == 3 || values[0].has_value() != values[1].has_value() ||
+          (values[0] && !(values[0]->is_zero() && values[1]->is_zero())))
+        return false;
+      for (unsigned int c = 0; c < 3; ++c)
+        if (c != along)
+          result[c] = values[0];
+      if (values[2])
+        result[along] = values[2]->scaled(axis[along]);
+      return true;
+    }
+
     /// Values along axes that are those of space in another order or direction; false for oblique ones.
-    bool to_global(Values &result, const Values &values, const DeckFrame &frame)
+    bool to_global(DeckValues &result, const DeckValues &values, const DeckFrame &frame)
     {
       if (is_zero(values))
         {
           result = values;
           return true;
         }
+      result = DeckValues();
       if (frame.is_cylindrical)
-        return false;
-      result = Values();
+        return to_global_from_cylindrical(result, values, frame);
       for (unsigned int i = 0; i < 3; ++i)
         if (values[i])
           {
-            unsigned int along = 3;
-            for (unsigned int c = 0; c < 3; ++c)
-              // Rounding of the numbers in a file.
-              if (std::abs(std::abs(frame.axes[i][c]) - 1.) < 1e-12)
-                along = c;
+            const unsigned int along = axis_along(frame.axes[i]);
             if (along == 3)
               return false;
             result[along] = values[i]->scaled(frame.axes[i][along]);
@@ -80,6 +108,15 @@ namespace Signorini
         // Sets of nodes get names that no surface has.
         for (const DeckBoundary &condition : state.boundaries)
           add_condition(condition);
+        for (DeckBody &body : bodies)
+          for (const JoinedSet &joined : join_held_sets(body, held_sets))
+            {
+              LoadDefinition::Displacement displacement;
+              displacement.boundary                     = add_node_set(body, joined.name, joined.vertices);
+              displacement.frame                        = axes_of(joined.frame);
+              displacement.components[joined.component] = joined.value;
+              body.loads.displacements.push_back(displacement);
+            }
         add_temperatures(bodies, model, history);
         for (unsigned int k = 0; k < history.n_steps(); ++k)
           for (const DeckVolumeLoad &load : history.step(k).volume_loads)
@@ -97,7 +134,8 @@ namespace Signorini
     private:
       void add_condition(const DeckBoundary &condition)
       {
-        // The nodes by the axes that their directions mean.
+        // The nodes by the axes that their directions mean, and what is the same along the axes of space
+        // together.
         std::map<unsigned int, std::vector<unsigned int>> by_frame;
         for (const unsigned int node : condition.nodes)
           {
@@ -106,45 +144,67 @@ namespace Signorini
             const auto it = model.frame_of_node().find(node);
             by_frame[it == model.frame_of_node().end() ? Deck::none : it->second].push_back(node);
           }
-        bool is_anywhere = by_frame.empty();
+        const std::string name =
+            condition.set.empty() ? "nodes of line " + std::to_string(condition.place.line) : condition.set;
+        const DeckValues     given = history.values(condition);
+        std::vector<HeldSet> sets;
         for (const auto &[frame, nodes] : by_frame)
           {
-            const Values   given  = history.values(condition);
-            Values         values = given;
-            ConditionFrame axes;
-            if (frame != Deck::none && !to_global(values, given, model.frames()[frame]))
-              {
-                values = given;
-                axes   = condition_frame(model.frames()[frame]);
-              }
-            std::string name = condition.set.empty() ? "nodes of line " + std::to_string(condition.place.line)
-                                                     : condition.set;
+            HeldSet set = {name, nodes, given, frame};
+            if (frame != Deck::none && to_global(set.values, given, model.frames()[frame]))
+              set.frame = Deck::none;
+            else
+              set.values = given;
+            const auto same = std::find_if(sets.begin(), sets.end(), [&](const HeldSet &other) {
+              return other.frame == set.frame && are_equal(other.values, set.values);
+            });
+            if (same == sets.end())
+              sets.push_back(std::move(set));
+            else
+              same->nodes.insert(same->nodes.end(), nodes.begin(), nodes.end());
+          }
+        bool is_anywhere = sets.empty();
+        for (HeldSet &set : sets)
+          {
+            std::sort(set.nodes.begin(), set.nodes.end());
             for (DeckBody &body : bodies)
-              is_anywhere = add_condition(body, name, nodes, values, axes) || is_anywhere;
+              is_anywhere = add_condition(body, set) || is_anywhere;
+            held_sets.push_back(std::move(set));
           }
         if (!is_anywhere)
           remarks.push_back(deck.text().where(condition.place) +
                             ": BOUNDARY: none of the nodes belongs to a solid element.");
       }
 
-      bool add_condition(DeckBody &body, std::string name, const std::vector<unsigned int> &nodes,
-                         const Values &values, const ConditionFrame &axes)
+      ConditionFrame axes_of(const unsigned int frame) const
       {
-        const std::vector<unsigned int> vertices = vertices_within(nodes, *body.cells);
+        return frame == Deck::none ? ConditionFrame() : condition_frame(model.frames()[frame]);
+      }
+
+      bool add_condition(DeckBody &body, const HeldSet &set)
+      {
+        const std::vector<unsigned int> vertices = vertices_within(set.nodes, *body.cells);
         if (vertices.empty())
           return false;
-        auto &sets = body.cells->mesh.node_sets;
-        name       = name_of_set(body, name, vertices);
-        if (std::none_of(sets.begin(), sets.end(), [&](const auto &set) { return set.first == name; }))
-          sets.emplace_back(name, vertices);
         LoadDefinition::Displacement displacement;
-        displacement.boundary = name;
-        displacement.frame    = axes;
+        displacement.boundary = add_node_set(body, set.name, vertices);
+        displacement.frame    = axes_of(set.frame);
         for (unsigned int c = 0; c < 3; ++c)
-          if (values[c])
-            displacement.components[c] = values[c]->field();
+          if (set.values[c])
+            displacement.components[c] = set.values[c]->field();
         body.loads.displacements.push_back(displacement);
         return true;
+      }
+
+      /// Returns its name.
+      std::string add_node_set(DeckBody &body, const std::string &wanted,
+                               const std::vector<unsigned int> &vertices)
+      {
+        auto             &sets = body.cells->mesh.node_sets;
+        const std::string name = name_of_set(body, wanted, vertices);
+        if (std::none_of(sets.begin(), sets.end(), [&](const auto &set) { return set.first == name; }))
+          sets.emplace_back(name, vertices);
+        return name;
       }
 
       /// A name that neither other nodes nor a surface have.
@@ -370,7 +430,9 @@ namespace Signorini
       const DeckHistory      history;
       const DeckState       &state;
       /// Nodes of rigid faces and bolts, which have been dealt with.
-      std::set<unsigned int>    references;
+      std::set<unsigned int> references;
+      /// By conditions.
+      std::vector<HeldSet>      held_sets;
       std::vector<std::string> &remarks;
       /// By element of the body and step.
       std::map<const DeckBody *, std::vector<std::vector<Vector3>>> volume_forces;

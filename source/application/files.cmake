@@ -16,6 +16,7 @@ signorini_add_layer(application COLD
   deck_constraints.cc
   deck_heat.cc
   deck_history.cc
+  deck_joined_sets.cc
   deck_loads.cc
   deck_model.cc
   deck_problem.cc

@@ -13,23 +13,38 @@ namespace Signorini
 
   namespace
   {
-    constexpr unsigned int n_terms = 10;
+    constexpr unsigned int degree = TrueShape::degree, n_terms = TrueShape::n_terms;
 
-    /// The monomials of degree three and less.
+    /// The monomials of this degree and less.
     std::array<double, n_terms> monomials(const double s, const double t)
     {
-      return {{1., s, t, s * s, s * t, t * t, s * s * s, s * s * t, s * t * t, t * t * t}};
+      std::array<double, n_terms> result = {{1.}};
+      // Those of each degree are s times those of the one before, and t times the last of them.
+      for (unsigned int d = 1, n = 1, before = 0; d <= degree; ++d)
+        {
+          const unsigned int first = n;
+          for (unsigned int i = before; i < first; ++i)
+            result[n++] = s * result[i];
+          result[n] = t * result[first - 1];
+          ++n;
+          before = first;
+        }
+      return result;
     }
 
-    /// Points (i/3, j/3) of the unit triangle, as three corners whose mean they are.
-    std::array<std::array<unsigned int, 3>, n_terms> lattice()
+    /// Points (i, j) / degree of the unit triangle, as corners whose mean they are.
+    std::array<std::array<unsigned int, degree>, n_terms> lattice()
     {
-      std::array<std::array<unsigned int, 3>, n_terms> points;
-      unsigned int                                     n = 0;
-      for (unsigned int i = 0; i < 3; ++i)
-        for (unsigned int j = i; j < 3; ++j)
-          for (unsigned int k = j; k < 3; ++k)
-            points[n++] = {{i, j, k}};
+      std::array<std::array<unsigned int, degree>, n_terms> points;
+      unsigned int                                          n = 0;
+      for (unsigned int i = 0; i <= degree; ++i)
+        for (unsigned int j = 0; i + j <= degree; ++j)
+          {
+            std::fill(points[n].begin(), points[n].end(), 0u);
+            std::fill(points[n].end() - i - j, points[n].end() - j, 1u);
+            std::fill(points[n].end() - j, points[n].end(), 2u);
+            ++n;
+          }
       return points;
     }
 
@@ -43,8 +58,8 @@ namespace Signorini
         const auto    points = lattice();
         for (unsigned int i = 0; i < n_terms; ++i)
           {
-            const auto m = monomials(std::count(points[i].begin(), points[i].end(), 1u) / 3.,
-                                     std::count(points[i].begin(), points[i].end(), 2u) / 3.);
+            const auto m = monomials(std::count(points[i].begin(), points[i].end(), 1u) / double(degree),
+                                     std::count(points[i].begin(), points[i].end(), 2u) / double(degree));
             for (unsigned int j = 0; j < n_terms; ++j)
               a(i, j) = m[j];
           }
@@ -62,7 +77,7 @@ namespace Signorini
     , shape_of_triangle(std::move(of_triangle))
     , is_used(is_used)
     , known(shapes.size())
-    , index_of_cubic(shape_of_triangle.size(), no_shape)
+    , index_of_polynomial(shape_of_triangle.size(), no_shape)
   {
   }
 
@@ -74,15 +89,15 @@ namespace Signorini
                                        : triangles.select(whole.shape_of_triangle))
     , is_used(whole.is_used)
     , known(shapes.size())
-    , index_of_cubic(shape_of_triangle.size(), no_shape)
+    , index_of_polynomial(shape_of_triangle.size(), no_shape)
   {
     if (shapes.empty())
       return;
-    for (unsigned int t = 0; t < index_of_cubic.size(); ++t)
-      if (const unsigned int cubic = whole.index_of_cubic[triangles.kept()[t]]; cubic != no_shape)
+    for (unsigned int t = 0; t < index_of_polynomial.size(); ++t)
+      if (const unsigned int one = whole.index_of_polynomial[triangles.kept()[t]]; one != no_shape)
         {
-          index_of_cubic[t] = static_cast<unsigned int>(cubics.size());
-          cubics.push_back(whole.cubics[cubic]);
+          index_of_polynomial[t] = static_cast<unsigned int>(polynomials.size());
+          polynomials.push_back(whole.polynomials[one]);
         }
   }
 
@@ -90,7 +105,8 @@ namespace Signorini
 
   std::size_t TrueShape::memory_consumption() const
   {
-    std::size_t bytes = list_bytes(shape_of_triangle) + list_bytes(index_of_cubic) + list_bytes(cubics);
+    std::size_t bytes =
+        list_bytes(shape_of_triangle) + list_bytes(index_of_polynomial) + list_bytes(polynomials);
     for (const auto &values : known)
       bytes += values.size() * (sizeof(LatticePoint) + sizeof(Vector3));
     return bytes;
@@ -105,12 +121,13 @@ namespace Signorini
     auto                &values  = known[shape_of_triangle[triangle]];
     const BoundaryShape &shape   = *shapes[shape_of_triangle[triangle]];
     const auto           compute = [&]() -> Vector3 {
-      const Point<3> x((Tensor<1, 3>(mesh.vertices[point[0]]) + Tensor<1, 3>(mesh.vertices[point[1]]) +
-                        Tensor<1, 3>(mesh.vertices[point[2]])) /
-                                 3.);
+      Point<3> x;
+      for (const unsigned int v : point)
+        x += Tensor<1, 3>(mesh.vertices[v]) / degree;
       return shape.project(x) - x;
     };
-    if (point[0] != point[1] && point[1] != point[2])
+    if (std::any_of(point.begin(), point.end(),
+                    [&](const unsigned int v) { return v != point.front() && v != point.back(); }))
       return compute();
     const auto it = values.find(point);
     return it != values.end() ? it->second : (values[point] = compute());
@@ -118,23 +135,29 @@ namespace Signorini
 
 
 
-  const TrueShape::Cubic &TrueShape::cubic(const SurfaceMesh &mesh, const unsigned int triangle) const
+  const TrueShape::Polynomial &TrueShape::polynomial(const SurfaceMesh &mesh,
+                                                     const unsigned int triangle) const
   {
-    if (index_of_cubic[triangle] == no_shape)
+    if (index_of_polynomial[triangle] == no_shape)
       {
         const auto &v = mesh.triangles[triangle];
-        Cubic       values, coefficients;
+        Polynomial  values, coefficients;
         const auto  points = lattice();
         for (unsigned int i = 0; i < n_terms; ++i)
-          values[i] = lattice_value(mesh, triangle, {{v[points[i][0]], v[points[i][1]], v[points[i][2]]}});
+          {
+            LatticePoint point;
+            std::transform(points[i].begin(), points[i].end(), point.begin(),
+                           [&](const unsigned int corner) { return v[corner]; });
+            values[i] = lattice_value(mesh, triangle, point);
+          }
         const LatticeMatrix &matrix = interpolation();
         for (unsigned int j = 0; j < n_terms; ++j)
           for (unsigned int i = 0; i < n_terms; ++i)
             coefficients[j] += matrix(j, i) * values[i];
-        index_of_cubic[triangle] = static_cast<unsigned int>(cubics.size());
-        cubics.push_back(coefficients);
+        index_of_polynomial[triangle] = static_cast<unsigned int>(polynomials.size());
+        polynomials.push_back(coefficients);
       }
-    return cubics[index_of_cubic[triangle]];
+    return polynomials[index_of_polynomial[triangle]];
   }
 
 
@@ -153,8 +176,8 @@ namespace Signorini
                          weights[2] * Tensor<1, 3>(mesh.vertices[v[2]]));
         return shape.project(x) - x;
       }
-    const Cubic &coefficients = cubic(mesh, triangle);
-    const auto   m            = monomials(weights[1], weights[2]);
+    const Polynomial &coefficients = polynomial(mesh, triangle);
+    const auto        m            = monomials(weights[1], weights[2]);
     for (unsigned int j = 0; j < n_terms; ++j)
       sum += m[j] * coefficients[j];
     return sum;

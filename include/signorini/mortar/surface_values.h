@@ -19,7 +19,9 @@ namespace Signorini
                                 const std::array<double, 3>                &weights);
 
   /// From a point of the true nonmortar surface to its image on the true mortar surface (length):
-  /// Phi(x) + offset_mor - x - offset_non, where x and Phi(x) lie on the facets (doc/algorithm.md, (18)).
+  /// Phi(x) - x + offset_mor - offset_non, where x and Phi(x) lie on the facets (doc/algorithm.md, (18)); of
+  /// the way between these what is along the normal of the nonmortar side, in the direction of that of the
+  /// mortar side, along which Phi goes; all of it beside edges.
   /// @param weights of the point in the overlay triangle
   Vector3 initial_gap(const ContactSurface &nonmortar, const ContactSurface &mortar,
                       const OverlayTriangle &cell, const std::array<double, 3> &weights,
