@@ -53,11 +53,6 @@ namespace Signorini
       double covered = 0., by_conditions = 0., by_other_pairs = 0.;
     };
 
-    bool is_condition(const DroppedNode::Reason reason)
-    {
-      return reason == DroppedNode::fixed || reason == DroppedNode::normal_fixed;
-    }
-
     /// Calls a function with (moments, reason) for all covered faces of this rank of which no node has a
     /// multiplier.
     template <typename Function>
@@ -180,7 +175,7 @@ namespace Signorini
       std::vector<const FaceMoments *> faces;
       for_lost_faces(pair, coupling, [&](const FaceMoments &m, const DroppedNode::Reason reason) {
         const auto &corners = non.faces[m.face].corners;
-        if (is_condition(reason) &&
+        if ((reason == DroppedNode::fixed || reason == DroppedNode::normal_fixed) &&
             std::all_of(corners.begin(), corners.end(),
                         [&](const unsigned int v) { return is_held(non, v); }) &&
             std::all_of(m.coupling.begin(), m.coupling.end(),
@@ -299,13 +294,13 @@ namespace Signorini
         const bool         is_void = coupled.couplings[p].n_rows_of_all == 0;
         const std::string  choice  = pair.obstacle ? "" : " or choose the other side as \"Nonmortar\",";
         if (is_void && !(lost.by_conditions > 0.) && !(lost.by_other_pairs > 0.))
-          throw InputError(
-              "Pair " + pair.name + ": no node of \"" + pair.nonmortar.name +
-              "\" can carry a contact stress, because \"" + pair.mortar.name +
-              "\" covers next to nothing of the faces around it: they are too wide for what they "
-              "touch. Refine body " +
-              coupled.model.bodies().body_name(pair.nonmortar.body) +
-              " there (\"Initial levels\", \"Refinement/Regions\")," + choice + " or remove the pair.");
+          throw InputError("Pair " + pair.name + ": no node of \"" + pair.nonmortar.name +
+                           "\" can carry a contact stress, because \"" + pair.mortar.name +
+                           "\" covers next to nothing of the faces around it: they are too wide for what "
+                           "they touch. Refine body " +
+                           coupled.model.bodies().body_name(pair.nonmortar.body) +
+                           " there (\"Initial levels\", \"Refinement/Regions\")," + choice +
+                           " or remove the pair.");
         if (lost.by_other_pairs > ContactRule().lost_share * lost.covered ||
             (is_void && lost.by_other_pairs > lost.by_conditions))
           throw InputError(

@@ -374,7 +374,7 @@ namespace Signorini
         }
       for (const unsigned int face : surface.triangle_face)
         of_triangle.push_back(of_face[face]);
-      return TrueShape(std::move(list), std::move(of_triangle), shapes.are_used);
+      return TrueShape(surface.mesh, std::move(list), std::move(of_triangle), shapes.are_used);
     }
   } // namespace
 

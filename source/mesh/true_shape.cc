@@ -71,14 +71,34 @@ namespace Signorini
 
 
 
-  TrueShape::TrueShape(std::vector<BoundaryShapePointer> shape_list, std::vector<unsigned int> of_triangle,
-                       const bool is_used)
+  TrueShape::TrueShape(const SurfaceMesh &mesh, std::vector<BoundaryShapePointer> shape_list,
+                       std::vector<unsigned int> of_triangle, const bool is_used)
     : shapes(std::move(shape_list))
     , shape_of_triangle(std::move(of_triangle))
     , is_used(is_used)
     , known(shapes.size())
     , index_of_polynomial(shape_of_triangle.size(), no_shape)
   {
+    if (shapes.size() > 1)
+      find_edges_of_shapes(mesh);
+  }
+
+
+
+  void TrueShape::find_edges_of_shapes(const SurfaceMesh &mesh)
+  {
+    const SurfaceTopology topology(mesh.triangles, mesh.vertices.size());
+    for (unsigned int e = 0; e < topology.edges.size(); ++e)
+      if (!topology.is_border(e))
+        for (unsigned int side = 0; side < 2; ++side)
+          {
+            const unsigned int t = topology.edge_triangles[e][side], own = shape_of_triangle[t],
+                               other = shape_of_triangle[topology.edge_triangles[e][1 - side]];
+            if (own == no_shape || other == no_shape || own == other)
+              continue;
+            const auto it = beyond.insert({t, {{no_shape, no_shape, no_shape}}}).first;
+            it->second[topology.local_edge(t, e)] = other;
+          }
   }
 
 
@@ -99,6 +119,9 @@ namespace Signorini
           index_of_polynomial[t] = static_cast<unsigned int>(polynomials.size());
           polynomials.push_back(whole.polynomials[one]);
         }
+    for (unsigned int t = 0; t < index_of_polynomial.size(); ++t)
+      if (const auto it = whole.beyond.find(triangles.kept()[t]); it != whole.beyond.end())
+        beyond.insert({t, it->second});
   }
 
 
@@ -135,6 +158,34 @@ namespace Signorini
 
 
 
+  // What a place moves by so that the edges of the triangle lie where the shapes meet: the nearest place of
+  // an edge by what it is off, others by (λ_i + λ_j)² of that. With about λ_i λ_j / (λ_i + λ_j)² along the
+  // edge that is a quadratic function, which is zero on the other edges.
+  Vector3 TrueShape::bend_to_edges(const SurfaceMesh &mesh, const unsigned int triangle,
+                                   const ShapesBeyond &others, const std::array<double, 3> &weights) const
+  {
+    const unsigned int own = shape_of_triangle[triangle];
+    Vector3            sum;
+    for (unsigned int i = 0; i < 3; ++i)
+      {
+        const unsigned int j = (i + 1) % 3;
+        if (others[i] == no_shape || weights[i] == 0. || weights[j] == 0.)
+          continue;
+        const Point<3> &a    = mesh.vertices[mesh.triangles[triangle][i]],
+                       &b    = mesh.vertices[mesh.triangles[triangle][j]];
+        const double   along = weights[i] + weights[j];
+        const Point<3> x(weights[i] / along * Tensor<1, 3>(a) + weights[j] / along * Tensor<1, 3>(b));
+        const auto [low, high] = std::minmax(own, others[i]);
+        const Vector3 to_edge  = project_onto({shapes[low], shapes[high]}, x) - x;
+        // Shapes that do not meet there.
+        if (to_edge.norm() < .5 * a.distance(b))
+          sum += along * along * (to_edge - Vector3(shapes[own]->project(x) - x));
+      }
+    return sum;
+  }
+
+
+
   const TrueShape::Polynomial &TrueShape::polynomial(const SurfaceMesh &mesh,
                                                      const unsigned int triangle) const
   {
@@ -143,12 +194,19 @@ namespace Signorini
         const auto &v = mesh.triangles[triangle];
         Polynomial  values, coefficients;
         const auto  points = lattice();
+        const auto  edges  = beyond.find(triangle);
         for (unsigned int i = 0; i < n_terms; ++i)
           {
             LatticePoint point;
             std::transform(points[i].begin(), points[i].end(), point.begin(),
                            [&](const unsigned int corner) { return v[corner]; });
             values[i] = lattice_value(mesh, triangle, point);
+            if (edges == beyond.end())
+              continue;
+            std::array<double, 3> weights = {{0., 0., 0.}};
+            for (const unsigned int corner : points[i])
+              weights[corner] += 1. / degree;
+            values[i] += bend_to_edges(mesh, triangle, edges->second, weights);
           }
         const LatticeMatrix &matrix = interpolation();
         for (unsigned int j = 0; j < n_terms; ++j)
@@ -168,7 +226,8 @@ namespace Signorini
     Vector3 sum;
     if (shapes.empty() || shape_of_triangle[triangle] == no_shape)
       return sum;
-    if (const BoundaryShape &shape = *shapes[shape_of_triangle[triangle]]; shape.is_exact())
+    if (const BoundaryShape &shape = *shapes[shape_of_triangle[triangle]];
+        shape.is_exact() && beyond.count(triangle) == 0)
       {
         const auto    &v = mesh.triangles[triangle];
         const Point<3> x(weights[0] * Tensor<1, 3>(mesh.vertices[v[0]]) +

@@ -16,4 +16,5 @@ signorini_add_layer(surface
   surface_feet.cc
   surface_mesh.cc
   triangle_polygons.cc
+  vertex_quadric.cc
 )

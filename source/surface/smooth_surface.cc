@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include "vertex_quadric.h"
+
 #include <signorini/surface/crease_edges.h>
 #include <signorini/surface/smooth_surface.h>
 
 #include <deal.II/base/numbers.h>
 
-#include <Eigen/Dense>
-
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 namespace Signorini
@@ -117,110 +116,6 @@ namespace Signorini
 
 
 
-    /// A quadratic surface through a vertex: z = (c u² + 2 d u v + e v² + k z²) / 2 in a frame whose third
-    /// axis is the normal there. With the larger principal curvature for k these are spheres and cylinders,
-    /// exactly.
-    struct Quadric
-    {
-      Tensor<1, 3> u, v, normal;
-      double       c = 0., d = 0., e = 0.;
-      /// Root mean square of what the fit leaves over that of the heights of the neighbours.
-      double residual = 0.;
-
-      /// The principal curvature of larger magnitude.
-      double largest_curvature() const
-      {
-        const double mean = .5 * (c + e), difference = std::hypot(.5 * (c - e), d);
-        return mean < 0. ? mean - difference : mean + difference;
-      }
-
-      /// The quadratic form of a vector from the vertex.
-      double along(const Tensor<1, 3> &x) const
-      {
-        const double s = x * u, t = x * v, z = x * normal;
-        return c * s * s + 2. * d * s * t + e * t * t + largest_curvature() * z * z;
-      }
-    };
-
-    void set_frame(Quadric &q, const Tensor<1, 3> &normal)
-    {
-      q.normal = normal / normal.norm();
-      Tensor<1, 3> axis;
-      unsigned int least = 0;
-      for (unsigned int k = 1; k < 3; ++k)
-        if (std::abs(q.normal[k]) < std::abs(q.normal[least]))
-          least = k;
-      axis[least] = 1.;
-      q.u         = cross_product_3d(q.normal, axis);
-      q.u /= q.u.norm();
-      q.v = cross_product_3d(q.normal, q.u);
-    }
-
-    /// Turns the frame to another normal by as little as possible: coefficients keep their meaning.
-    void turn_frame(Quadric &q, const Tensor<1, 3> &normal)
-    {
-      q.normal = normal / normal.norm();
-      q.u -= (q.u * q.normal) * q.normal;
-      q.u /= q.u.norm();
-      q.v = cross_product_3d(q.normal, q.u);
-    }
-
-    /// Fits a quadratic surface to the vectors from a vertex to its neighbours, with weights 1/distance², and
-    /// turns the frame to the normal found until it rests. Returns false if they do not determine one.
-    bool fit(Quadric &q, const std::vector<Tensor<1, 3>> &neighbours)
-    {
-      constexpr unsigned int n_steps = 20;
-      const Eigen::Index     n       = static_cast<Eigen::Index>(neighbours.size());
-      if (n < 5)
-        return false;
-      double size = 0.;
-      for (const auto &x : neighbours)
-        size = std::max(size, x.norm());
-      Eigen::Matrix<double, Eigen::Dynamic, 5> a(n, 5);
-      Eigen::VectorXd                          b(n);
-      double                                   curvature = 0., last = std::numeric_limits<double>::max();
-      for (unsigned int step = 0; step < n_steps; ++step)
-        {
-          double highest = 0.;
-          for (Eigen::Index i = 0; i < n; ++i)
-            {
-              const Tensor<1, 3> x = neighbours[i] / size;
-              const double       s = x * q.u, t = x * q.v, z = x * q.normal;
-              highest             = std::max(highest, std::abs(z));
-              const double weight = 1. / x.norm_square();
-              a.row(i) << s, t, .5 * s * s, s * t, .5 * t * t;
-              a.row(i) *= weight;
-              b[i] = weight * (z - .5 * curvature * z * z);
-            }
-          Eigen::ColPivHouseholderQR<Eigen::Matrix<double, Eigen::Dynamic, 5>> qr(a);
-          qr.setThreshold(1e-4);
-          if (qr.rank() < 5)
-            return false;
-          const Eigen::Matrix<double, 5, 1> x = qr.solve(b);
-          q.c                                 = x[2];
-          q.d                                 = x[3];
-          q.e                                 = x[4];
-          const double turn                   = std::hypot(x[0], x[1]);
-          const double heights                = (b - a.leftCols<2>() * x.head<2>()).norm();
-          q.residual                          = heights > 0. ? (b - a * x).norm() / heights : 0.;
-          turn_frame(q, q.normal - x[0] * q.u - x[1] * q.v);
-          // Where the surface is wild k may do harm: a hemisphere is as far as it can reach.
-          const double limit  = 1. / highest;
-          const double bend   = std::max(-limit, std::min(limit, q.largest_curvature()));
-          const double change = std::max(turn, std::abs(bend - curvature));
-          curvature           = bend;
-          if (change < 1e-13 || (step > 2 && change > .7 * last))
-            break;
-          last = change;
-        }
-      q.c /= size;
-      q.d /= size;
-      q.e /= size;
-      return true;
-    }
-
-
-
     /// Makes the patches of a surface.
     class PatchMaker
     {
@@ -254,6 +149,7 @@ namespace Signorini
       void make(std::vector<SmoothSurface::Patch> &patches, const std::vector<bool> &wanted)
       {
         cut_off_flat_parts();
+        find_flat_neighbours();
         const Pieces pieces(topology, is_cut);
         enum State : unsigned char
         {
@@ -339,6 +235,32 @@ namespace Signorini
           }
       }
 
+      /// Where curved parts go on from flat ones without a crease.
+      void find_flat_neighbours()
+      {
+        for (unsigned int e = 0; e < topology.edges.size(); ++e)
+          if (!topology.is_border(e) && !is_crease[e])
+            if (const auto &[s, t] = topology.edge_triangles[e]; is_flat[s] != is_flat[t])
+              for (const unsigned int v : topology.edges[e])
+                flat_normals[v].push_back(normals[is_flat[s] ? s : t]);
+      }
+
+      /// A vertex at the end of a flat part has the normal of that, if it is nearly that: a fillet touches
+      /// it. Where it would dip into it, what the flat part lies on would be penetrated.
+      void touch_flat_part(Quadric &quadric, const unsigned int vertex) const
+      {
+        const auto known = flat_normals.find(vertex);
+        if (known == flat_normals.end())
+          return;
+        const Tensor<1, 3> &nearest =
+            *std::max_element(known->second.begin(), known->second.end(),
+                              [&](const Tensor<1, 3> &one, const Tensor<1, 3> &other) {
+                                return one * quadric.normal < other * quadric.normal;
+                              });
+        if (nearest * quadric.normal >= std::cos(rule.touches_flat * numbers::PI / 180.))
+          turn_frame(quadric, nearest);
+      }
+
       bool fit_vertex(Quadric &quadric, const Pieces &pieces, const unsigned int p) const
       {
         const PieceVertex &centre = pieces.vertices[p];
@@ -367,6 +289,7 @@ namespace Signorini
             if (fit(found, points))
               {
                 quadric = found;
+                touch_flat_part(quadric, centre.vertex);
                 return true;
               }
           }
@@ -412,6 +335,8 @@ namespace Signorini
       const std::vector<bool>   is_crease;
       /// Edges that separate smooth pieces; triangles of flat parts.
       std::vector<bool> is_cut, is_flat;
+      /// By vertex between flat and curved parts.
+      std::map<unsigned int, std::vector<Tensor<1, 3>>> flat_normals;
     };
   } // namespace
 

@@ -258,6 +258,29 @@ def deck_refined(d):
 
 
 @in_folder
+def deck_sets_between(d):
+    """New nodes between sets that hold the same: an end in two halves, axes of TRANSFORM that are those of space, values node by node. Not the sides of
+    a layer that is held on both of its faces."""
+    text, upper, lower = two_blocks('C3D8', (2, 2, 2), (3, 3, 2))
+    halves = [[n for n in lower.plane(2, -1) if (lower.nodes[n][0][0] < .5) == left] for left in (True, False)]
+    in_halves = text.replace('BOTTOM, 3, 3', 'LEFT, 3, 3\nRIGHT, 3, 3').replace('*BOUNDARY', nset('LEFT', halves[0]) + nset('RIGHT', halves[1]) + '*BOUNDARY', 1)
+    same_axes = text.replace('*BOUNDARY', '*TRANSFORM, NSET=X0\n1., 0., 0., 0., 1., 0.\n*BOUNDARY', 1)
+    back = [n for block in (upper, lower) for n in block.plane(1, 1) if block.nodes[n][0][0] > 0]
+    around = text.replace('*BOUNDARY', nset('BACK', back) + '*TRANSFORM, NSET=BACK, TYPE=C\n0.3, 0.7, 0., 0.3, 0.7, 1.\n*BOUNDARY', 1)
+    by_node = text.replace(LOAD.format(5.), '*BOUNDARY\n' + ''.join(f'{n}, 3, 3, -0.01\n' for n in upper.plane(2, 1)))
+    for name, deck in (('halves', in_halves), ('axes', same_axes), ('cylinder', around), ('nodes', by_node)):
+        check(deck != text, name)
+        s, (nodes, _, fields) = d.solve(deck, '--set', 'Refinement/Initial global levels=1')
+        constant_pressure(s, 5., 1e-8)
+        low = max(abs(fields['DISP'][label][2]) for label, x in nodes.items() if x[2] == -1)
+        check(low <= 1e-12, f'{name}: the bottom moves by {low}')
+    text, upper, lower = two_blocks('C3D8', (2, 2, 1), (2, 2, 1))
+    layer = text.replace('*BOUNDARY', nset('FOOT', upper.plane(2, 0)) + '*BOUNDARY\nTOP, 1, 1\nFOOT, 1, 1\n*BOUNDARY', 1)
+    _, (nodes, _, fields) = d.solve(layer, '--set', 'Refinement/Initial global levels=1')
+    check(all(fields['DISP'][label][0] > 1e-4 for label, x in nodes.items() if x[0] == 1 and x[2] == .5), 'the side of the layer is held')
+
+
+@in_folder
 def deck_parts(d):
     """PART and INSTANCE: the upper block is the lower one, turned and moved."""
     block = Block('C3D8', (0, 0, 0), (1, 1, 1), (2, 2, 2))

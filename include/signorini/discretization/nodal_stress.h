@@ -42,7 +42,8 @@ namespace Signorini
   {
     /// Energy norms, sqrt(int sigma : C^-1 : sigma): of the difference between nodal stress and stress of the
     /// cells, which estimates the error of the latter; of the stress of the cells; of stresses that are
-    /// rounding where displacements are as large as they are.
+    /// rounding where displacements are as large as they are, or less than a solver leaves beside those of
+    /// all bodies.
     double error = 0., norm = 0., rounding = 0.;
 
     /// That of another body joins this one.

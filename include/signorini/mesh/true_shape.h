@@ -29,7 +29,8 @@ namespace Signorini
   /// point takes a search, on each triangle the polynomial of fifth degree that has the right values at 21
   /// points (error of sixth order), worked out for the triangles that are asked for. Of a circle of 8 edges
   /// cubics are off by a thousandth of the radius, of one of 16 by a ten thousandth: as much as fits are
-  /// tight.
+  /// tight. Where two shapes meet, both end where they meet, not over the chords between the vertices there:
+  /// a chamfer would else go on beyond its edge, into the shaft.
   class TrueShape
   {
   public:
@@ -39,10 +40,11 @@ namespace Signorini
     /// The facets are the true surface.
     TrueShape() = default;
 
+    /// @param mesh the facets
     /// @param shape_of_triangle index into shapes, or no_shape
     /// @param is_used whether offset() hands the offsets out, or only doubt() knows them
-    TrueShape(std::vector<BoundaryShapePointer> shapes, std::vector<unsigned int> shape_of_triangle,
-              const bool is_used);
+    TrueShape(const SurfaceMesh &mesh, std::vector<BoundaryShapePointer> shapes,
+              std::vector<unsigned int> shape_of_triangle, const bool is_used);
 
     /// That of the triangles of a part of the surface.
     TrueShape(const TrueShape &whole, const Renumbering &triangles);
@@ -102,6 +104,17 @@ namespace Signorini
     };
 
     Vector3 lattice_value(const SurfaceMesh &mesh, const unsigned int triangle, LatticePoint point) const;
+
+    /// By local edge of a triangle, from corner i to the next one: the shape beyond it, if that is another
+    /// one, or no_shape.
+    using ShapesBeyond = std::array<unsigned int, 3>;
+
+    void    find_edges_of_shapes(const SurfaceMesh &mesh);
+    Vector3 bend_to_edges(const SurfaceMesh &mesh, const unsigned int triangle, const ShapesBeyond &others,
+                          const std::array<double, 3> &weights) const;
+
+    /// Of triangles at edges of their shapes.
+    std::unordered_map<unsigned int, ShapesBeyond> beyond;
 
     /// By shape: offsets at points of the lattice that lie on edges.
     mutable std::vector<std::unordered_map<LatticePoint, Vector3, LatticeHash>> known;

@@ -111,6 +111,42 @@ TEST(SmoothSurface, HasOrderThreeOnSmoothSurfaces)
 
 
 
+// Two rows of vertices: straight from row to row.
+TEST(SmoothSurface, StripsOfOneCell)
+{
+  const TestSurfaces::FlatGrid grid = TestSurfaces::flat_grid(7, 1);
+  SurfaceMesh                  mesh;
+  for (const auto &[s, t] : grid.vertices)
+    mesh.vertices.push_back(on_cylinder(s, .2 * t));
+  mesh.triangles              = grid.triangles;
+  const SmoothSurface surface = smooth(mesh);
+  EXPECT_EQ(n_smooth(surface), mesh.triangles.size());
+  EXPECT_LT(heights(surface, [](const Point<3> &x) { return std::hypot(x[0], x[1]) - 1.; })[1], 1e-13);
+}
+
+
+
+// A fillet of few faces beside the flat part that it touches does not dip into it.
+TEST(SmoothSurface, FilletsTouchFlatParts)
+{
+  for (const unsigned int n : {8, 12, 18})
+    {
+      // Elliptic; one column of vertices lies where they touch, the others anywhere.
+      const SurfaceMesh   mesh    = bent(n, .15, [n](const double s, const double t) {
+        const double x = std::abs(4. * s - 2.) < 2. / n ? 0. : 4. * s - 2., angle = std::max(0., x);
+        return Point<3>(x < 0. ? x : std::sin(angle), 2. * t, .6 - .6 * std::cos(angle));
+      });
+      const SmoothSurface surface = smooth(mesh);
+      double              lowest  = 0.;
+      for (unsigned int t = 0; t < mesh.triangles.size(); ++t)
+        for (const auto &w : samples)
+          lowest = std::min(lowest, (evaluate(mesh, t, w) + surface.offset(t, w))[2]);
+      EXPECT_GT(lowest, -1e-10) << n;
+    }
+}
+
+
+
 TEST(SmoothSurface, KnowsHowWellItKnows)
 {
   for (const auto &shape : {TestSurfaces::Shape(on_sphere), TestSurfaces::Shape(on_cylinder)})

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include "vertex_quadric.h"
+
+#include <deal.II/base/numbers.h>
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace Signorini
+{
+  using namespace dealii;
+
+  void set_frame(Quadric &q, const Tensor<1, 3> &normal)
+  {
+    q.normal = normal / normal.norm();
+    Tensor<1, 3> axis;
+    unsigned int least = 0;
+    for (unsigned int k = 1; k < 3; ++k)
+      if (std::abs(q.normal[k]) < std::abs(q.normal[least]))
+        least = k;
+    axis[least] = 1.;
+    q.u         = cross_product_3d(q.normal, axis);
+    q.u /= q.u.norm();
+    q.v = cross_product_3d(q.normal, q.u);
+  }
+
+
+
+  void turn_frame(Quadric &q, const Tensor<1, 3> &normal)
+  {
+    q.normal = normal / normal.norm();
+    q.u -= (q.u * q.normal) * q.normal;
+    q.u /= q.u.norm();
+    q.v = cross_product_3d(q.normal, q.u);
+  }
+
+
+
+  namespace
+  {
+    /// Solves for the two slopes and the three curvatures of a quadratic surface; what a strip of one cell,
+    /// two rows of vertices, leaves open so that the curvatures are as small as may be: it is straight across
+    /// the rows. Returns false if the values leave more open.
+    bool solve_for_quadric(Eigen::Matrix<double, 5, 1> &x, const Eigen::Matrix<double, Eigen::Dynamic, 5> &a,
+                           const Eigen::VectorXd &b)
+    {
+      using Columns = Eigen::Matrix<double, Eigen::Dynamic, 5>;
+      Eigen::ColPivHouseholderQR<Columns> qr(a);
+      qr.setThreshold(1e-4);
+      if (qr.rank() < 4)
+        return false;
+      if (qr.rank() == 5)
+        {
+          x = qr.solve(b);
+          return true;
+        }
+      const Eigen::JacobiSVD<Eigen::MatrixXd> svd(a, Eigen::ComputeThinU | Eigen::ComputeThinV);
+      const Eigen::VectorXd                   parts = svd.matrixU().transpose() * b;
+      x.setZero();
+      for (Eigen::Index i = 0; i < 4; ++i)
+        x += parts[i] / svd.singularValues()[i] * svd.matrixV().col(i);
+      // The direction in which curvature is open: there it is none.
+      const Eigen::Matrix<double, 5, 1> open = svd.matrixV().col(4);
+      const double                      angle =
+          .5 * std::atan2(2. * open[3], open[2] - open[4]) + (open[2] + open[4] < 0. ? .5 * numbers::PI : 0.);
+      const auto along = [angle](const Eigen::Matrix<double, 5, 1> &y) {
+        return y[2] * std::cos(angle) * std::cos(angle) + y[3] * std::sin(2. * angle) +
+               y[4] * std::sin(angle) * std::sin(angle);
+      };
+      if (const double curvature = along(open); std::abs(curvature) > 0.)
+        x -= along(x) / curvature * open;
+      return true;
+    }
+  } // namespace
+
+
+
+  bool fit(Quadric &q, const std::vector<Tensor<1, 3>> &neighbours)
+  {
+    constexpr unsigned int n_steps = 20;
+    const Eigen::Index     n       = static_cast<Eigen::Index>(neighbours.size());
+    if (n < 5)
+      return false;
+    double size = 0.;
+    for (const auto &x : neighbours)
+      size = std::max(size, x.norm());
+    Eigen::Matrix<double, Eigen::Dynamic, 5> a(n, 5);
+    Eigen::VectorXd                          b(n);
+    double                                   curvature = 0., last = std::numeric_limits<double>::max();
+    for (unsigned int step = 0; step < n_steps; ++step)
+      {
+        double highest = 0.;
+        for (Eigen::Index i = 0; i < n; ++i)
+          {
+            const Tensor<1, 3> x = neighbours[i] / size;
+            const double       s = x * q.u, t = x * q.v, z = x * q.normal;
+            highest             = std::max(highest, std::abs(z));
+            const double weight = 1. / x.norm_square();
+            a.row(i) << s, t, .5 * s * s, s * t, .5 * t * t;
+            a.row(i) *= weight;
+            b[i] = weight * (z - .5 * curvature * z * z);
+          }
+        Eigen::Matrix<double, 5, 1> x;
+        if (!solve_for_quadric(x, a, b))
+          return false;
+        q.c                  = x[2];
+        q.d                  = x[3];
+        q.e                  = x[4];
+        const double turn    = std::hypot(x[0], x[1]);
+        const double heights = (b - a.leftCols<2>() * x.head<2>()).norm();
+        q.residual           = heights > 0. ? (b - a * x).norm() / heights : 0.;
+        turn_frame(q, q.normal - x[0] * q.u - x[1] * q.v);
+        // Where the surface is wild k may do harm: a hemisphere is as far as it can reach.
+        const double limit  = 1. / highest;
+        const double bend   = std::max(-limit, std::min(limit, q.largest_curvature()));
+        const double change = std::max(turn, std::abs(bend - curvature));
+        curvature           = bend;
+        if (change < 1e-13 || (step > 2 && change > .7 * last))
+          break;
+        last = change;
+      }
+    q.c /= size;
+    q.d /= size;
+    q.e /= size;
+    return true;
+  }
+} // namespace Signorini

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_source_surface_vertex_quadric_h
+#define signorini_source_surface_vertex_quadric_h
+
+#include <deal.II/base/tensor.h>
+
+#include <cmath>
+#include <vector>
+
+namespace Signorini
+{
+  /// A quadratic surface through a vertex: z = (c u² + 2 d u v + e v² + k z²) / 2 in a frame whose third
+  /// axis is the normal there. With the larger principal curvature for k these are spheres and cylinders,
+  /// exactly.
+  struct Quadric
+  {
+    dealii::Tensor<1, 3> u, v, normal;
+    double               c = 0., d = 0., e = 0.;
+    /// Root mean square of what the fit leaves over that of the heights of the neighbours.
+    double residual = 0.;
+
+    /// The principal curvature of larger magnitude.
+    double largest_curvature() const
+    {
+      const double mean = .5 * (c + e), difference = std::hypot(.5 * (c - e), d);
+      return mean < 0. ? mean - difference : mean + difference;
+    }
+
+    /// The quadratic form of a vector from the vertex.
+    double along(const dealii::Tensor<1, 3> &x) const
+    {
+      const double s = x * u, t = x * v, z = x * normal;
+      return c * s * s + 2. * d * s * t + e * t * t + largest_curvature() * z * z;
+    }
+  };
+
+  /// With any axes across a normal of any length.
+  void set_frame(Quadric &q, const dealii::Tensor<1, 3> &normal);
+
+  /// Turns the frame to another normal by as little as possible: coefficients keep their meaning.
+  void turn_frame(Quadric &q, const dealii::Tensor<1, 3> &normal);
+
+  /// Fits a quadratic surface to the vectors from a vertex to its neighbours, with weights 1/distance², and
+  /// turns the frame to the normal found until it rests. Returns false if they do not determine one.
+  bool fit(Quadric &q, const std::vector<dealii::Tensor<1, 3>> &neighbours);
+} // namespace Signorini
+
+#endif
