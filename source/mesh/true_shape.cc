@@ -6,6 +6,7 @@
 #include <Eigen/Dense>
 
 #include <algorithm>
+#include <optional>
 
 namespace Signorini
 {
@@ -158,6 +159,27 @@ namespace Signorini
 
 
 
+  namespace
+  {
+    /// From a place of a chord between two shapes to where both meet, across the chord: that of their tangent
+    /// planes. Nothing if they touch there, by up to 10 degrees.
+    std::optional<Vector3> to_both(const Point<3> &x, const Vector3 &chord, const Vector3 &to_first,
+                                   const BoundaryShape &first, const BoundaryShape &second)
+    {
+      constexpr double sine_of_touch = .17;
+      // Either side will do.
+      const Vector3 facing = to_first.norm() > 0. ? to_first : chord, n = first.normal(x, facing),
+                    m = second.normal(x, facing), across_n = cross_product_3d(chord, n),
+                    across_m   = cross_product_3d(m, chord);
+      const double determinant = n * across_m;
+      if (!(std::abs(determinant) > sine_of_touch))
+        return {};
+      return Vector3(((n * to_first) * across_m + (m * (second.project(x) - x)) * across_n) / determinant);
+    }
+  } // namespace
+
+
+
   // What a place moves by so that the edges of the triangle lie where the shapes meet: the nearest place of
   // an edge by what it is off, others by (λ_i + λ_j)² of that. With about λ_i λ_j / (λ_i + λ_j)² along the
   // edge that is a quadratic function, which is zero on the other edges.
@@ -175,11 +197,11 @@ namespace Signorini
                        &b    = mesh.vertices[mesh.triangles[triangle][j]];
         const double   along = weights[i] + weights[j];
         const Point<3> x(weights[i] / along * Tensor<1, 3>(a) + weights[j] / along * Tensor<1, 3>(b));
-        const auto [low, high] = std::minmax(own, others[i]);
-        const Vector3 to_edge  = project_onto({shapes[low], shapes[high]}, x) - x;
-        // Shapes that do not meet there.
-        if (to_edge.norm() < .5 * a.distance(b))
-          sum += along * along * (to_edge - Vector3(shapes[own]->project(x) - x));
+        const Vector3  here = shapes[own]->project(x) - x;
+        if (const std::optional<Vector3> to_edge =
+                to_both(x, (b - a) / a.distance(b), here, *shapes[own], *shapes[others[i]]);
+            to_edge && to_edge->norm() < .5 * a.distance(b))
+          sum += along * along * (*to_edge - here);
       }
     return sum;
   }
