@@ -215,7 +215,7 @@ def turning_ball(p):
     for c in compared['cycles']:
         check(c['linear_cg']['difference'] <= 1e-9, f'linear solution differs by {c["linear_cg"]["difference"]}')
     text = refused(p, path, *TETRAHEDRA, 'Body ball/Volume force=(0.05*z, 0, -0.1)')
-    check('body ball, rotation about the axis' in text and 'would fly away' in text, text)
+    check('body ball, rotation about the axis' in text and ('would fly away' in text or 'which frictionless contact does not hold' in text), text)
     # A translation that surfaces allow is never held.
     text = refused(p, os.path.join(TOP, 'prm', 'patch_test/patch_test.prm'), 'Body upper/Dirichlet=', 'Body upper/Pressures=top: 1',
                    'Body upper/Tractions=-x: (1e-3, 0, 0)')
