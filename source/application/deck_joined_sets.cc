@@ -13,6 +13,7 @@
 #include <map>
 #include <memory>
 #include <set>
+#include <tuple>
 
 namespace Signorini
 {
@@ -41,7 +42,10 @@ namespace Signorini
 
       void add(const HeldSet &set)
       {
-        for (const unsigned int vertex : vertices_within(set.nodes, *body.cells))
+        const std::vector<unsigned int> vertices = vertices_within(set.nodes, *body.cells);
+        if (vertices.empty())
+          return;
+        for (const unsigned int vertex : vertices)
           sets_of[vertex].push_back(static_cast<unsigned int>(names.size()));
         for (const unsigned int node : set.nodes)
           values[node] = *set.values[component];
@@ -57,24 +61,15 @@ namespace Signorini
         find_faces();
         if (std::all_of(is_of_one_set.begin(), is_of_one_set.end(), [](const bool is) { return is; }))
           return result;
-        for (const auto &[root, part] : parts())
-          if (part.is_divided && (part.is_of_one_set || has_vertex_of_its_own(part)))
-            {
-              const std::vector<unsigned int> vertices(part.vertices.begin(), part.vertices.end());
-              result.push_back({name_of(vertices), vertices, component, frame, value_at(vertices)});
-            }
+        for (const std::set<unsigned int> &group : divided_groups())
+          {
+            const std::vector<unsigned int> vertices(group.begin(), group.end());
+            result.push_back({name_of(vertices), vertices, component, frame, value_at(vertices)});
+          }
         return result;
       }
 
     private:
-      /// A smooth part of the boundary.
-      struct Part
-      {
-        std::set<unsigned int> vertices;
-        /// Whether it has a face of which one set has all nodes; and one of which none has.
-        bool is_of_one_set = false, is_divided = false;
-      };
-
       static unsigned int n_corners(const VolumeMesh::Face &face)
       {
         return face[3] == VolumeMesh::no_vertex ? 3 : 4;
@@ -116,48 +111,90 @@ namespace Signorini
         return n.norm() > 0. ? n / n.norm() : n;
       }
 
-      std::map<std::size_t, Part> parts()
+      using Edge = std::pair<unsigned int, unsigned int>;
+
+      static std::vector<Edge> edges_of(const VolumeMesh::Face &v)
       {
-        DisjointSets                                                               smooth(faces.size());
-        std::map<std::pair<unsigned int, unsigned int>, std::vector<unsigned int>> beside;
+        if (n_corners(v) == 3)
+          return {std::minmax(v[0], v[1]), std::minmax(v[1], v[2]), std::minmax(v[2], v[0])};
+        // deal.II's order.
+        return {std::minmax(v[0], v[1]), std::minmax(v[1], v[3]), std::minmax(v[3], v[2]),
+                std::minmax(v[2], v[0])};
+      }
+
+      /// Pairs of faces that are one surface, with the edge between them.
+      std::vector<std::tuple<unsigned int, unsigned int, Edge>> smooth_neighbours() const
+      {
+        std::map<Edge, std::vector<unsigned int>> beside;
         for (unsigned int f = 0; f < faces.size(); ++f)
-          {
-            const VolumeMesh::Face                                  &v = faces[f];
-            const std::vector<std::pair<unsigned int, unsigned int>> edges =
-                n_corners(v) == 3 ? std::vector<std::pair<unsigned int, unsigned int>>{{v[0], v[1]},
-                                                                                       {v[1], v[2]},
-                                                                                       {v[2], v[0]}}
-                                  : std::vector<std::pair<unsigned int, unsigned int>>{
-                                        {v[0], v[1]}, {v[1], v[3]}, {v[3], v[2]}, {v[2], v[0]}};
-            for (const auto &edge : edges)
-              beside[std::minmax(edge.first, edge.second)].push_back(f);
-          }
+          for (const Edge &edge : edges_of(faces[f]))
+            beside[edge].push_back(f);
+        std::vector<std::tuple<unsigned int, unsigned int, Edge>> result;
         for (const auto &[edge, both] : beside)
-          for (std::size_t i = 1; i < both.size(); ++i)
-            if (std::abs(normal(faces[both[0]]) * normal(faces[both[i]])) >= JoinRule().one_surface)
-              smooth.unite(both[0], both[i]);
-        std::map<std::size_t, Part> result;
-        for (unsigned int f = 0; f < faces.size(); ++f)
-          {
-            Part &part = result[smooth.find(f)];
-            for (unsigned int i = 0; i < n_corners(faces[f]); ++i)
-              part.vertices.insert(faces[f][i]);
-            (is_of_one_set[f] ? part.is_of_one_set : part.is_divided) = true;
-          }
-        std::vector<unsigned int> n_parts(sets_of.size(), 0);
-        for (const auto &[root, part] : result)
-          for (const unsigned int vertex : part.vertices)
-            ++n_parts[vertex];
-        is_in_one_part.assign(sets_of.size(), false);
-        for (unsigned int vertex = 0; vertex < n_parts.size(); ++vertex)
-          is_in_one_part[vertex] = n_parts[vertex] == 1;
+          if (both.size() == 2 &&
+              std::abs(normal(faces[both[0]]) * normal(faces[both[1]])) >= JoinRule().one_surface)
+            result.emplace_back(both[0], both[1], edge);
         return result;
       }
 
-      bool has_vertex_of_its_own(const Part &part) const
+      bool share_a_set(const unsigned int one, const unsigned int other) const
       {
-        return std::any_of(part.vertices.begin(), part.vertices.end(),
-                           [&](const unsigned int vertex) { return is_in_one_part[vertex]; });
+        return std::any_of(sets_of[one].begin(), sets_of[one].end(), [&](const unsigned int set) {
+          return std::binary_search(sets_of[other].begin(), sets_of[other].end(), set);
+        });
+      }
+
+      /// Whether the nodes of a divided face beyond an edge that is of one set are of one other set.
+      bool goes_on_with_another_set(const VolumeMesh::Face &face, const Edge &edge) const
+      {
+        std::vector<unsigned int> rest;
+        for (unsigned int i = 0; i < n_corners(face); ++i)
+          if (face[i] != edge.first && face[i] != edge.second)
+            rest.push_back(face[i]);
+        for (const unsigned int vertex : rest)
+          if (!share_a_set(vertex, rest[0]) || share_a_set(vertex, edge.first) ||
+              share_a_set(vertex, edge.second))
+            return false;
+        return true;
+      }
+
+      /// The vertices of divided faces that hang together, where they are held.
+      std::vector<std::set<unsigned int>> divided_groups() const
+      {
+        DisjointSets      smooth(faces.size()), groups(faces.size());
+        std::vector<bool> goes_on(faces.size(), false);
+        for (const auto &[one, other, edge] : smooth_neighbours())
+          {
+            smooth.unite(one, other);
+            if (!is_of_one_set[one] && !is_of_one_set[other])
+              groups.unite(one, other);
+            for (const auto &[divided, whole] : {std::make_pair(one, other), std::make_pair(other, one)})
+              if (!is_of_one_set[divided] && is_of_one_set[whole])
+                goes_on[divided] = goes_on[divided] || goes_on_with_another_set(faces[divided], edge);
+          }
+        // By vertex the smooth part that it lies in; several count as none.
+        std::map<unsigned int, std::set<std::size_t>> parts;
+        std::map<std::size_t, std::set<unsigned int>> vertices;
+        std::map<std::size_t, bool>                   is_joined;
+        for (unsigned int f = 0; f < faces.size(); ++f)
+          for (unsigned int i = 0; i < n_corners(faces[f]); ++i)
+            parts[faces[f][i]].insert(smooth.find(f));
+        for (unsigned int f = 0; f < faces.size(); ++f)
+          if (!is_of_one_set[f])
+            {
+              bool &joined = is_joined[groups.find(f)];
+              joined       = joined || goes_on[f];
+              for (unsigned int i = 0; i < n_corners(faces[f]); ++i)
+                {
+                  vertices[groups.find(f)].insert(faces[f][i]);
+                  joined = joined || parts[faces[f][i]].size() == 1;
+                }
+            }
+        std::vector<std::set<unsigned int>> result;
+        for (const auto &[group, list] : vertices)
+          if (is_joined[group])
+            result.push_back(list);
+        return result;
       }
 
       /// Of the sets that have nodes there.
@@ -201,7 +238,7 @@ namespace Signorini
       /// By vertex, ascending.
       std::vector<std::vector<unsigned int>> sets_of;
       std::vector<VolumeMesh::Face>          faces;
-      std::vector<bool>                      is_of_one_set, is_in_one_part;
+      std::vector<bool>                      is_of_one_set;
     };
   } // namespace
 
@@ -213,8 +250,7 @@ namespace Signorini
     for (const HeldSet &set : sets)
       for (unsigned int c = 0; c < 3; ++c)
         if (set.values[c])
-          directions.emplace(std::make_pair(set.frame, c), HeldDirection(body, c, set.frame))
-              .first->second.add(set);
+          directions.try_emplace({set.frame, c}, body, c, set.frame).first->second.add(set);
     std::vector<JoinedSet> result;
     for (auto &[key, direction] : directions)
       for (JoinedSet &joined : direction.join())

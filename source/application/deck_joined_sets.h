@@ -37,8 +37,10 @@ namespace Signorini
 
   /// Where faces of a body have nodes of several sets that hold the same direction, new nodes of refined
   /// meshes between these belong to none of them (an edge that is held alone, a surface in two halves, values
-  /// node by node). The smooth parts of the boundary that have such faces and others of one set, or that
-  /// have nodes of their own: not the side of a plate of one layer that is held on both faces.
+  /// node by node). Such faces are joined, with those of them that they hang together with, if a node of them
+  /// lies in no other smooth part of the boundary, or if a face of one set lies smoothly beside one of them
+  /// and the rest of its nodes is of another set. So the side of a plate of one layer that is held on both
+  /// faces stays free.
   std::vector<JoinedSet> join_held_sets(const DeckBody &body, const std::vector<HeldSet> &sets);
 
   /// A function by its values at the vertices of a body.

@@ -108,15 +108,7 @@ namespace Signorini
         // Sets of nodes get names that no surface has.
         for (const DeckBoundary &condition : state.boundaries)
           add_condition(condition);
-        for (DeckBody &body : bodies)
-          for (const JoinedSet &joined : join_held_sets(body, held_sets))
-            {
-              LoadDefinition::Displacement displacement;
-              displacement.boundary                     = add_node_set(body, joined.name, joined.vertices);
-              displacement.frame                        = axes_of(joined.frame);
-              displacement.components[joined.component] = joined.value;
-              body.loads.displacements.push_back(displacement);
-            }
+        add_between_sets();
         add_temperatures(bodies, model, history);
         for (unsigned int k = 0; k < history.n_steps(); ++k)
           for (const DeckVolumeLoad &load : history.step(k).volume_loads)
@@ -174,6 +166,24 @@ namespace Signorini
         if (!is_anywhere)
           remarks.push_back(deck.text().where(condition.place) +
                             ": BOUNDARY: none of the nodes belongs to a solid element.");
+      }
+
+      /// Before all others: nodes of the sets keep their own conditions, which are later.
+      void add_between_sets()
+      {
+        for (DeckBody &body : bodies)
+          {
+            std::vector<LoadDefinition::Displacement> between;
+            for (const JoinedSet &joined : join_held_sets(body, held_sets))
+              {
+                between.emplace_back();
+                between.back().boundary = add_node_set(body, joined.name, joined.vertices);
+                between.back().frame    = axes_of(joined.frame);
+                between.back().components[joined.component] = joined.value;
+              }
+            auto &all = body.loads.displacements;
+            all.insert(all.begin(), between.begin(), between.end());
+          }
       }
 
       ConditionFrame axes_of(const unsigned int frame) const

@@ -414,18 +414,19 @@ namespace Signorini
   {
     if (has_boundary(body, name))
       return ids_of_one_boundary(body, name, where);
-    std::vector<std::string> parts = split_at(name, " + ");
-    // Without blanks a plus may belong to a name.
-    if (const std::vector<std::string> close = split_at(name, "+");
-        parts.size() == 1 && std::all_of(close.begin(), close.end(),
-                                         [&](const std::string &part) { return has_boundary(body, part); }))
-      parts = close;
+    std::vector<std::string> parts;
+    for (const std::string &part : split_at(name, " + "))
+      // Without blanks a plus may belong to a name.
+      if (const std::vector<std::string> close = split_at(part, "+");
+          !has_boundary(body, part) && std::all_of(close.begin(), close.end(), [&](const std::string &one) {
+            return has_boundary(body, one);
+          }))
+        parts.insert(parts.end(), close.begin(), close.end());
+      else
+        parts.push_back(part);
     std::set<types::boundary_id> ids;
     for (const std::string &part : parts)
-      {
-        const std::set<types::boundary_id> more = ids_of_one_boundary(body, part, where);
-        ids.insert(more.begin(), more.end());
-      }
+      ids.merge(ids_of_one_boundary(body, part, where));
     return ids;
   }
 

@@ -6,7 +6,6 @@
 #include <Eigen/Dense>
 
 #include <algorithm>
-#include <optional>
 
 namespace Signorini
 {
@@ -129,8 +128,9 @@ namespace Signorini
 
   std::size_t TrueShape::memory_consumption() const
   {
-    std::size_t bytes =
-        list_bytes(shape_of_triangle) + list_bytes(index_of_polynomial) + list_bytes(polynomials);
+    std::size_t bytes = list_bytes(shape_of_triangle) + list_bytes(index_of_polynomial) +
+                        list_bytes(polynomials) +
+                        beyond.size() * (sizeof(unsigned int) + sizeof(ShapesBeyond));
     for (const auto &values : known)
       bytes += values.size() * (sizeof(LatticePoint) + sizeof(Vector3));
     return bytes;
@@ -161,49 +161,50 @@ namespace Signorini
 
   namespace
   {
-    /// From a place of a chord between two shapes to where both meet, across the chord: that of their tangent
-    /// planes. Nothing if they touch there, by up to 10 degrees.
-    std::optional<Vector3> to_both(const Point<3> &x, const Vector3 &chord, const Vector3 &to_first,
-                                   const BoundaryShape &first, const BoundaryShape &second)
+    /// How a place of the first shape, which belongs to x, moves along the tangent plane there to where it
+    /// meets that of the second shape. Nothing if they touch, by up to 10 degrees.
+    Vector3 way_to_edge(const Point<3> &x, const BoundaryShape &first, const BoundaryShape &second)
     {
       constexpr double sine_of_touch = .17;
+      const Vector3    to_first = first.project(x) - x, to_second = second.project(x) - x;
       // Either side will do.
-      const Vector3 facing = to_first.norm() > 0. ? to_first : chord, n = first.normal(x, facing),
-                    m = second.normal(x, facing), across_n = cross_product_3d(chord, n),
-                    across_m   = cross_product_3d(m, chord);
-      const double determinant = n * across_m;
-      if (!(std::abs(determinant) > sine_of_touch))
-        return {};
-      return Vector3(((n * to_first) * across_m + (m * (second.project(x) - x)) * across_n) / determinant);
+      const Vector3 facing =
+                        (to_first - to_second).norm() > 0. ? to_first - to_second : Vector3({1., 0., 0.}),
+                    n = first.normal(x, facing), m = second.normal(x, facing), along = m - (m * n) * n;
+      const double sine_square = along.norm_square();
+      return sine_square > sine_of_touch * sine_of_touch ? (m * (to_second - to_first) / sine_square) * along
+                                                         : Vector3();
     }
   } // namespace
 
 
 
-  // What a place moves by so that the edges of the triangle lie where the shapes meet: the nearest place of
-  // an edge by what it is off, others by (λ_i + λ_j)² of that. With about λ_i λ_j / (λ_i + λ_j)² along the
-  // edge that is a quadratic function, which is zero on the other edges.
-  Vector3 TrueShape::bend_to_edges(const SurfaceMesh &mesh, const unsigned int triangle,
-                                   const ShapesBeyond &others, const std::array<double, 3> &weights) const
+  // Edges of the triangle lie where the shapes meet: their places move by the whole way there, others by
+  // (λ_i + λ_j)² of that of the nearest place of the edge. With about λ_i λ_j / (λ_i + λ_j)² along the edge
+  // that is a quadratic function, which is zero on the other edges.
+  Vector3 TrueShape::moved_offset(const SurfaceMesh &mesh, const unsigned int triangle,
+                                  const ShapesBeyond &others, const std::array<double, 3> &weights) const
   {
-    const unsigned int own = shape_of_triangle[triangle];
-    Vector3            sum;
+    const BoundaryShape &own = *shapes[shape_of_triangle[triangle]];
+    const auto          &v   = mesh.triangles[triangle];
+    Point<3>             x;
+    for (unsigned int i = 0; i < 3; ++i)
+      x += weights[i] * Tensor<1, 3>(mesh.vertices[v[i]]);
+    Vector3 way;
     for (unsigned int i = 0; i < 3; ++i)
       {
         const unsigned int j = (i + 1) % 3;
-        if (others[i] == no_shape || weights[i] == 0. || weights[j] == 0.)
+        if (others[i] == no_shape || !(weights[i] > 0.) || !(weights[j] > 0.))
           continue;
-        const Point<3> &a    = mesh.vertices[mesh.triangles[triangle][i]],
-                       &b    = mesh.vertices[mesh.triangles[triangle][j]];
-        const double   along = weights[i] + weights[j];
-        const Point<3> x(weights[i] / along * Tensor<1, 3>(a) + weights[j] / along * Tensor<1, 3>(b));
-        const Vector3  here = shapes[own]->project(x) - x;
-        if (const std::optional<Vector3> to_edge =
-                to_both(x, (b - a) / a.distance(b), here, *shapes[own], *shapes[others[i]]);
-            to_edge && to_edge->norm() < .5 * a.distance(b))
-          sum += along * along * (*to_edge - here);
+        const Point<3> &a = mesh.vertices[v[i]], &b = mesh.vertices[v[j]];
+        const double    along = weights[i] + weights[j];
+        const Point<3>  on_edge(weights[i] / along * Tensor<1, 3>(a) + weights[j] / along * Tensor<1, 3>(b));
+        const Vector3   to_edge = way_to_edge(on_edge, own, *shapes[others[i]]);
+        // Farther away they do not meet there.
+        if (to_edge.norm() < .5 * a.distance(b))
+          way += along * along * to_edge;
       }
-    return sum;
+    return own.project(x + way) - x;
   }
 
 
@@ -222,13 +223,15 @@ namespace Signorini
             LatticePoint point;
             std::transform(points[i].begin(), points[i].end(), point.begin(),
                            [&](const unsigned int corner) { return v[corner]; });
-            values[i] = lattice_value(mesh, triangle, point);
             if (edges == beyond.end())
-              continue;
+              {
+                values[i] = lattice_value(mesh, triangle, point);
+                continue;
+              }
             std::array<double, 3> weights = {{0., 0., 0.}};
             for (const unsigned int corner : points[i])
               weights[corner] += 1. / degree;
-            values[i] += bend_to_edges(mesh, triangle, edges->second, weights);
+            values[i] = moved_offset(mesh, triangle, edges->second, weights);
           }
         const LatticeMatrix &matrix = interpolation();
         for (unsigned int j = 0; j < n_terms; ++j)
@@ -248,9 +251,10 @@ namespace Signorini
     Vector3 sum;
     if (shapes.empty() || shape_of_triangle[triangle] == no_shape)
       return sum;
-    if (const BoundaryShape &shape = *shapes[shape_of_triangle[triangle]];
-        shape.is_exact() && beyond.count(triangle) == 0)
+    if (const BoundaryShape &shape = *shapes[shape_of_triangle[triangle]]; shape.is_exact())
       {
+        if (const auto edges = beyond.find(triangle); edges != beyond.end())
+          return moved_offset(mesh, triangle, edges->second, weights);
         const auto    &v = mesh.triangles[triangle];
         const Point<3> x(weights[0] * Tensor<1, 3>(mesh.vertices[v[0]]) +
                          weights[1] * Tensor<1, 3>(mesh.vertices[v[1]]) +

@@ -245,11 +245,12 @@ namespace Signorini
                 flat_normals[v].push_back(normals[is_flat[s] ? s : t]);
       }
 
-      /// A vertex at the end of a flat part has the normal of that, if it is nearly that: a fillet touches
-      /// it. Where it would dip into it, what the flat part lies on would be penetrated.
-      void touch_flat_part(Quadric &quadric, const unsigned int vertex) const
+      /// A vertex at the end of a flat part has the normal of that, if it is nearly that and the surface is
+      /// curved across: a fillet touches it, a flat cone does not. Where it would dip into it, what the flat
+      /// part lies on would be penetrated.
+      void touch_flat_part(Quadric &quadric, const PieceVertex &centre) const
       {
-        const auto known = flat_normals.find(vertex);
+        const auto known = flat_normals.find(centre.vertex);
         if (known == flat_normals.end())
           return;
         const Tensor<1, 3> &nearest =
@@ -257,7 +258,14 @@ namespace Signorini
                               [&](const Tensor<1, 3> &one, const Tensor<1, 3> &other) {
                                 return one * quadric.normal < other * quadric.normal;
                               });
-        if (nearest * quadric.normal >= std::cos(rule.touches_flat * numbers::PI / 180.))
+        const Tensor<1, 3> turn  = nearest - (nearest * quadric.normal) * quadric.normal;
+        const double       angle = turn.norm();
+        double             width = 0.;
+        for (const unsigned int t : centre.triangles)
+          for (const unsigned int v : topology.triangles[t])
+            width = std::max(width, std::abs((mesh.vertices[v] - mesh.vertices[centre.vertex]) * turn));
+        if (nearest * quadric.normal >= std::cos(rule.touches_flat * numbers::PI / 180.) && angle > 0. &&
+            angle * angle * angle * angle <= rule.of_the_turn * std::abs(quadric.along(turn)) * width)
           turn_frame(quadric, nearest);
       }
 
@@ -289,7 +297,7 @@ namespace Signorini
             if (fit(found, points))
               {
                 quadric = found;
-                touch_flat_part(quadric, centre.vertex);
+                touch_flat_part(quadric, centre);
                 return true;
               }
           }

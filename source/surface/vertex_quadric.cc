@@ -43,9 +43,9 @@ namespace Signorini
 
   namespace
   {
-    /// Solves for the two slopes and the three curvatures of a quadratic surface; what a strip of one cell,
-    /// two rows of vertices, leaves open so that the curvatures are as small as may be: it is straight across
-    /// the rows. Returns false if the values leave more open.
+    /// Solves for the two slopes and the three curvatures of a quadratic surface. Two rows of vertices, a
+    /// strip of one cell, leave the curvature across them open: it is nothing. Returns false if the values
+    /// leave more open, or something else.
     bool solve_for_quadric(Eigen::Matrix<double, 5, 1> &x, const Eigen::Matrix<double, Eigen::Dynamic, 5> &a,
                            const Eigen::VectorXd &b)
     {
@@ -66,7 +66,12 @@ namespace Signorini
         x += parts[i] / svd.singularValues()[i] * svd.matrixV().col(i);
       // The direction in which curvature is open: there it is none.
       const Eigen::Matrix<double, 5, 1> open = svd.matrixV().col(4);
-      const double                      angle =
+      // Neighbours on another conic than two lines leave something else open.
+      constexpr double two_lines = 1e-3;
+      const double     trace     = open[2] + open[4];
+      if (!(std::abs(open[2] * open[4] - open[3] * open[3]) <= two_lines * trace * trace))
+        return false;
+      const double angle =
           .5 * std::atan2(2. * open[3], open[2] - open[4]) + (open[2] + open[4] < 0. ? .5 * numbers::PI : 0.);
       const auto along = [angle](const Eigen::Matrix<double, 5, 1> &y) {
         return y[2] * std::cos(angle) * std::cos(angle) + y[3] * std::sin(2. * angle) +

@@ -108,6 +108,10 @@ def coarse_fit(p):
             pair = p.solve(path, *settings)['pairs'][0]
             near(pair['initial_penetration'], .001, .01, f'{side}, {level}: interference')
             near(pair['load'] / pair['contact_area'], pressure, tolerance, f'{side}, {level}: mean pressure')
+            # Its end beside it, which the side meets over the chords of the rim.
+            ended = p.solve(path, *settings, 'Pair fit/First=shaft: side + bottom', 'Body shaft/Boundary shapes=bottom: plane: (0, 0, -4), (0, 0, 1)', codes=(0, 3))['pairs'][0]
+            near(ended['initial_penetration'], .001, .01, f'{side}, {level}: interference with the end')
+            near(ended['load'] / ended['contact_area'], pressure, tolerance, f'{side}, {level}: mean pressure with the end')
             loose = p.solve(path, *settings, 'Body hub/Inner radius=10.0005')
             check(loose['pairs'][0]['load'] == 0. == loose['pairs'][0]['initial_penetration'], f'{side}, {level}: clearance')
 

@@ -27,10 +27,9 @@ namespace Signorini
   /// Where the true surface lies over the facets of a contact surface: the offset from a point to its shape.
   /// Of exact shapes (BoundaryShape::is_exact()) at each place itself. Of patches over facets, whose nearest
   /// point takes a search, on each triangle the polynomial of fifth degree that has the right values at 21
-  /// points (error of sixth order), worked out for the triangles that are asked for. Of a circle of 8 edges
-  /// cubics are off by a thousandth of the radius, of one of 16 by a ten thousandth: as much as fits are
-  /// tight. Where two shapes meet, both end where they meet, not over the chords between the vertices there:
-  /// a chamfer would else go on beyond its edge, into the shaft.
+  /// points (error of sixth order), worked out for the triangles that are asked for. Where two shapes of the
+  /// surface meet (not at hanging vertices), their places over the chords move along them to the edge: a
+  /// chamfer would else go on beyond it, into the shaft.
   class TrueShape
   {
   public:
@@ -110,8 +109,8 @@ namespace Signorini
     using ShapesBeyond = std::array<unsigned int, 3>;
 
     void    find_edges_of_shapes(const SurfaceMesh &mesh);
-    Vector3 bend_to_edges(const SurfaceMesh &mesh, const unsigned int triangle, const ShapesBeyond &others,
-                          const std::array<double, 3> &weights) const;
+    Vector3 moved_offset(const SurfaceMesh &mesh, const unsigned int triangle, const ShapesBeyond &others,
+                         const std::array<double, 3> &weights) const;
 
     /// Of triangles at edges of their shapes.
     std::unordered_map<unsigned int, ShapesBeyond> beyond;

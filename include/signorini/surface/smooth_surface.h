@@ -24,10 +24,10 @@ namespace Signorini
     /// Triangles that lie in one plane up to this share of their size are flat: noise of files with eight
     /// digits is none.
     double flat = 1e-6;
-    /// Degrees between the normals that are found for the end of a curved part and of the flat one beside it
-    /// up to which it touches that. At fillets of three faces they differ by up to 7, where a crease is not
-    /// told from facets (CreaseEdgeRule) by 10 and more.
-    double touches_flat = 10.;
+    /// Degrees between the normals that are found for the end of a curved part and that of the flat one
+    /// beside it up to which it may touch that, as fillets of three faces do (7 at corners); and up to what
+    /// part of what the curved part turns by within its first faces. A cone does not turn across.
+    double touches_flat = 10., of_the_turn = .5;
   };
 
   /// The smooth surface that a triangulated one stands for: a curved patch over each triangle, through its

@@ -138,11 +138,35 @@ TEST(SmoothSurface, FilletsTouchFlatParts)
       });
       const SmoothSurface surface = smooth(mesh);
       double              lowest  = 0.;
+      EXPECT_GT(n_smooth(surface), 0u) << n;
       for (unsigned int t = 0; t < mesh.triangles.size(); ++t)
         for (const auto &w : samples)
           lowest = std::min(lowest, (evaluate(mesh, t, w) + surface.offset(t, w))[2]);
       EXPECT_GT(lowest, -1e-10) << n;
     }
+}
+
+
+
+// A flat cone beside the flat part that it ends at stays a cone.
+TEST(SmoothSurface, FlatConesDoNotTouchFlatParts)
+{
+  const double        slope   = std::tan(6. * dealii::numbers::PI / 180.);
+  const SurfaceMesh   mesh    = bent(12, 0., [slope](const double s, const double t) {
+    const double r = 2. + s, angle = .8 * t;
+    return Point<3>(r * std::cos(angle), r * std::sin(angle), slope * std::max(0., s - .5));
+  });
+  const SmoothSurface surface = smooth(mesh);
+  for (unsigned int t = 0; t < mesh.triangles.size(); ++t)
+    for (unsigned int i = 0; i < 3; ++i)
+      {
+        double highest = 0.;
+        for (const unsigned int v : mesh.triangles[t])
+          highest = std::max(highest, mesh.vertices[v][2]);
+        const double expected = highest > 1e-10 ? 1. / std::hypot(1., slope) : 1.;
+        EXPECT_NEAR(std::abs(surface.patch(t).normals[i][2]), expected, 1e-3)
+            << mesh.vertices[mesh.triangles[t][i]];
+      }
 }
 
 
