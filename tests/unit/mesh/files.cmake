@@ -13,6 +13,7 @@ signorini_add_unit_tests(mesh RANKS "1;2;4"
   serial_forest.cc
   surface_extraction.cc
   tetrahedral_forest.cc
+  true_shape.cc
   surface_file.cc
   symmetry_planes.cc
 )
