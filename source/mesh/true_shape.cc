@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Signorini authors
 
 #include <signorini/mesh/true_shape.h>
+#include <signorini/surface/contact_mapping.h>
 
 #include <Eigen/Dense>
 
@@ -187,10 +188,8 @@ namespace Signorini
   {
     const BoundaryShape &own = *shapes[shape_of_triangle[triangle]];
     const auto          &v   = mesh.triangles[triangle];
-    Point<3>             x;
-    for (unsigned int i = 0; i < 3; ++i)
-      x += weights[i] * Tensor<1, 3>(mesh.vertices[v[i]]);
-    Vector3 way;
+    const Point<3>       x   = evaluate(mesh, triangle, weights);
+    Vector3              way;
     for (unsigned int i = 0; i < 3; ++i)
       {
         const unsigned int j = (i + 1) % 3;
@@ -255,10 +254,7 @@ namespace Signorini
       {
         if (const auto edges = beyond.find(triangle); edges != beyond.end())
           return moved_offset(mesh, triangle, edges->second, weights);
-        const auto    &v = mesh.triangles[triangle];
-        const Point<3> x(weights[0] * Tensor<1, 3>(mesh.vertices[v[0]]) +
-                         weights[1] * Tensor<1, 3>(mesh.vertices[v[1]]) +
-                         weights[2] * Tensor<1, 3>(mesh.vertices[v[2]]));
+        const Point<3> x = evaluate(mesh, triangle, weights);
         return shape.project(x) - x;
       }
     const Polynomial &coefficients = polynomial(mesh, triangle);

@@ -72,7 +72,7 @@ namespace Signorini
       if (!(std::abs(open[2] * open[4] - open[3] * open[3]) <= two_lines * trace * trace))
         return false;
       const double angle =
-          .5 * std::atan2(2. * open[3], open[2] - open[4]) + (open[2] + open[4] < 0. ? .5 * numbers::PI : 0.);
+          .5 * std::atan2(2. * open[3], open[2] - open[4]) + (trace < 0. ? .5 * numbers::PI : 0.);
       const auto along = [angle](const Eigen::Matrix<double, 5, 1> &y) {
         return y[2] * std::cos(angle) * std::cos(angle) + y[3] * std::sin(2. * angle) +
                y[4] * std::sin(angle) * std::sin(angle);
