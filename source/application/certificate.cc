@@ -289,6 +289,15 @@ namespace Signorini
                                text_of(pair.moment_balance) +
                                " of force times width; refine, or give Boundary shapes");
     }
+    /// Where bodies lie in each other although a pair should keep them apart.
+    void object_to_unseen(Certificate &c, const ContactModel &model,
+                          const std::vector<UnseenPenetration> &unseen, const Scales &scales)
+    {
+      const double scale = scales.approach > 0. ? scales.approach : scales.displacement;
+      for (const UnseenPenetration &one : unseen)
+        if (one.has_pair && one.depth > CertificateRule().missed_penetration * scale)
+          c.objections.push_back(describe_unseen(model, one));
+    }
   } // namespace
 
 
@@ -318,6 +327,7 @@ namespace Signorini
           c.wrongly_mapped_pairs.push_back(p);
         object_to_pair(c, evaluation.pairs[p], model.pairs()[p], mapping_errors, scales);
       }
+    object_to_unseen(c, model, evaluation.unseen, scales);
     return c;
   }
 } // namespace Signorini

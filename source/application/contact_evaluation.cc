@@ -481,20 +481,20 @@ namespace Signorini
                                      const ContactSolution &solution)
   {
     ContactEvaluation result;
+    result.equilibrium = evaluate_equilibrium(model, d, solution);
+    result.unseen      = find_unseen_penetrations(model, d, solution.displacement);
     for (unsigned int p = 0; p < d.pairs.size(); ++p)
       {
-        result.pairs.push_back(evaluate_pair(d, solution, p));
-        const auto rows = pressure_rows(model.bodies(), d, solution.stress, p);
-        find_largest_recovered(result.pairs.back(), rows, model.communicator());
+        PairResult &pair = result.pairs.emplace_back(evaluate_pair(d, solution, p));
+        const auto  rows = pressure_rows(model.bodies(), d, solution.stress, p);
+        find_largest_recovered(pair, rows, model.communicator());
         // Ties pull and push.
         if (!d.pairs[p].is_tied)
-          result.pairs.back().pressure_scatter =
-              Utilities::MPI::broadcast(model.communicator(), scatter(rows), 0);
+          pair.pressure_scatter = Utilities::MPI::broadcast(model.communicator(), scatter(rows), 0);
         result.pressure.insert(result.pressure.end(), rows.begin(), rows.end());
         const auto mortar = mortar_pressure_rows(model.bodies(), d, solution.stress, p);
         result.mortar_pressure.insert(result.mortar_pressure.end(), mortar.begin(), mortar.end());
       }
-    result.equilibrium = evaluate_equilibrium(model, d, solution);
     return result;
   }
 } // namespace Signorini

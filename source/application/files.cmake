@@ -53,6 +53,7 @@ signorini_add_layer(application COLD
   side_choice.cc
   ties.cc
   turning_faces.cc
+  unseen_penetration.cc
   write_report.cc
   write_results.cc
 )

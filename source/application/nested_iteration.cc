@@ -397,6 +397,9 @@ namespace Signorini
               journal.note("pair " + d.pairs[p].name +
                            ": the surfaces are separated, there is no contact force.");
           }
+        for (const UnseenPenetration &one : evaluation.unseen)
+          if (!one.has_pair)
+            journal.note(describe_unseen(model, one));
         for (const std::string &remark : check_point_holds(model, d, last.solution))
           journal.note(remark);
         results.boundaries          = std::move(evaluation.equilibrium.reactions);

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Signorini authors
 
 #include <signorini/algebra/dense_matrix.h>
+#include <signorini/algebra/disjoint_sets.h>
 #include <signorini/algebra/gathered_lists.h>
 #include <signorini/algebra/input_error.h>
 #include <signorini/application/contact_evaluation.h>
@@ -12,6 +13,7 @@
 #include <signorini/application/point_holds.h>
 #include <signorini/discretization/motion_description.h>
 
+#include <algorithm>
 #include <iomanip>
 #include <map>
 #include <set>
@@ -39,9 +41,9 @@ namespace Signorini
       /// within a face: a node carries all at a place up to half a face away from where the bodies touch, and
       /// its normal is turned by as much.
       double sliding = .6;
-      /// Contact forces below this share of the largest one of all bodies count as that: nothing loads the
-      /// balls of a bearing opposite to its load, and what is held there carries what rounding leaves
-      /// (4.8e-10 beside 890).
+      /// Contact forces below this share of the largest one of all bodies that are linked by pairs count as
+      /// that: nothing loads the balls of a bearing opposite to its load, and what is held there carries what
+      /// rounding leaves (4.8e-10 beside 890).
       double idle = 1e-6;
     };
 
@@ -51,6 +53,8 @@ namespace Signorini
       unsigned int start_vertex;
       Point<3>     position;
       int          part;
+      /// Whether nothing is prescribed there; else only what the conditions leave is moved, along axes.
+      bool is_free;
     };
 
     std::set<NodeIndex> nodes_of_boundaries(const NodalSpace &space, const std::set<types::boundary_id> &ids)
@@ -86,6 +90,7 @@ namespace Signorini
       return ids;
     }
 
+    /// Collective. Nodes without conditions; if there are none (in plane strain), those with some.
     std::vector<Candidate> find_candidates(const ContactModel &model, const Discretization &d)
     {
       const NodalSpace         &space  = d.nodal();
@@ -94,13 +99,24 @@ namespace Signorini
       std::vector<Candidate>    result;
       for (unsigned int i = 0; i < d.partition().n_owned(); ++i)
         {
-          const NodeIndex    node   = d.partition().to_global(i);
-          const std::size_t  r      = space.relevant().index_within_set(node);
-          const unsigned int vertex = space.start_vertices()[r];
-          if (vertex != StartNodes::none && places.parts[i] >= 0 && !d.dirichlet().fixed[r].any() &&
+          const NodeIndex        node   = d.partition().to_global(i);
+          const std::size_t      r      = space.relevant().index_within_set(node);
+          const unsigned int     vertex = space.start_vertices()[r];
+          const FixedDirections &fixed  = d.dirichlet().fixed[r];
+          if (vertex != StartNodes::none && places.parts[i] >= 0 && fixed.is_along_axes() && !fixed.all() &&
               !space.hanging_nodes().is_constrained(node) && in_use.count(node) == 0)
-            result.push_back({vertex, places.positions[i], places.parts[i]});
+            result.push_back({vertex, places.positions[i], places.parts[i], !fixed.any()});
         }
+      std::vector<int> with_free;
+      for (const Candidate &one : result)
+        if (one.is_free && (with_free.empty() || with_free.back() != one.part))
+          with_free.push_back(one.part);
+      with_free = gather_lists(std::move(with_free), space.communicator(), Receivers::all);
+      const std::set<int> has_free(with_free.begin(), with_free.end());
+      result.erase(
+          std::remove_if(result.begin(), result.end(),
+                         [&](const Candidate &one) { return !one.is_free && has_free.count(one.part) > 0; }),
+          result.end());
       return result;
     }
 
@@ -273,6 +289,22 @@ namespace Signorini
         }
       return result;
     }
+
+    /// By body, the largest of some forces on those that pairs link it to: other problems in the same file
+    /// are no scale.
+    std::vector<double> largest_of_linked(const ContactModel &model, const std::vector<double> &forces)
+    {
+      DisjointSets linked(forces.size());
+      for (const PairModel &pair : model.pairs())
+        for (const PairModel::Side &side : pair.sides)
+          linked.unite(side.body, pair.sides[0].body);
+      std::vector<double> of_sets(forces.size(), 0.), result;
+      for (unsigned int b = 0; b < forces.size(); ++b)
+        of_sets[linked.find(b)] = std::max(of_sets[linked.find(b)], forces[b]);
+      for (unsigned int b = 0; b < forces.size(); ++b)
+        result.push_back(of_sets[linked.find(b)]);
+      return result;
+    }
   } // namespace
 
 
@@ -341,16 +373,16 @@ namespace Signorini
     constexpr PointHoldRule rule;
     if (model.point_holds().empty())
       return {};
-    const Equilibrium         equilibrium   = evaluate_equilibrium(model, d, solution);
-    const std::vector<double> forces        = contact_forces(model, d, solution);
-    const double              largest_force = *std::max_element(forces.begin(), forces.end());
+    const Equilibrium         equilibrium = evaluate_equilibrium(model, d, solution);
+    const std::vector<double> forces      = contact_forces(model, d, solution),
+                              largest     = largest_of_linked(model, forces);
     // By body.
     std::map<unsigned int, HeldBody> held;
     std::set<std::string>            idle;
     for (const PointHold &hold : model.point_holds())
       {
         const double reaction = equilibrium.reactions[hold.condition].reaction.norm();
-        const double force    = std::max({forces[hold.body], reaction, rule.idle * largest_force});
+        const double force    = std::max({forces[hold.body], reaction, rule.idle * largest[hold.body]});
         const double share    = reaction * hold.arm / force;
         if (share > hold.largest_share)
           {
@@ -363,7 +395,7 @@ namespace Signorini
                     "loads.";
             throw InputError(text.str());
           }
-        if (forces[hold.body] <= rule.idle * largest_force)
+        if (forces[hold.body] <= rule.idle * largest[hold.body])
           {
             idle.insert("body " + model.bodies().body_name(hold.body));
             continue;

@@ -32,6 +32,8 @@ namespace Signorini
       double toward_corners = .9;
       /// Distances that differ by less, in widths of the face, are one place: an edge between two triangles.
       double same_place = 1e-6;
+      /// Sine of the angle by which a face sees another one in a groove.
+      double groove = .3;
     };
 
     std::vector<Vector3> face_normals(const ContactSurface &surface)
@@ -43,6 +45,29 @@ namespace Signorini
           normals.push_back(area.norm() > 0. ? area / area.norm() : area);
         }
       return normals;
+    }
+
+    Point<3> centre_of(const ContactSurface &surface, const ContactSurface::Face &face)
+    {
+      Point<3> centre;
+      for (unsigned int a = 0; a < face.n_corners; ++a)
+        centre += Vector3(surface.mesh.vertices[face.corners[a]]) / face.n_corners;
+      return centre;
+    }
+
+    /// Whether some of the faces around a vertex face others of them.
+    bool is_groove(const ContactSurface &surface, const std::vector<unsigned int> &faces,
+                   const unsigned int vertex)
+    {
+      for (const unsigned int f : faces)
+        for (const unsigned int g : faces)
+          {
+            const Vector3 normal = area_vector(surface, surface.faces[f]),
+                          way    = centre_of(surface, surface.faces[g]) - surface.mesh.vertices[vertex];
+            if (normal * way > FacingRule().groove * normal.norm() * way.norm())
+              return true;
+          }
+      return false;
     }
   } // namespace
 
@@ -154,10 +179,51 @@ namespace Signorini
 
   void FacingParts::find_nearest()
   {
+    find_blind_in_grooves();
     nearest.assign(surface.mesh.vertices.size(), infinite);
     for (unsigned int f = 0; f < part_of.size(); ++f)
       for (const unsigned int v : surface.faces[f].corners)
-        nearest[v] = std::min(nearest[v], parts[part_of[f]].distance);
+        if (!is_blind_at(part_of[f], v))
+          nearest[v] = std::min(nearest[v], parts[part_of[f]].distance);
+  }
+
+
+
+  void FacingParts::find_blind_in_grooves()
+  {
+    blind_in_grooves.clear();
+    const auto for_corners = [&](const auto &act) {
+      for (unsigned int f = 0; f < part_of.size(); ++f)
+        for (unsigned int i = 0; i < surface.faces[f].n_corners; ++i)
+          act(f, surface.faces[f].corners[i]);
+    };
+    // Few vertices have several parts.
+    std::vector<unsigned int> first(surface.mesh.vertices.size(), SurfaceTopology::none);
+    std::map<unsigned int, std::vector<unsigned int>> faces_between_parts;
+    for_corners([&](const unsigned int f, const unsigned int v) {
+      if (first[v] == SurfaceTopology::none)
+        first[v] = part_of[f];
+      else if (first[v] != part_of[f])
+        faces_between_parts[v];
+    });
+    for_corners([&](const unsigned int f, const unsigned int v) {
+      if (const auto it = faces_between_parts.find(v); it != faces_between_parts.end())
+        it->second.push_back(f);
+    });
+    for (const auto &[v, faces] : faces_between_parts)
+      {
+        std::set<unsigned int> here, that_see;
+        for (const unsigned int f : faces)
+          {
+            here.insert(part_of[f]);
+            if (seen[f] < infinite && is_kept(f))
+              that_see.insert(part_of[f]);
+          }
+        if (here.size() > that_see.size() && !that_see.empty() && is_groove(surface, faces, v))
+          for (const unsigned int part : here)
+            if (that_see.count(part) == 0)
+              blind_in_grooves.insert({v, part});
+      }
   }
 
 
@@ -186,7 +252,8 @@ namespace Signorini
   bool FacingParts::counts(const unsigned int face, const unsigned int vertex) const
   {
     const Part &part = parts[part_of[face]];
-    return part.distance < infinite && (part.widths <= 1. || part.distance <= nearest[vertex]);
+    return part.distance < infinite && !is_blind_at(part_of[face], vertex) &&
+           (part.widths <= 1. || part.distance <= nearest[vertex]);
   }
 
 
@@ -230,10 +297,8 @@ namespace Signorini
           const double  width = std::sqrt(area.norm());
           if (!(width > 0.))
             continue;
-          const auto &one = surface.faces[face];
-          Point<3>    centre;
-          for (unsigned int a = 0; a < one.n_corners; ++a)
-            centre += Vector3(surface.mesh.vertices[one.corners[a]]) / one.n_corners;
+          const auto    &one    = surface.faces[face];
+          const Point<3> centre = centre_of(surface, one);
           f(face, centre, area / area.norm(), width);
           for (unsigned int a = 0; a < one.n_corners; ++a)
             f(face, centre + FacingRule().toward_corners * (surface.mesh.vertices[one.corners[a]] - centre),

@@ -5,7 +5,6 @@
 
 #include <signorini/mesh/facing_parts.h>
 #include <signorini/mesh/surface_normals.h>
-#include <signorini/mesh/surface_sight.h>
 #include <signorini/mortar/edge_normals.h>
 #include <signorini/surface/contact_mapping.h>
 
@@ -13,7 +12,6 @@
 #include <cmath>
 #include <deque>
 #include <map>
-#include <memory>
 #include <tuple>
 #include <vector>
 
@@ -42,8 +40,6 @@ namespace Signorini
       double change = .5;
       /// Differences of unit normals that are rounding.
       double rounding = 1e-6;
-      /// Distances of one place (SurfaceSight), in widths of the facet.
-      double same_place = 1e-6;
     };
 
     using Facet = ContactSurface::Facet;
@@ -122,6 +118,7 @@ namespace Signorini
         for (const Facet &image : images)
           normals.push_back(image.normal);
         ++n_met;
+        n_on_edge += met.is_on_edge ? 1. : 0.;
         sum_of_distances += met.distance;
         doubt = std::max(doubt, (facet - own).norm() + met.doubt);
       }
@@ -164,12 +161,22 @@ namespace Signorini
         return normals.empty() ? sum : sum / sum.norm();
       }
 
-      /// The same where it is not the one that the vertex has already; else zero.
+      /// Whether it is an edge that meets an edge.
+      bool meets_edge() const
+      {
+        return is_on_edge && own.norm() > 0. && n_met > 0. && n_on_edge == n_met;
+      }
+
+      /// The same where it is not the one that the vertex has already, between these where edges meet; else
+      /// zero.
       Vector3 normal() const
       {
         const Vector3 met         = met_normal();
         const bool    is_the_same = own.norm() > 0. && (met - own).norm() <= doubt + EdgeRule().rounding;
-        return may_turn() && !is_the_same ? met : Vector3();
+        if (!may_turn() || is_the_same)
+          return Vector3();
+        const Vector3 between = met + own;
+        return meets_edge() ? Vector3(between / between.norm()) : met;
       }
 
       /// From the own normal; from nothing where there is none.
@@ -183,7 +190,7 @@ namespace Signorini
       Vector3              own;
       bool                 is_on_edge = false;
       std::vector<Vector3> planes, normals;
-      double               sum_of_distances = 0., n_met = 0., doubt = 0.;
+      double               sum_of_distances = 0., n_met = 0., n_on_edge = 0., doubt = 0.;
     };
 
     class EdgeNormals
@@ -209,7 +216,8 @@ namespace Signorini
           if (may_press[v] && presses(v))
             {
               result.emplace(v, corner(v).normal());
-              front.push_back({v, corner(v).turn()});
+              if (!corner(v).meets_edge())
+                front.push_back({v, corner(v).turn()});
             }
         for (; !front.empty(); front.pop_front())
           for_facets(front[0].vertex,
@@ -384,59 +392,7 @@ namespace Signorini
       std::map<unsigned int, Corner> corners;
       std::deque<Turned>             front;
     };
-
-    struct SurfaceWithEdges
-    {
-      explicit SurfaceWithEdges(const ContactSurface &surface)
-        : sight(surface)
-        , sharp(vertices_on_sharp_edges(surface, std::vector<bool>(surface.faces.size(), true)))
-      {
-      }
-
-      const SurfaceSight      sight;
-      const std::vector<bool> sharp;
-    };
   } // namespace
-
-
-
-  PartnerSight sight_of(const RigidObstacle &obstacle, const double size)
-  {
-    return [&obstacle, size](MetPartner &met, const Point<3> &place, const Vector3 &normal, const double) {
-      return obstacle.contact_normal(met.normal, met.distance, place, normal, size);
-    };
-  }
-
-
-
-  PartnerSight sight_of(const ContactSurface &other)
-  {
-    // Made when it is first needed: many surfaces have no edges.
-    auto known = std::make_shared<std::unique_ptr<const SurfaceWithEdges>>();
-    return
-        [&other, known](MetPartner &met, const Point<3> &place, const Vector3 &normal, const double width) {
-          if (!*known)
-            *known = std::make_unique<const SurfaceWithEdges>(other);
-          const SurfaceWithEdges &surface = **known;
-          SurfaceSight::Place     seen;
-          if (!surface.sight.find(seen, place, normal, EdgeRule().same_place * width,
-                                  [width](const double distance) { return distance >= -width; }))
-            return false;
-          Vector3 sum;
-          for (unsigned int i = 0; i < 3; ++i)
-            {
-              const unsigned int v = other.mesh.triangles[seen.triangle][i];
-              sum += seen.weights[i] *
-                     (surface.sharp[v] ? true_normal(other, seen.triangle, i) : other.mesh.vertex_normals[v]);
-            }
-          if (!(sum.norm() > 0.))
-            return false;
-          met.distance = seen.distance;
-          met.normal   = -sum / sum.norm();
-          met.doubt    = (met.normal + facet_normal(other, seen.triangle)).norm();
-          return met.normal * normal >= EdgeRule().facing;
-        };
-  }
 
 
 

@@ -14,6 +14,7 @@ signorini_add_layer(mortar
   multiplier_nodes.cc
   pair_conflicts.cc
   pair_coupling.cc
+  partner_sight.cc
   rigid_obstacle.cc
   surface_halo.cc
   surface_values.cc

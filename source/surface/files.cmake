@@ -1,10 +1,12 @@
 signorini_add_layer(surface
+  boundary_depth.cc
   box_tree.cc
   common_polygon.cc
   contact_mapping.cc
   crease_edges.cc
   incidence.cc
   mapping_quality.cc
+  nearest_triangle.cc
   normal_projection.cc
   part_region.cc
   plane_graph.cc

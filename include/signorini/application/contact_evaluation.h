@@ -5,6 +5,7 @@
 #define signorini_application_contact_evaluation_h
 
 #include <signorini/application/contact_solve.h>
+#include <signorini/application/unseen_penetration.h>
 #include <signorini/output/results.h>
 
 #include <string>
@@ -62,6 +63,8 @@ namespace Signorini
     std::vector<PressureRow> pressure, mortar_pressure;
     /// Reactions, and what is left of the forces.
     Equilibrium equilibrium;
+    /// Where bodies lie in each other and no pair looks.
+    std::vector<UnseenPenetration> unseen;
   };
 
   /// Collective. All of the above.

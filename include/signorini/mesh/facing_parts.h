@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
+#include <set>
+#include <utility>
 #include <vector>
 
 namespace Signorini
@@ -76,7 +78,8 @@ namespace Signorini
     }
 
     /// Whether the normal of a face counts at one of its vertices: not if its part is farther away than its
-    /// faces are wide, and another part is nearer there.
+    /// faces are wide, and another part is nearer there; in a groove not either if its part faces nothing
+    /// there, and another one does.
     bool counts(const unsigned int face, const unsigned int vertex) const;
 
   private:
@@ -89,6 +92,11 @@ namespace Signorini
     static constexpr double infinite = std::numeric_limits<double>::infinity();
 
     void find_nearest();
+    void find_blind_in_grooves();
+    bool is_blind_at(const unsigned int part, const unsigned int vertex) const
+    {
+      return blind_in_grooves.count({vertex, part}) > 0;
+    }
 
     const ContactSurface     &surface;
     const SurfaceMesh        &boundary;
@@ -98,6 +106,8 @@ namespace Signorini
     std::vector<double> seen;
     /// By vertex: the least distance of a part there.
     std::vector<double> nearest;
+    /// Vertices and parts: where a rib ends in a groove it may face nothing, and touch elsewhere.
+    std::set<std::pair<unsigned int, unsigned int>> blind_in_grooves;
   };
 
   /// Whether some of unit normals are not linked with the others by steps that are no sharp edges.

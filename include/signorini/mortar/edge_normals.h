@@ -5,36 +5,10 @@
 #define signorini_mortar_edge_normals_h
 
 #include <signorini/mesh/contact_surface.h>
-#include <signorini/mortar/rigid_obstacle.h>
-
-#include <functional>
+#include <signorini/mortar/partner_sight.h>
 
 namespace Signorini
 {
-  /// What is met along the normal of a facet.
-  struct MetPartner
-  {
-    /// A unit vector, against the outward normal of the other side.
-    Vector3 normal;
-    /// Along the normal of the facet, negative if it lies behind (length).
-    double distance = 0.;
-    /// How far `normal` is from that of a facet that stands for a curved surface there.
-    double doubt = 0.;
-  };
-
-  /// Looks from a place along the unit normal of a facet of a width (length) there; false if nothing is met
-  /// that faces it.
-  using PartnerSight = std::function<bool(MetPartner &, const dealii::Point<3> &place, const Vector3 &normal,
-                                          const double width)>;
-
-  /// At an obstacle, which must outlive the function.
-  /// @param size a length of the problem
-  PartnerSight sight_of(const RigidObstacle &obstacle, const double size);
-
-  /// At another whole surface, which must outlive the function. What lies behind is met to the width of the
-  /// facet: farther back one would look through the body.
-  PartnerSight sight_of(const ContactSurface &other);
-
   /// Where edges of a whole surface press on the other side, gives them and the faces beside them the normal
   /// of that, and marks them (ContactSurface::has_partner_normal).
   ///
@@ -43,11 +17,12 @@ namespace Signorini
   /// along the surface that they act on. Edges are those of the boundary of the body, of more than 60
   /// degrees, that stick out (ContactSurface::beyond; at symmetry planes with its mirror image). One presses
   /// where the other side comes nearer towards it over all facets beside it (or is as far, where these are
-  /// parallel to it). From there the new normals spread over the faces as long as they rise and the turn is
-  /// much the same, and to vertices of these under which the other side has ended. Vertices keep their normal
-  /// where it differs from the new one by no more than facets do from the surfaces that they stand for, or
-  /// than the new one from those of the neighbours, and where the facets around them meet walls that differ
-  /// by more than 25 degrees (a corner between floor and wall).
+  /// parallel to it). Where it presses on an edge of the other side, as rims of disc springs do, the normal
+  /// is the one between the faces of both. From there the new normals spread over the faces as long as they
+  /// rise and the turn is much the same, and to vertices of these under which the other side has ended.
+  /// Vertices keep their normal where it differs from the new one by no more than facets do from the surfaces
+  /// that they stand for, or than the new one from those of the neighbours, and where the facets around them
+  /// meet walls that differ by more than 25 degrees (a corner between floor and wall).
   void turn_edges(ContactSurface &surface, const PartnerSight &partner);
 } // namespace Signorini
 

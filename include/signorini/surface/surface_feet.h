@@ -4,8 +4,7 @@
 #ifndef signorini_surface_surface_feet_h
 #define signorini_surface_surface_feet_h
 
-#include <signorini/surface/box_tree.h>
-#include <signorini/surface/surface_mesh.h>
+#include <signorini/surface/nearest_triangle.h>
 
 #include <vector>
 
@@ -18,14 +17,7 @@ namespace Signorini
   {
   public:
     /// The point that belongs to another one.
-    struct Foot
-    {
-      /// Where it lies.
-      unsigned int triangle = SurfaceTopology::none;
-      /// Barycentric coordinates, in [0,1].
-      std::array<double, 3> weights = {};
-      dealii::Point<3>      point;
-    };
+    using Foot = SurfaceFoot;
 
     /// Unit normals at the corners of a triangle.
     using CornerNormals = std::array<dealii::Tensor<1, 3>, 3>;
@@ -48,13 +40,8 @@ namespace Signorini
     unsigned int facing(const dealii::Point<3> &p, const dealii::Tensor<1, 3> &facing) const;
 
   private:
-    std::array<dealii::Point<3>, 3> corners(const unsigned int i) const;
-    Foot nearest(std::vector<unsigned int> &found, const dealii::Point<3> &p) const;
-
-    const SurfaceMesh         &mesh;
-    std::vector<unsigned int>  triangles;
+    NearestTriangle            triangles;
     std::vector<CornerNormals> normals;
-    BoxTree                    tree;
   };
 } // namespace Signorini
 

@@ -10,6 +10,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace
 {
   using namespace Signorini;
@@ -146,6 +148,31 @@ TEST(FacingParts, BothSidesOfAnEdgeThatTouchShareTheNormal)
   const Pair pair(foot_and_wall(.1), floor_and_step(1.1));
   EXPECT_FALSE(pair.first_parts.leaves_out_anything());
   EXPECT_FALSE(pair.second_parts.leaves_out_anything());
+}
+
+// A rib that touches with its foot, on a plate that is far: in the groove beside it its walls face nothing,
+// though it is the nearer part.
+TEST(FacingParts, InGroovesWhatFacesNothingLeavesTheNormalToWhatDoes)
+{
+  const auto ribbed = [](const double plate) {
+    Quads quads;
+    quads.add(Point<3>(-3., 0., plate), vector(0., 1., 0.), vector(2., 0., 0.));
+    for (unsigned int i = 0; i < 4; ++i)
+      {
+        // Half of a prism with eight sides: its lowest faces lie on the floor but for the walls, which rise.
+        const double   pi = dealii::numbers::PI, a = pi * i / 4, b = pi * (i + 1) / 4;
+        const Point<3> from(-std::cos(a), 0., 1. - std::sin(a)), to(-std::cos(b), 0., 1. - std::sin(b));
+        quads.add(from, vector(0., 1., 0.), to - from);
+      }
+    return quads.finish();
+  };
+  Quads floor;
+  floor.add(Point<3>(-5., -5., 0.), vector(10., 0., 0.), vector(0., 10., 0.), 3);
+  const Pair           pair(ribbed(1.), floor.finish());
+  const ContactSurface ribs = without_blind_parts(pair.first, pair.first_parts, {});
+  EXPECT_EQ(ribs.faces.size(), 80u);
+  EXPECT_LT((normal_at(ribs, Point<3>(-1., .5, 1.)) - vector(0., 0., -1.)).norm(), 1e-14);
+  EXPECT_LT((normal_at(ribs, Point<3>(-2., .5, 1.)) - vector(0., 0., -1.)).norm(), 1e-14);
 }
 
 // A block that is a little too low, on a floor whose faces are larger than it.

@@ -152,6 +152,43 @@ TEST(EdgeNormals, AreThoseOfWhatTheEdgesMeet)
       }
 }
 
+// Rims of disc springs, one upon the other: along the normal of either face they would push each other aside.
+TEST(EdgeNormals, EdgesOnEdgesHaveTheNormalBetweenTheirFaces)
+{
+  // With the wall at x = 0, a facet for each of its edges.
+  const auto half = [](const bool faces_up, const unsigned int n, const double shift) {
+    FlatSurfaces::Grid grid;
+    grid.nx                = 4;
+    grid.ny                = n;
+    grid.faces_up          = faces_up;
+    ContactSurface surface = FlatSurfaces::make_surface(grid);
+    const double   wall    = faces_up ? -.1 : .1;
+    for (unsigned int v = 0; v < surface.mesh.vertices.size(); ++v)
+      if (const Point<3> &x = surface.mesh.vertices[v]; x[0] < 1e-10)
+        for (const double side : {-.5, .5})
+          if (const double y = x[1] + side / n; y > 0. && y < 1.)
+            surface.beyond[v].push_back({Vector3({-1., 0., 0.}), Point<3>(0., y, wall) - x});
+    tilt(surface, faces_up ? -PI / 18. : PI / 18., 0.);
+    for (Point<3> &x : surface.mesh.vertices)
+      x[0] += shift;
+    return surface;
+  };
+  for (const unsigned int n : {4, 7})
+    for (const double shift : {0., .01, .2})
+      {
+        ContactSurface       surface = half(false, 4, 0.);
+        const ContactSurface other   = half(true, n, -shift);
+        turn_edges(surface, sight_of(other));
+        const Vector3 met = -other.mesh.vertex_normals[0];
+        for (unsigned int v = 0; v < surface.mesh.vertices.size(); ++v)
+          if (surface.mesh.vertices[v][0] < 1e-10)
+            {
+              EXPECT_LT((surface.mesh.vertex_normals[v] - (shift < .1 ? down : met)).norm(), 1e-12)
+                  << n << ' ' << shift << ' ' << surface.mesh.vertices[v];
+            }
+      }
+}
+
 TEST(EdgeNormals, FacesThatAreParallelKeepTheirs)
 {
   const ContactSurface other = floor();

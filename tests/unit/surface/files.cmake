@@ -1,4 +1,5 @@
 signorini_add_unit_tests(surface RANKS "1;3"
+  boundary_depth.cc
   closed_surfaces.cc
   contact_mapping.cc
   crease_edges.cc
