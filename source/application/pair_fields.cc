@@ -54,7 +54,10 @@ namespace Signorini
 
   std::vector<bool> sharp_vertices(const ContactPair &pair)
   {
-    const std::vector<bool>    here = vertices_on_sharp_edges(pair.nonmortar.surface, covered_faces(pair));
+    const std::vector<bool> covered = covered_faces(pair),
+                            here    = vertices_on_sharp_edges(
+                                   pair.nonmortar.surface,
+                                   [&](const unsigned int face, const unsigned int) { return covered[face]; });
     std::vector<unsigned char> flags(here.begin(), here.end());
     for (std::size_t v = 0; v < pair.nonmortar.surface.has_partner_normal.size(); ++v)
       if (pair.nonmortar.surface.has_partner_normal[v])

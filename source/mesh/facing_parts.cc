@@ -34,6 +34,10 @@ namespace Signorini
       double same_place = 1e-6;
       /// Sine of the angle by which a face sees another one in a groove.
       double groove = .3;
+      /// In a groove, distances (in widths of a face) by how many times the least one, and from which on, are
+      /// those of sides that do not touch: a bolt touches with its head, and has a clearance around its shank
+      /// that is a part of a face.
+      double alike = 2., touching = .01;
     };
 
     std::vector<Vector3> face_normals(const ContactSurface &surface)
@@ -47,6 +51,11 @@ namespace Signorini
       return normals;
     }
 
+    double width_of(const ContactSurface &surface, const unsigned int face)
+    {
+      return std::sqrt(area_vector(surface, surface.faces[face]).norm());
+    }
+
     Point<3> centre_of(const ContactSurface &surface, const ContactSurface::Face &face)
     {
       Point<3> centre;
@@ -55,13 +64,15 @@ namespace Signorini
       return centre;
     }
 
-    /// Whether some of the faces around a vertex face others of them.
-    bool is_groove(const ContactSurface &surface, const std::vector<unsigned int> &faces,
-                   const unsigned int vertex)
+    /// Whether some of the faces around a vertex face others of them, of another part.
+    bool is_groove(const ContactSurface &surface, const std::vector<unsigned int> &part_of,
+                   const std::vector<unsigned int> &faces, const unsigned int vertex)
     {
       for (const unsigned int f : faces)
         for (const unsigned int g : faces)
           {
+            if (part_of[f] == part_of[g])
+              continue;
             const Vector3 normal = area_vector(surface, surface.faces[f]),
                           way    = centre_of(surface, surface.faces[g]) - surface.mesh.vertices[vertex];
             if (normal * way > FacingRule().groove * normal.norm() * way.norm())
@@ -112,16 +123,16 @@ namespace Signorini
 
 
 
-  std::vector<bool> vertices_on_sharp_edges(const ContactSurface &surface, const std::vector<bool> &counts)
+  std::vector<bool> vertices_on_sharp_edges(const ContactSurface &surface, const FaceFilter &counts)
   {
     // Few vertices have facets that differ as much from the first one.
     std::vector<Vector3>                         first(surface.mesh.vertices.size());
     std::map<unsigned int, std::vector<Vector3>> suspects;
     const auto                                   for_corners = [&](const auto &f) {
       for (unsigned int t = 0; t < surface.mesh.triangles.size(); ++t)
-        if (counts[surface.triangle_face[t]])
-          for (unsigned int i = 0; i < 3; ++i)
-            f(surface.mesh.triangles[t][i], t, i);
+        for (unsigned int i = 0; i < 3; ++i)
+          if (const unsigned int v = surface.mesh.triangles[t][i]; counts(surface.triangle_face[t], v))
+            f(v, t, i);
     };
     for_corners([&](const unsigned int v, const unsigned int t, const unsigned int) {
       const Vector3 n = facet_normal(surface, t);
@@ -140,16 +151,6 @@ namespace Signorini
       result[v] = fall_apart(around);
     return result;
   }
-
-
-
-  namespace
-  {
-    double width_of(const ContactSurface &surface, const unsigned int face)
-    {
-      return std::sqrt(area_vector(surface, surface.faces[face]).norm());
-    }
-  } // namespace
 
 
 
@@ -179,19 +180,20 @@ namespace Signorini
 
   void FacingParts::find_nearest()
   {
-    find_blind_in_grooves();
+    find_far_in_grooves();
     nearest.assign(surface.mesh.vertices.size(), infinite);
     for (unsigned int f = 0; f < part_of.size(); ++f)
       for (const unsigned int v : surface.faces[f].corners)
-        if (!is_blind_at(part_of[f], v))
+        if (const auto far = far_in_grooves.find(v);
+            far == far_in_grooves.end() || far->second.count(part_of[f]) == 0)
           nearest[v] = std::min(nearest[v], parts[part_of[f]].distance);
   }
 
 
 
-  void FacingParts::find_blind_in_grooves()
+  void FacingParts::find_far_in_grooves()
   {
-    blind_in_grooves.clear();
+    far_in_grooves.clear();
     const auto for_corners = [&](const auto &act) {
       for (unsigned int f = 0; f < part_of.size(); ++f)
         for (unsigned int i = 0; i < surface.faces[f].n_corners; ++i)
@@ -212,17 +214,22 @@ namespace Signorini
     });
     for (const auto &[v, faces] : faces_between_parts)
       {
-        std::set<unsigned int> here, that_see;
+        std::map<unsigned int, Part> here;
         for (const unsigned int f : faces)
           {
-            here.insert(part_of[f]);
-            if (seen[f] < infinite && is_kept(f))
-              that_see.insert(part_of[f]);
+            Part &part    = here[part_of[f]];
+            part.distance = std::min(part.distance, is_kept(f) ? seen[f] : infinite);
+            part.widths   = std::min(part.widths, part.distance / width_of(surface, f));
           }
-        if (here.size() > that_see.size() && !that_see.empty() && is_groove(surface, faces, v))
-          for (const unsigned int part : here)
-            if (that_see.count(part) == 0)
-              blind_in_grooves.insert({v, part});
+        Part least;
+        for (const auto &entry : here)
+          if (entry.second.distance < least.distance)
+            least = entry.second;
+        if (!(least.distance < infinite) || !is_groove(surface, part_of, faces, v))
+          continue;
+        for (const auto &[part, distances] : here)
+          if (distances.widths > FacingRule().alike * least.widths + FacingRule().touching)
+            far_in_grooves[v].insert(part);
       }
   }
 
@@ -252,8 +259,17 @@ namespace Signorini
   bool FacingParts::counts(const unsigned int face, const unsigned int vertex) const
   {
     const Part &part = parts[part_of[face]];
-    return part.distance < infinite && !is_blind_at(part_of[face], vertex) &&
-           (part.widths <= 1. || part.distance <= nearest[vertex]);
+    return part.distance < infinite &&
+           (part.widths <= 1. || part.distance <= nearest[vertex] || far_in_grooves.count(vertex) > 0);
+  }
+
+
+
+  bool FacingParts::acts(const unsigned int face, const unsigned int vertex) const
+  {
+    const auto far = far_in_grooves.find(vertex);
+    return far == far_in_grooves.end() ? counts(face, vertex)
+                                       : is_kept(face) && far->second.count(part_of[face]) == 0;
   }
 
 
@@ -276,7 +292,7 @@ namespace Signorini
   {
     for (unsigned int f = 0; f < part_of.size(); ++f)
       for (const unsigned int v : surface.faces[f].corners)
-        if (!counts(f, v))
+        if (!acts(f, v))
           return true;
     return false;
   }
@@ -386,6 +402,20 @@ namespace Signorini
   ContactSurface without_blind_parts(ContactSurface surface, const FacingParts &parts,
                                      const SurfaceShapes &shapes)
   {
+    set_normals(surface, shapes,
+                [&](const unsigned int face, const unsigned int vertex) { return parts.acts(face, vertex); });
+    project_onto_symmetry_planes(surface);
+    for (unsigned int f = 0; f < surface.faces.size(); ++f)
+      {
+        ContactSurface::Face &face = surface.faces[f];
+        face.left_corners          = 0;
+        for (unsigned int i = 0; i < face.n_corners; ++i)
+          if (const unsigned int v = face.corners[i]; !parts.acts(f, v))
+            {
+              face.left_corners |= static_cast<unsigned char>(1u << i);
+              surface.normals_of_rows[v] = surface.mesh.vertex_normals[v];
+            }
+      }
     set_normals(surface, shapes, [&](const unsigned int face, const unsigned int vertex) {
       return parts.counts(face, vertex);
     });

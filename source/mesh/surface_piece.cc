@@ -118,6 +118,9 @@ namespace Signorini
     result.hanging             = vertices.select(whole.hanging);
     if (!whole.has_partner_normal.empty())
       result.has_partner_normal = vertices.select(whole.has_partner_normal);
+    for (const auto &[v, normal] : whole.normals_of_rows)
+      if (const unsigned int kept = vertices[v]; kept != Renumbering::none)
+        result.normals_of_rows[kept] = normal;
     result.true_shape = TrueShape(whole.true_shape, triangles);
     for (auto &triangle : result.mesh.triangles)
       for (unsigned int &v : triangle)

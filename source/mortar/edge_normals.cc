@@ -208,8 +208,7 @@ namespace Signorini
       std::map<unsigned int, Vector3> find()
       {
         std::map<unsigned int, Vector3> result;
-        std::vector<bool>               may_press =
-            vertices_on_sharp_edges(surface, std::vector<bool>(surface.faces.size(), true));
+        std::vector<bool>               may_press = vertices_on_sharp_edges(surface, all_faces);
         for (const auto &entry : surface.beyond)
           may_press[entry.first] = true;
         for (unsigned int v = 0; v < x.size(); ++v)
@@ -434,7 +433,8 @@ namespace Signorini
         if (surface.hanging[v].empty() && !is_turned[v])
           {
             surface.mesh.vertex_normals[v] = normal;
-            is_turned[v]                   = true;
+            surface.normals_of_rows.erase(v);
+            is_turned[v] = true;
           }
     };
     turn(normals);

@@ -28,14 +28,19 @@ namespace Signorini
       for (unsigned int a = 0; a < 4; ++a)
         {
           const unsigned int v = surface.faces[m.face].corners[a];
+          if (surface.faces[m.face].leaves(a))
+            continue;
           full[v] += m.full[a];
           if (!is_empty(m))
             for (unsigned int b = 0; b < 4; ++b)
               covered[v] += m.mass[4 * a + b];
         }
-    std::vector<bool> on_sharp_edge = rule.drops_sharp_edges
-                                          ? vertices_on_sharp_edges(surface, well_covered(rule))
-                                          : std::vector<bool>(states.size(), false);
+    const std::vector<bool> well          = well_covered(rule);
+    std::vector<bool>       on_sharp_edge = std::vector<bool>(states.size(), false);
+    if (rule.drops_sharp_edges)
+      on_sharp_edge = vertices_on_sharp_edges(surface, [&](const unsigned int face, const unsigned int v) {
+        return well[face] && !surface.faces[face].leaves_vertex(v);
+      });
     for (std::size_t v = 0; v < surface.has_partner_normal.size(); ++v)
       if (surface.has_partner_normal[v])
         on_sharp_edge[v] = false;
@@ -145,7 +150,7 @@ namespace Signorini
 
   double MultiplierNodes::free_normal(const unsigned int v) const
   {
-    return project_free(surface.vertex_fixed[v], surface.mesh.vertex_normals[v]).norm();
+    return project_free(surface.vertex_fixed[v], surface.row_normal(v)).norm();
   }
 
 

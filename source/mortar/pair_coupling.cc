@@ -154,7 +154,7 @@ namespace Signorini
             const DualBasis psi     = compute_dual_basis(m.mass, in_v);
             bool            is_lost = true;
             for (unsigned int i = 0; i < psi.n_functions; ++i)
-              if (!nodes.is_ceded(corners[psi.corner[i]]))
+              if (!nodes.is_ceded(corners[psi.corner[i]]) && !non.faces[m.face].leaves(psi.corner[i]))
                 {
                   add_function(m, corners, psi.corner[i], psi.coefficients[i]);
                   is_lost = false;
@@ -248,7 +248,7 @@ namespace Signorini
         result.coupling.rows.push_back(non.vertex_node[k]);
         result.coupling.weight.push_back(weight);
 
-        const Vector3 &normal = non.mesh.vertex_normals[k];
+        const Vector3 &normal = non.row_normal(k);
         result.normals.push_back(normal);
         result.gaps.push_back((prescribed_gap ? gap[0] : gap * normal) / weight);
         result.positions.push_back(non.mesh.vertices[k]);

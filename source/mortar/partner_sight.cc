@@ -26,12 +26,12 @@ namespace Signorini
       /// Distances of one place (SurfaceSight), in widths of the facet that is looked from.
       double same_place = 1e-6;
       /// How far from an edge one is on that, in these widths: rims of 20 and 24 chords are apart by .03.
-      double on_edge = .15;
+      double on_edge = .25;
       /// Cosine of the turn of an edge.
       double sharp = .5;
     };
 
-    /// The edges of a surface that are edges of its body.
+    /// The edges of a surface that are edges of its body and stick out.
     class BodyEdges
     {
     public:
@@ -43,8 +43,8 @@ namespace Signorini
         for (unsigned int e = 0; e < is_sharp.size(); ++e)
           {
             const auto &[s, t] = topology.edge_triangles[e];
-            is_sharp[e]        = topology.is_border(e) ? ends_at(e, s != SurfaceTopology::none ? s : t)
-                                                       : turns(facet_normal(surface, s), facet_normal(surface, t));
+            is_sharp[e] =
+                topology.is_border(e) ? ends_at(e, s != SurfaceTopology::none ? s : t) : bends_at(e);
           }
       }
 
@@ -62,6 +62,18 @@ namespace Signorini
       }
 
     private:
+      /// Whether the surface turns away from its facets.
+      bool bends_at(const unsigned int edge) const
+      {
+        const auto &[s, t]        = topology.edge_triangles[edge];
+        const unsigned int corner = (topology.local_edge(t, edge) + 2) % 3;
+        const Vector3      normal = facet_normal(surface, s);
+        return turns(normal, facet_normal(surface, t)) &&
+               normal * (surface.mesh.vertices[topology.triangles[t][corner]] -
+                         surface.mesh.vertices[topology.edges[edge][0]]) <
+                   0.;
+      }
+
       static bool turns(const Vector3 &a, const Vector3 &b)
       {
         return a * b < PartnerSightRule().sharp;
@@ -94,6 +106,7 @@ namespace Signorini
             if (((x[a] + one.way) - (x[b] + other.way)).norm() <=
                 PartnerSightRule().same_place * length(edge))
               return turns(facet_normal(surface, triangle), one.normal) &&
+                     facet_normal(surface, triangle) * one.way < 0. &&
                      !(surface.vertex_fixed[a].contains(one.normal) &&
                        surface.vertex_fixed[b].contains(one.normal));
         return false;
@@ -108,7 +121,7 @@ namespace Signorini
     {
       explicit SurfaceWithEdges(const ContactSurface &surface)
         : sight(surface)
-        , sharp(vertices_on_sharp_edges(surface, std::vector<bool>(surface.faces.size(), true)))
+        , sharp(vertices_on_sharp_edges(surface, all_faces))
         , edges(surface)
       {
       }

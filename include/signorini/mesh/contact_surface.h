@@ -37,6 +37,24 @@ namespace Signorini
       dealii::types::boundary_id boundary = dealii::numbers::invalid_boundary_id;
       /// Of the cell (Bodies::material()).
       dealii::types::material_id material = 0;
+      /// Bit i: at corner i another side of the body is nearer to contact, and the multiplier of the vertex
+      /// does not act on this face (FacingParts::acts()).
+      unsigned char left_corners = 0;
+
+      /// See left_corners.
+      bool leaves(const unsigned int corner) const
+      {
+        return (left_corners >> corner & 1u) != 0;
+      }
+
+      /// The same of a vertex of the surface.
+      bool leaves_vertex(const unsigned int vertex) const
+      {
+        for (unsigned int i = 0; i < n_corners; ++i)
+          if (corners[i] == vertex)
+            return leaves(i);
+        return false;
+      }
     };
 
     /// Triangles of all faces. Hanging vertices on the edges of a face are corners of its triangles:
@@ -58,6 +76,17 @@ namespace Signorini
       /// As above.
       Vector3 normal, way;
     };
+    /// By vertex whose multiplier acts on one of its sides only (Face::left_corners): the normal of that. In
+    /// a groove that of the mesh, with which the surface is mapped, is between both.
+    std::map<unsigned int, Vector3> normals_of_rows;
+
+    /// The unit normal along which the multiplier of a vertex acts.
+    const Vector3 &row_normal(const unsigned int vertex) const
+    {
+      const auto it = normals_of_rows.find(vertex);
+      return it != normals_of_rows.end() ? it->second : mesh.vertex_normals[vertex];
+    }
+
     /// By vertex, what else of the boundary of the body is around it: facets that do not belong to the
     /// surface, or were left out. Known of whole surfaces until they are mapped.
     std::map<unsigned int, std::vector<Facet>> beyond;

@@ -10,8 +10,8 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
+#include <map>
 #include <set>
-#include <utility>
 #include <vector>
 
 namespace Signorini
@@ -77,10 +77,13 @@ namespace Signorini
       return parts[part_of[face]].distance < infinite;
     }
 
-    /// Whether the normal of a face counts at one of its vertices: not if its part is farther away than its
-    /// faces are wide, and another part is nearer there; in a groove not either if its part faces nothing
-    /// there, and another one does.
+    /// Whether the normal of a face counts for the mapping at one of its vertices: not if its part is farther
+    /// away than its faces are wide, and another part is nearer there. In a groove all do.
     bool counts(const unsigned int face, const unsigned int vertex) const;
+
+    /// Whether the multiplier of a vertex acts on a face there: if its normal counts, and in a groove if no
+    /// other part is nearer to what it faces around the vertex.
+    bool acts(const unsigned int face, const unsigned int vertex) const;
 
   private:
     struct Part
@@ -92,11 +95,7 @@ namespace Signorini
     static constexpr double infinite = std::numeric_limits<double>::infinity();
 
     void find_nearest();
-    void find_blind_in_grooves();
-    bool is_blind_at(const unsigned int part, const unsigned int vertex) const
-    {
-      return blind_in_grooves.count({vertex, part}) > 0;
-    }
+    void find_far_in_grooves();
 
     const ContactSurface     &surface;
     const SurfaceMesh        &boundary;
@@ -106,18 +105,27 @@ namespace Signorini
     std::vector<double> seen;
     /// By vertex: the least distance of a part there.
     std::vector<double> nearest;
-    /// Vertices and parts: where a rib ends in a groove it may face nothing, and touch elsewhere.
-    std::set<std::pair<unsigned int, unsigned int>> blind_in_grooves;
+    /// By vertex in a groove the parts that do not act there: a rib may touch with its foot, and face nothing
+    /// where it ends.
+    std::map<unsigned int, std::set<unsigned int>> far_in_grooves;
   };
 
   /// Whether some of unit normals are not linked with the others by steps that are no sharp edges.
   bool fall_apart(const std::vector<Vector3> &normals);
 
+  /// Which faces are looked at, at which of their vertices.
+  using FaceFilter = std::function<bool(unsigned int face, unsigned int vertex)>;
+
+  /// All of them.
+  inline bool all_faces(const unsigned int, const unsigned int)
+  {
+    return true;
+  }
+
   /// Per vertex, whether not all triangles around it hang together without a sharp edge of the true surface
   /// (of more than 60 degrees): the vertex normal is that of none of them then. Those of a piece count if
   /// they are there.
-  /// @param counts which faces are looked at
-  std::vector<bool> vertices_on_sharp_edges(const ContactSurface &surface, const std::vector<bool> &counts);
+  std::vector<bool> vertices_on_sharp_edges(const ContactSurface &surface, const FaceFilter &counts);
 
   /// The distance along a unit normal from a point of a surface to what it faces there (length, negative if
   /// that lies behind); false if it faces nothing.

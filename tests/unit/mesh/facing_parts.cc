@@ -171,7 +171,20 @@ TEST(FacingParts, InGroovesWhatFacesNothingLeavesTheNormalToWhatDoes)
   const Pair           pair(ribbed(1.), floor.finish());
   const ContactSurface ribs = without_blind_parts(pair.first, pair.first_parts, {});
   EXPECT_EQ(ribs.faces.size(), 80u);
-  EXPECT_LT((normal_at(ribs, Point<3>(-1., .5, 1.)) - vector(0., 0., -1.)).norm(), 1e-14);
+  unsigned int n_left = 0;
+  for (unsigned int f = 0; f < ribs.faces.size(); ++f)
+    for (unsigned int i = 0; i < 4; ++i)
+      if (ribs.faces[f].leaves(i))
+        {
+          const unsigned int v = ribs.faces[f].corners[i];
+          EXPECT_LT(ribs.mesh.vertices[v].distance(Point<3>(-1., ribs.mesh.vertices[v][1], 1.)), 1e-14);
+          EXPECT_LT(std::abs(area_vector(ribs, ribs.faces[f])[2]), .1) << "a wall";
+          EXPECT_LT((ribs.row_normal(v) - vector(0., 0., -1.)).norm(), 1e-14);
+          EXPECT_LT(ribs.mesh.vertex_normals[v][0], -.1) << "between both";
+          EXPECT_LT(ribs.mesh.vertex_normals[v][2], -.5) << "between both";
+          ++n_left;
+        }
+  EXPECT_EQ(n_left, 8u);
   EXPECT_LT((normal_at(ribs, Point<3>(-2., .5, 1.)) - vector(0., 0., -1.)).norm(), 1e-14);
 }
 
@@ -240,15 +253,14 @@ TEST(FacingParts, ObstaclesAreSeen)
 // Walls that meet, and a prism of as many sides as are still round.
 TEST(FacingParts, VerticesOnSharpEdges)
 {
-  const ContactSurface    corner = foot_and_wall(0.);
-  const std::vector<bool> all(corner.faces.size(), true);
-  const auto              sharp = vertices_on_sharp_edges(corner, all);
+  const ContactSurface corner = foot_and_wall(0.);
+  const auto           sharp  = vertices_on_sharp_edges(corner, all_faces);
   for (unsigned int v = 0; v < sharp.size(); ++v)
     EXPECT_EQ(sharp[v], corner.mesh.vertices[v][0] == 1. && corner.mesh.vertices[v][2] == 0.) << v;
-  std::vector<bool> foot = all;
-  for (unsigned int f = 0; f < foot.size(); ++f)
-    foot[f] = std::abs(area_vector(corner, corner.faces[f])[2]) > 0.;
-  for (const bool is_sharp : vertices_on_sharp_edges(corner, foot))
+  for (const bool is_sharp :
+       vertices_on_sharp_edges(corner, [&](const unsigned int face, const unsigned int) {
+         return std::abs(area_vector(corner, corner.faces[face])[2]) > 0.;
+       }))
     EXPECT_FALSE(is_sharp);
   for (const unsigned int n_sides : {5, 6, 8})
     {
@@ -263,8 +275,7 @@ TEST(FacingParts, VerticesOnSharpEdges)
         }
       const ContactSurface surface = prism.finish();
       std::size_t          n       = 0;
-      for (const bool is_sharp :
-           vertices_on_sharp_edges(surface, std::vector<bool>(surface.faces.size(), true)))
+      for (const bool is_sharp : vertices_on_sharp_edges(surface, all_faces))
         n += is_sharp;
       EXPECT_EQ(n, n_sides == 5 ? 15u : 0u);
     }
