@@ -241,6 +241,24 @@ namespace Signorini
         c.objections.push_back("forces or moments on a body do not balance; please report this");
     }
 
+    /// Why forces on one body, which may be small beside those on others, are not in equilibrium.
+    void object_to_bodies(Certificate &c, const Bodies &bodies, const Equilibrium &equilibrium,
+                          const double tolerance)
+    {
+      const CertificateRule rule;
+      for (unsigned int b = 0; b < equilibrium.of_bodies.size(); ++b)
+        {
+          const Equilibrium::Rest &rest = equilibrium.of_bodies[b];
+          if (rest.force > std::max(rule.balance, 10. * tolerance) * rest.scale &&
+              rest.force > std::max(rule.rounding, tolerance) * rest.of_displacement)
+            c.objections.push_back(
+                "body " + bodies.body_name(b) + ": of forces of " + text_of(rest.scale) + " a rest of " +
+                text_of(rest.force) +
+                " does not balance; they are small beside those on other bodies, which the "
+                "iteration goes by: solve these bodies in a file of their own");
+        }
+    }
+
     /// Why the solution of the discrete problem is not that of the bodies.
     void object_to_pair(Certificate &c, const PairResult &pair, const PairModel &model,
                         const ErrorsInContact &mapping_errors, const Scales &scales)
@@ -319,7 +337,10 @@ namespace Signorini
     // Where bodies only move all forces are rounding, or what the solver has left of them.
     const bool has_forces = evaluation.equilibrium.largest_nodal_force >
                             std::max(CertificateRule().rounding, tolerance) * scales.force;
+    const std::size_t n_before = c.objections.size();
     object_to_solver(c, tolerance, has_converged, has_forces);
+    if (c.objections.size() == n_before)
+      object_to_bodies(c, model.bodies(), evaluation.equilibrium, tolerance);
     for (unsigned int p = 0; p < d.pairs.size(); ++p)
       {
         const ErrorsInContact mapping_errors = errors_in_contact(d, solution.stress, p);

@@ -24,6 +24,7 @@ signorini_add_layer(application COLD
   deck_rigid.cc
   deck_series.cc
   discretization.cc
+  equilibrium.cc
   error_estimate.cc
   facing_sides.cc
   free_bodies.cc

@@ -33,6 +33,15 @@ namespace Signorini
     double largest_nodal_force = 0.;
     /// Certificate::equilibrium, Certificate::body_force_balance, Certificate::body_moment_balance.
     double residual = 0., force_balance = 0., moment_balance = 0.;
+    /// What is left of the forces on a body.
+    struct Rest
+    {
+      /// Norm of their sum; sum of the norms of its nodal forces; force of its displacement: Young's modulus
+      /// times largest displacement times size (forces).
+      double force, scale, of_displacement;
+    };
+    /// By body.
+    std::vector<Rest> of_bodies;
   };
 
   /// Collective. Forces, areas, gaps and extrema of one pair.
