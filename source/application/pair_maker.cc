@@ -103,7 +103,11 @@ namespace Signorini
       const auto      time    = journal.measure(Phase::mapping);
       ContactSurface &surface = pair.nonmortar.surface;
       if (pair.obstacle)
-        turn_edges(surface, sight_of(*pair.obstacle, surface.extent()));
+        {
+          turn_edges(surface, sight_of(*pair.obstacle, surface.extent()));
+          if (const auto normal = pair.obstacle->constant_normal())
+            face_plane(surface, *normal);
+        }
       else if (!pair.is_tied && !pair.prescribed_gap)
         turn_edges(surface, sight_of(pair.mortar.surface));
     }

@@ -442,4 +442,21 @@ namespace Signorini
     turn(on_creases);
     turn_hanging(surface, is_turned);
   }
+
+
+
+  void face_plane(ContactSurface &surface, const Vector3 &plane_normal)
+  {
+    std::vector<bool> is_turned(surface.mesh.vertices.size(), false);
+    surface.has_partner_normal.resize(is_turned.size(), false);
+    for (unsigned int v = 0; v < is_turned.size(); ++v)
+      if (surface.hanging[v].empty() && -plane_normal * surface.row_normal(v) >= EdgeRule().facing)
+        {
+          surface.mesh.vertex_normals[v] = -plane_normal;
+          surface.normals_of_rows.erase(v);
+          surface.has_partner_normal[v] = true;
+          is_turned[v]                  = true;
+        }
+    turn_hanging(surface, is_turned);
+  }
 } // namespace Signorini

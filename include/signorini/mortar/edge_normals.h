@@ -24,6 +24,12 @@ namespace Signorini
   /// that they stand for, or than the new one from those of the neighbours, and where the facets around them
   /// meet walls that differ by more than 25 degrees (a corner between floor and wall).
   void turn_edges(ContactSurface &surface, const PartnerSight &partner);
+
+  /// Gives vertices whose normal is less than 60 degrees from the opposite of a direction, the unit normal of
+  /// a plane, the opposite of that, and marks them as turn_edges(). Along it the distance from a plane is
+  /// linear in the displacement, however far bodies slide and turn; along their own normals, which differ
+  /// from vertex to vertex beside the place where a ball touches, the plane would push sideways.
+  void face_plane(ContactSurface &surface, const Vector3 &plane_normal);
 } // namespace Signorini
 
 #endif

@@ -10,6 +10,7 @@
 #include <signorini/mortar/face_moments.h>
 #include <signorini/mortar/geometric_penetration.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -61,6 +62,12 @@ namespace Signorini
     /// obstacle, too. False if not. `size` is a length of the problem.
     bool contact_normal(Vector3 &normal, double &distance, const dealii::Point<3> &x, const Vector3 &n,
                         const double size) const;
+
+    /// The outward unit normal if that is the same everywhere.
+    std::optional<Vector3> constant_normal() const
+    {
+      return kind == Kind::plane ? std::optional<Vector3>(axis / axis.norm()) : std::nullopt;
+    }
 
     /// The text that it was made from.
     const std::string &description() const
