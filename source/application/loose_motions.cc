@@ -223,29 +223,22 @@ namespace Signorini
 
   namespace
   {
-    /// Motions of bodies that touch only each other and move as one: surfaces that are mapped onto each other
-    /// across a distance oppose them a little, where their images lie beside the normals. Those that are
-    /// opposed by more than next to nothing.
-    std::vector<std::vector<double>> find_common_motions(const std::vector<Vector> &fields,
-                                                         const HalfSpaces          &spaces)
+    /// Whether bodies that touch only each other may move as one, and surfaces that are mapped onto each
+    /// other across a distance oppose that a little, where their images lie beside the normals.
+    bool have_common_motion(const std::vector<Vector> &fields, const HalfSpaces &spaces)
     {
       constexpr LooseMotionRule rule;
       const MotionsAtContact sums = at_contact(fields, spaces, std::vector<unsigned char>(spaces.size(), 1));
       const SymmetricEigen   relative = symmetric_eigen(sums.whole);
       const double           scale    = sums.whole.diagonal().maxCoeff();
       const Eigen::Index     n        = (relative.values.array() <= rule.common * scale).count();
-      std::vector<std::vector<double>> result;
       if (n == 0 || !(scale > 0.))
-        return result;
+        return false;
       const Eigen::MatrixXd span    = relative.vectors.leftCols(n);
       const SymmetricEigen  opposed = symmetric_eigen(span.transpose() * sums.normal * span);
-      for (Eigen::Index k = 0; k < n; ++k)
-        if (opposed.values[k] > rule.next_to_nothing * scale)
-          {
-            const Eigen::VectorXd motion = span * opposed.vectors.col(k);
-            result.emplace_back(motion.begin(), motion.end());
-          }
-      return result;
+      return (opposed.values.array() > rule.next_to_nothing * scale &&
+              opposed.values.array() <= rule.hardly_opposed * scale)
+          .any();
     }
   } // namespace
 
@@ -258,13 +251,7 @@ namespace Signorini
     const auto drifts = [&](const std::vector<std::vector<double>> &along) {
       return !along.empty() && slip_along(along, fields, spaces, v) > LooseMotionRule().slip * width;
     };
-    if (auto common = find_common_motions(fields, spaces); !common.empty())
-      {
-        const auto undetermined = of_same_parts(motions, loose.undetermined, common);
-        common.insert(common.end(), undetermined.begin(), undetermined.end());
-        return common;
-      }
-    const bool drifts_on_facets = drifts(loose.hardly_held);
+    const bool drifts_on_facets = drifts(loose.hardly_held) || have_common_motion(fields, spaces);
     if (!drifts_on_facets && !drifts(loose.next_to_undetermined))
       return {};
     // Few nodes may be active in a solution that drifts: these need not show what the surfaces allow.
