@@ -90,11 +90,11 @@ namespace Signorini
 
   void ContactModel::hold(PointHold hold)
   {
-    const auto         none = [](const Point<3> &) { return 0.; };
+    const auto         prescribed = [value = hold.value](const Point<3> &) { return value; };
     DirichletCondition condition;
     condition.body                       = hold.body;
     condition.boundary                   = "held point";
-    condition.components[hold.component] = none;
+    condition.components[hold.component] = prescribed;
     condition.start_vertex               = hold.start_vertex;
     hold.condition                       = the_loads.dirichlet.size();
     the_loads.dirichlet.push_back(condition);

@@ -149,12 +149,12 @@ namespace Signorini
         last.discretization = discretize(model, space, sides, cycle, journal);
         sides               = last.discretization->sides;
         // Without points for that the solution shows whether it drifts.
-        const auto      unopposed = find_unopposed_motions(model, *last.discretization);
-        const bool      holds_now = !unopposed.empty() && hold_points({HoldReason::unopposed, unopposed, 0.});
-        SolveParameters how_to    = parameters.solve;
-        how_to.measure_sweeps     = how_to.measure_sweeps && cycle == refinement.n_cycles();
-        const NestedStart *from   = cycle > 0 && !holds_now ? &start : nullptr;
-        last.solution = solve_contact(model, *last.discretization, coarser, from, how_to, journal);
+        const auto unopposed = find_unopposed_motions(model, *last.discretization);
+        const bool holds_now = !unopposed.empty() && hold_points({HoldReason::unopposed, unopposed, 0., {}});
+        SolveParameters how_to  = parameters.solve;
+        how_to.measure_sweeps   = how_to.measure_sweeps && cycle == refinement.n_cycles();
+        const NestedStart *from = cycle > 0 && !holds_now ? &start : nullptr;
+        last.solution           = solve_contact(model, *last.discretization, coarser, from, how_to, journal);
         unsigned int before_holds = 0;
         while (!last.solution.drift.motions.empty())
           {
@@ -196,7 +196,8 @@ namespace Signorini
       /// False if there is no point for that.
       bool hold_points(const Drift &drift)
       {
-        const std::vector<PointHold> holds = choose_point_holds(model, *last.discretization, drift);
+        const std::vector<PointHold> holds =
+            choose_point_holds(model, *last.discretization, drift, last.solution.displacement);
         if (holds.empty())
           return false;
         for (const PointHold &hold : holds)

@@ -41,6 +41,8 @@ namespace Signorini
       /// within a face: a node carries all at a place up to half a face away from where the bodies touch, and
       /// its normal is turned by as much.
       double sliding = .6;
+      /// Displacements of this share of those that they are a part of may be rounding.
+      double rounding = 1e-8;
       /// Contact forces below this share of the largest one of all bodies that are linked by pairs count as
       /// that: nothing loads the balls of a bearing opposite to its load, and what is held there carries what
       /// rounding leaves (4.8e-10 beside 890).
@@ -55,6 +57,8 @@ namespace Signorini
       int          part;
       /// Whether nothing is prescribed there; else only what the conditions leave is moved, along axes.
       bool is_free;
+      /// The displacement without the motions that are to be held.
+      std::array<double, dim> at_rest;
     };
 
     std::set<NodeIndex> nodes_of_boundaries(const NodalSpace &space, const std::set<types::boundary_id> &ids)
@@ -91,7 +95,9 @@ namespace Signorini
     }
 
     /// Collective. Nodes without conditions; if there are none (in plane strain), those with some.
-    std::vector<Candidate> find_candidates(const ContactModel &model, const Discretization &d)
+    /// @param at_rest displacements to hold them at; none if empty
+    std::vector<Candidate> find_candidates(const ContactModel &model, const Discretization &d,
+                                           const Vector &at_rest)
     {
       const NodalSpace         &space  = d.nodal();
       const NodePlaces          places = node_places(model.bodies(), space);
@@ -105,7 +111,11 @@ namespace Signorini
           const FixedDirections &fixed  = d.dirichlet().fixed[r];
           if (vertex != StartNodes::none && places.parts[i] >= 0 && fixed.is_along_axes() && !fixed.all() &&
               !space.hanging_nodes().is_constrained(node) && in_use.count(node) == 0)
-            result.push_back({vertex, places.positions[i], places.parts[i], !fixed.any()});
+            {
+              result.push_back({vertex, places.positions[i], places.parts[i], !fixed.any(), {}});
+              for (unsigned int c = 0; c < dim && at_rest.size() > 0; ++c)
+                result.back().at_rest[c] = at_rest.local_element(dim * i + c);
+            }
         }
       std::vector<int> with_free;
       for (const Candidate &one : result)
@@ -118,6 +128,40 @@ namespace Signorini
                          [&](const Candidate &one) { return !one.is_free && has_free.count(one.part) > 0; }),
           result.end());
       return result;
+    }
+
+    /// Collective. A displacement without the part that is a combination of motions; zero where next to
+    /// nothing would be left of it.
+    Vector without_motions(const ContactModel &model, const Discretization &d,
+                           const std::vector<std::vector<double>> &motions, const Vector &displacement)
+    {
+      if (displacement.size() == 0)
+        return {};
+      const std::vector<Vector> fields =
+          motion_fields(d.free_motions(), model.bodies(), d.nodal(), d.partition());
+      const auto          n = static_cast<Eigen::Index>(motions.size());
+      std::vector<Vector> columns(motions.size());
+      for (Eigen::Index k = 0; k < n; ++k)
+        {
+          columns[k].reinit(displacement);
+          for (std::size_t m = 0; m < fields.size(); ++m)
+            columns[k].add(motions[k][m], fields[m]);
+        }
+      Eigen::MatrixXd gram(n, n);
+      Eigen::VectorXd work(n);
+      for (Eigen::Index k = 0; k < n; ++k)
+        {
+          work[k] = columns[k] * displacement;
+          for (Eigen::Index l = 0; l < n; ++l)
+            gram(k, l) = columns[k] * columns[l];
+        }
+      const Eigen::VectorXd share = least_squares(gram, work);
+      Vector                rest  = displacement;
+      for (Eigen::Index k = 0; k < n; ++k)
+        rest.add(-share[k], columns[k]);
+      if (rest.linfty_norm() < PointHoldRule().rounding * displacement.linfty_norm())
+        rest = 0.;
+      return rest;
     }
 
     /// The displacements of motions at a point, by column.
@@ -231,13 +275,16 @@ namespace Signorini
 
 
   std::vector<PointHold> choose_point_holds(const ContactModel &model, const Discretization &d,
-                                            const Drift &drift)
+                                            const Drift &drift, const Vector &displacement)
   {
-    const std::vector<FreeMotion> &free       = d.free_motions();
-    const std::vector<Candidate>   candidates = find_candidates(model, d);
-    Eigen::MatrixXd                basis      = orthonormal(drift.motions);
-    const double                   size       = size_at_contact(model, d, basis);
-    std::vector<PointHold>         result;
+    const std::vector<FreeMotion>   &free  = d.free_motions();
+    std::vector<std::vector<double>> loose = drift.motions;
+    loose.insert(loose.end(), drift.undetermined.begin(), drift.undetermined.end());
+    const std::vector<Candidate> candidates =
+        find_candidates(model, d, without_motions(model, d, loose, displacement));
+    Eigen::MatrixXd        basis = orthonormal(drift.motions);
+    const double           size  = size_at_contact(model, d, basis);
+    std::vector<PointHold> result;
     while (basis.cols() > 0)
       {
         const std::optional<Choice> choice = choose(candidates, free, basis, d.nodal().communicator());
@@ -249,6 +296,7 @@ namespace Signorini
         hold.start_vertex = choice->candidate.start_vertex;
         hold.component    = choice->component;
         hold.position     = choice->candidate.position;
+        hold.value        = choice->candidate.at_rest[choice->component];
         const std::vector<double> coefficients(held.data(), held.data() + held.size());
         hold.motion         = describe_motion(free, coefficients, model.bodies());
         hold.is_translation = is_translation(free, coefficients);

@@ -122,7 +122,8 @@ namespace Signorini
   template <typename Archive>
   void transfer(Archive &a, PointHold &h)
   {
-    a(h.body, h.start_vertex, h.component, h.position, h.motion, h.is_translation, h.arm, h.largest_share);
+    a(h.body, h.start_vertex, h.component, h.position, h.value, h.motion, h.is_translation, h.arm,
+      h.largest_share);
   }
 
   namespace

@@ -49,6 +49,8 @@ namespace Signorini
     /// Of which body; NodalSpace::start_vertices(); x, y or z; where.
     unsigned int     body = 0, start_vertex = StartNodes::none, component = 0;
     dealii::Point<3> position;
+    /// The displacement in which it is held (length): that of the elastic body at rest in the mean.
+    double value = 0.;
     /// What it holds, in words, and whether that moves bodies without turning them.
     std::string motion;
     bool        is_translation = false;

@@ -21,8 +21,10 @@ namespace Signorini
   /// contact, conditions and loads, where the motions are largest. Fewer than motions where there are no such
   /// nodes.
   /// @param drift with linearly independent motions
+  /// @param displacement of the solution that drifts; empty if there is none. Points are held where it would
+  /// be without these motions: at zero, bodies would move by what they are deformed by at the points
   std::vector<PointHold> choose_point_holds(const ContactModel &model, const Discretization &discretization,
-                                            const Drift &drift);
+                                            const Drift &drift, const Vector &displacement);
 
   /// Goes on with a solution that drifts: warns. Errors: InputError where the loads have nothing against
   /// them.
