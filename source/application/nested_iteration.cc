@@ -150,7 +150,8 @@ namespace Signorini
         sides               = last.discretization->sides;
         // Without points for that the solution shows whether it drifts.
         const auto unopposed = find_unopposed_motions(model, *last.discretization);
-        const bool holds_now = !unopposed.empty() && hold_points({HoldReason::unopposed, unopposed, 0., {}});
+        const bool holds_now =
+            !unopposed.empty() && hold_points({HoldReason::unopposed, unopposed, 0., {}}, Vector());
         SolveParameters how_to  = parameters.solve;
         how_to.measure_sweeps   = how_to.measure_sweeps && cycle == refinement.n_cycles();
         const NestedStart *from = cycle > 0 && !holds_now ? &start : nullptr;
@@ -158,7 +159,7 @@ namespace Signorini
         unsigned int before_holds = 0;
         while (!last.solution.drift.motions.empty())
           {
-            if (!hold_points(last.solution.drift))
+            if (!hold_points(last.solution.drift, last.solution.displacement))
               {
                 leave_drift(model, *last.discretization, last.solution, journal);
                 break;
@@ -194,10 +195,11 @@ namespace Signorini
       }
 
       /// False if there is no point for that.
-      bool hold_points(const Drift &drift)
+      /// @param displacement of the solution on this mesh; empty before there is one
+      bool hold_points(const Drift &drift, const Vector &displacement)
       {
         const std::vector<PointHold> holds =
-            choose_point_holds(model, *last.discretization, drift, last.solution.displacement);
+            choose_point_holds(model, *last.discretization, drift, displacement);
         if (holds.empty())
           return false;
         for (const PointHold &hold : holds)
