@@ -246,11 +246,14 @@ namespace Signorini
                           const double tolerance)
     {
       const CertificateRule rule;
+      double                largest = 0.;
+      for (const Equilibrium::Rest &rest : equilibrium.of_bodies)
+        largest = std::max(largest, rest.of_displacement);
       for (unsigned int b = 0; b < equilibrium.of_bodies.size(); ++b)
         {
           const Equilibrium::Rest &rest = equilibrium.of_bodies[b];
           if (rest.force > std::max(rule.balance, 10. * tolerance) * rest.scale &&
-              rest.force > std::max(rule.rounding, tolerance) * rest.of_displacement)
+              rest.force > std::max(rule.rounding, tolerance) * largest)
             c.objections.push_back(
                 "body " + bodies.body_name(b) + ": of forces of " + text_of(rest.scale) + " a rest of " +
                 text_of(rest.force) +
