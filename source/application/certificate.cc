@@ -242,21 +242,25 @@ namespace Signorini
     }
 
     /// Why forces on one body, which may be small beside those on others, are not in equilibrium.
-    void object_to_bodies(Certificate &c, const Bodies &bodies, const Equilibrium &equilibrium,
+    void object_to_bodies(Certificate &c, const ContactModel &model, const Equilibrium &equilibrium,
                           const double tolerance)
     {
       const CertificateRule rule;
-      double                largest = 0.;
-      for (const Equilibrium::Rest &rest : equilibrium.of_bodies)
-        largest = std::max(largest, rest.of_displacement);
+      // What is rounding on a stiff body passes to a soft one.
+      const std::vector<std::size_t> linked = model.linked_bodies();
+      std::vector<Equilibrium::Rest> largest(linked.size(), Equilibrium::Rest{});
+      for (unsigned int b = 0; b < linked.size(); ++b)
+        for (const auto entry :
+             {&Equilibrium::Rest::young, &Equilibrium::Rest::displacement, &Equilibrium::Rest::size})
+          largest[linked[b]].*entry = std::max(largest[linked[b]].*entry, equilibrium.of_bodies[b].*entry);
       for (unsigned int b = 0; b < equilibrium.of_bodies.size(); ++b)
         {
-          const Equilibrium::Rest &rest = equilibrium.of_bodies[b];
+          const Equilibrium::Rest &rest = equilibrium.of_bodies[b], &group = largest[linked[b]];
           if (rest.force > std::max(rule.balance, 10. * tolerance) * rest.scale &&
-              rest.force > std::max(rule.rounding, tolerance) * largest)
+              rest.force > std::max(rule.rounding, tolerance) * group.young * group.displacement * group.size)
             c.objections.push_back(
-                "body " + bodies.body_name(b) + ": of forces of " + text_of(rest.scale) + " a rest of " +
-                text_of(rest.force) +
+                "body " + model.bodies().body_name(b) + ": of forces of " + text_of(rest.scale) +
+                " a rest of " + text_of(rest.force) +
                 " does not balance; they are small beside those on other bodies, which the "
                 "iteration goes by: solve these bodies in a file of their own");
         }
@@ -343,7 +347,7 @@ namespace Signorini
     const std::size_t n_before = c.objections.size();
     object_to_solver(c, tolerance, has_converged, has_forces);
     if (c.objections.size() == n_before)
-      object_to_bodies(c, model.bodies(), evaluation.equilibrium, tolerance);
+      object_to_bodies(c, model, evaluation.equilibrium, tolerance);
     for (unsigned int p = 0; p < d.pairs.size(); ++p)
       {
         const ErrorsInContact mapping_errors = errors_in_contact(d, solution.stress, p);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/algebra/disjoint_sets.h>
 #include <signorini/algebra/input_error.h>
 #include <signorini/application/contact_model.h>
 #include <signorini/application/journal.h>
@@ -99,6 +100,20 @@ namespace Signorini
     hold.condition                       = the_loads.dirichlet.size();
     the_loads.dirichlet.push_back(condition);
     holds.push_back(std::move(hold));
+  }
+
+
+
+  std::vector<std::size_t> ContactModel::linked_bodies() const
+  {
+    DisjointSets linked(the_bodies.n_bodies());
+    for (const PairModel &pair : pairs())
+      for (const PairModel::Side &side : pair.sides)
+        linked.unite(side.body, pair.sides[0].body);
+    std::vector<std::size_t> result;
+    for (unsigned int b = 0; b < the_bodies.n_bodies(); ++b)
+      result.push_back(linked.find(b));
+    return result;
   }
 
 

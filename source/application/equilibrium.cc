@@ -69,7 +69,7 @@ namespace Signorini
       /// Equilibrium::Rest.
       Equilibrium::Rest rest(const double young) const
       {
-        return {relative_force(1.), scale, young * displacement * size()};
+        return {relative_force(1.), scale, young, displacement, size()};
       }
 
     private:

@@ -97,15 +97,31 @@ namespace Signorini
       return extract_contact_surface(space, ids, [](const NodeIndex) { return FixedDirections(); }, {}).mesh;
     }
 
+    /// By body: whether conditions leave it a rotation, or did before points were held for one.
+    std::vector<bool> bodies_that_may_turn(const ContactModel &model, const ConstrainedSpace &constrained)
+    {
+      constexpr double  rounding = 1e-10;
+      std::vector<bool> result(model.bodies().n_bodies(), false);
+      for (const FreeMotion &motion : constrained.free_parts.motions)
+        if (motion.rotation.norm() > rounding * motion.translation.norm())
+          for (const unsigned int body : motion.bodies)
+            result[body] = true;
+      for (const PointHold &hold : model.point_holds())
+        result[hold.body] = true;
+      return result;
+    }
+
     /// Before anything is measured along normals.
-    void turn_edges_of(ContactPair &pair, Journal &journal)
+    /// @param may_turn whether the nonmortar body may turn, but for contact
+    void turn_edges_of(ContactPair &pair, const bool may_turn, Journal &journal)
     {
       const auto      time    = journal.measure(Phase::mapping);
       ContactSurface &surface = pair.nonmortar.surface;
       if (pair.obstacle)
         {
           turn_edges(surface, sight_of(*pair.obstacle, surface.extent()));
-          if (const auto normal = pair.obstacle->constant_normal())
+          // A ball would roll until the node that is pressed lies under its centre.
+          if (const auto normal = pair.obstacle->constant_normal(); normal && !may_turn)
             face_plane(surface, *normal);
         }
       else if (!pair.is_tied && !pair.prescribed_gap)
@@ -157,6 +173,7 @@ namespace Signorini
   PairMaker::PairMaker(const ContactModel &model, const ConstrainedSpace &constrained, Journal &journal)
     : model(model)
     , space(constrained.nodal())
+    , may_turn(bodies_that_may_turn(model, constrained))
     , journal(journal)
   {
     const auto time = journal.measure(Phase::mesh);
@@ -212,7 +229,7 @@ namespace Signorini
       pair.mortar.name = pair.obstacle->description();
     else
       pair.mortar = take(1 - non);
-    turn_edges_of(pair, journal);
+    turn_edges_of(pair, may_turn[pair.nonmortar.body], journal);
     if (pair.obstacle)
       {
         share(pair);

@@ -51,7 +51,9 @@ namespace Signorini
 
     const ContactModel &model;
     const NodalSpace   &space;
-    Journal            &journal;
+    /// By body.
+    const std::vector<bool> may_turn;
+    Journal                &journal;
     /// By pair: what of the surfaces is mapped, in the order of the definition.
     std::vector<std::vector<ContactSide>> sides;
   };

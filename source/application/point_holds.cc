@@ -2,7 +2,6 @@
 // Copyright (C) 2026 by the Signorini authors
 
 #include <signorini/algebra/dense_matrix.h>
-#include <signorini/algebra/disjoint_sets.h>
 #include <signorini/algebra/gathered_lists.h>
 #include <signorini/algebra/input_error.h>
 #include <signorini/application/contact_evaluation.h>
@@ -45,8 +44,8 @@ namespace Signorini
       double rounding = 1e-8;
       /// Contact forces below this share of the largest one of all bodies that are linked by pairs count as
       /// that: nothing loads the balls of a bearing opposite to its load, and what is held there carries what
-      /// rounding leaves (4.8e-10 beside 890).
-      double idle = 1e-6;
+      /// rounding leaves (4.8e-10 beside 890). Of all bodies this share is rounding.
+      double idle = 1e-6, nothing = 1e-11;
     };
 
     /// Where a node may be held.
@@ -338,19 +337,18 @@ namespace Signorini
       return result;
     }
 
-    /// By body, the largest of some forces on those that pairs link it to: other problems in the same file
-    /// are no scale.
-    std::vector<double> largest_of_linked(const ContactModel &model, const std::vector<double> &forces)
+    /// By body, up to which force nothing presses it against another one. Bodies that no pairs link to it,
+    /// other problems in the same file, count as far as rounding goes.
+    std::vector<double> idle_forces(const ContactModel &model, const std::vector<double> &forces)
     {
-      DisjointSets linked(forces.size());
-      for (const PairModel &pair : model.pairs())
-        for (const PairModel::Side &side : pair.sides)
-          linked.unite(side.body, pair.sides[0].body);
-      std::vector<double> of_sets(forces.size(), 0.), result;
+      constexpr PointHoldRule        rule;
+      const std::vector<std::size_t> linked = model.linked_bodies();
+      std::vector<double>            of_sets(forces.size(), 0.), result;
       for (unsigned int b = 0; b < forces.size(); ++b)
-        of_sets[linked.find(b)] = std::max(of_sets[linked.find(b)], forces[b]);
+        of_sets[linked[b]] = std::max(of_sets[linked[b]], forces[b]);
+      const double largest = *std::max_element(forces.begin(), forces.end());
       for (unsigned int b = 0; b < forces.size(); ++b)
-        result.push_back(of_sets[linked.find(b)]);
+        result.push_back(std::max(rule.idle * of_sets[linked[b]], rule.nothing * largest));
       return result;
     }
   } // namespace
@@ -418,19 +416,18 @@ namespace Signorini
   std::vector<std::string> check_point_holds(const ContactModel &model, const Discretization &d,
                                              const ContactSolution &solution)
   {
-    constexpr PointHoldRule rule;
     if (model.point_holds().empty())
       return {};
     const Equilibrium         equilibrium = evaluate_equilibrium(model, d, solution);
     const std::vector<double> forces      = contact_forces(model, d, solution),
-                              largest     = largest_of_linked(model, forces);
+                              idle_force  = idle_forces(model, forces);
     // By body.
     std::map<unsigned int, HeldBody> held;
     std::set<std::string>            idle;
     for (const PointHold &hold : model.point_holds())
       {
         const double reaction = equilibrium.reactions[hold.condition].reaction.norm();
-        const double force    = std::max({forces[hold.body], reaction, rule.idle * largest[hold.body]});
+        const double force    = std::max({forces[hold.body], reaction, idle_force[hold.body]});
         const double share    = reaction * hold.arm / force;
         if (share > hold.largest_share)
           {
@@ -443,7 +440,7 @@ namespace Signorini
                     "loads.";
             throw InputError(text.str());
           }
-        if (forces[hold.body] <= rule.idle * largest[hold.body])
+        if (forces[hold.body] <= idle_force[hold.body])
           {
             idle.insert("body " + model.bodies().body_name(hold.body));
             continue;

@@ -340,12 +340,12 @@ namespace Signorini
         return std::abs((b[1] - a[1]) * (c[2] - a[2]) - (b[2] - a[2]) * (c[1] - a[1]));
       }
 
-      /// Whether a pair couples two parts of bodies, of which each may have several.
+      /// Whether a pair keeps two parts of bodies apart, of which each may have several.
       bool have_pair(const unsigned int part, const unsigned int other) const
       {
         const unsigned int a = bodies.part(part).body, b = bodies.part(other).body;
         return std::any_of(d.pairs.begin(), d.pairs.end(), [&](const ContactPair &pair) {
-          return std::minmax(pair.nonmortar.body, pair.mortar.body) == std::minmax(a, b);
+          return !pair.is_tied && std::minmax(pair.nonmortar.body, pair.mortar.body) == std::minmax(a, b);
         });
       }
 
@@ -400,7 +400,7 @@ namespace Signorini
          << model.bodies().part_name(one.other) << " at " << place_text(one.place)
          << (one.has_pair ? ", where their pair does not look: are there faces that do not belong to it, or "
                             "edges that meet edges? Give these faces to it or to another pair."
-                          : ", and there is no pair between them.");
+                          : ", and no contact pair keeps them apart.");
     return text.str();
   }
 } // namespace Signorini

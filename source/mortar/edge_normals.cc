@@ -38,6 +38,8 @@ namespace Signorini
       /// How much of the first one the turn from own to new normals may change by as these spread: where a
       /// surface or the other side is curved they go no farther than they matter.
       double change = .5;
+      /// Cosine between turns of normals that are one: about edges that lie along each other.
+      double along = .9;
       /// Differences of unit normals that are rounding.
       double rounding = 1e-6;
     };
@@ -118,7 +120,7 @@ namespace Signorini
         for (const Facet &image : images)
           normals.push_back(image.normal);
         ++n_met;
-        n_on_edge += met.is_on_edge ? 1. : 0.;
+        edges.push_back(met.beyond_edge);
         sum_of_distances += met.distance;
         doubt = std::max(doubt, (facet - own).norm() + met.doubt);
       }
@@ -161,10 +163,18 @@ namespace Signorini
         return normals.empty() ? sum : sum / sum.norm();
       }
 
-      /// Whether it is an edge that meets an edge.
+      /// Whether it is an edge that meets an edge along it: the normals of the other one, from that of the
+      /// face that is met to that beyond, go through the one between both faces.
       bool meets_edge() const
       {
-        return is_on_edge && own.norm() > 0. && n_met > 0. && n_on_edge == n_met;
+        const Vector3 met = met_normal();
+        if (!is_on_edge || !(own.norm() > 0.) || !(met.norm() > 0.))
+          return false;
+        const Vector3 turn = .5 * (met - own);
+        return std::all_of(edges.begin(), edges.end(), [&](const Vector3 &beyond) {
+          const Vector3 toward = beyond - (beyond * met) * met;
+          return turn * toward >= EdgeRule().along * turn.norm() * toward.norm() && toward.norm() > 0.;
+        });
       }
 
       /// The same where it is not the one that the vertex has already, between these where edges meet; else
@@ -189,8 +199,8 @@ namespace Signorini
       /// Zero where it is that of no face.
       Vector3              own;
       bool                 is_on_edge = false;
-      std::vector<Vector3> planes, normals;
-      double               sum_of_distances = 0., n_met = 0., n_on_edge = 0., doubt = 0.;
+      std::vector<Vector3> planes, normals, edges;
+      double               sum_of_distances = 0., n_met = 0., doubt = 0.;
     };
 
     class EdgeNormals

@@ -8,7 +8,7 @@
 #include <signorini/surface/contact_mapping.h>
 
 #include <algorithm>
-#include <limits>
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -38,42 +38,36 @@ namespace Signorini
       explicit BodyEdges(const ContactSurface &surface)
         : surface(surface)
         , topology(surface.mesh.triangles, surface.mesh.vertices.size())
-        , is_sharp(topology.edges.size(), false)
       {
-        for (unsigned int e = 0; e < is_sharp.size(); ++e)
-          {
-            const auto &[s, t] = topology.edge_triangles[e];
-            is_sharp[e] =
-                topology.is_border(e) ? ends_at(e, s != SurfaceTopology::none ? s : t) : bends_at(e);
-          }
+        for (unsigned int e = 0; e < topology.edges.size(); ++e)
+          if (topology.is_border(e))
+            add_border(e);
+          else
+            add_inner(e);
       }
 
-      /// Of a place from those at its triangle and its neighbours (length); large without any.
-      double distance(const SurfaceSight::Place &place) const
+      /// The outward normal of the face beyond the nearest edge of those at the triangle of a place and its
+      /// neighbours; zero if none is as near as some distance (length).
+      Vector3 beyond(const SurfaceSight::Place &place, const double distance) const
       {
-        const Point<3> x      = evaluate(surface.mesh, place.triangle, place.weights);
-        double         result = std::numeric_limits<double>::max();
+        const Point<3> x     = evaluate(surface.mesh, place.triangle, place.weights);
+        const Vector3  here  = facet_normal(surface, place.triangle);
+        double         least = distance;
+        Vector3        result;
         for (const unsigned int v : topology.triangles[place.triangle])
           for (unsigned int k = topology.fan_start[v]; k < topology.fan_start[v + 1]; ++k)
             for (const unsigned int e : topology.triangle_edges[topology.fan[k]])
-              if (is_sharp[e])
-                result = std::min(result, distance(x, e));
+              if (const auto found = faces.find(e); found != faces.end())
+                if (const double way = distance_from(x, e); way < least)
+                  {
+                    const auto &[one, other] = found->second;
+                    least                    = way;
+                    result                   = one * here < other * here ? one : other;
+                  }
         return result;
       }
 
     private:
-      /// Whether the surface turns away from its facets.
-      bool bends_at(const unsigned int edge) const
-      {
-        const auto &[s, t]        = topology.edge_triangles[edge];
-        const unsigned int corner = (topology.local_edge(t, edge) + 2) % 3;
-        const Vector3      normal = facet_normal(surface, s);
-        return turns(normal, facet_normal(surface, t)) &&
-               normal * (surface.mesh.vertices[topology.triangles[t][corner]] -
-                         surface.mesh.vertices[topology.edges[edge][0]]) <
-                   0.;
-      }
-
       static bool turns(const Vector3 &a, const Vector3 &b)
       {
         return a * b < PartnerSightRule().sharp;
@@ -85,7 +79,7 @@ namespace Signorini
         return surface.mesh.vertices[a].distance(surface.mesh.vertices[b]);
       }
 
-      double distance(const Point<3> &p, const unsigned int edge) const
+      double distance_from(const Point<3> &p, const unsigned int edge) const
       {
         const Point<3> &a     = surface.mesh.vertices[topology.edges[edge][0]];
         const Vector3   along = surface.mesh.vertices[topology.edges[edge][1]] - a;
@@ -93,28 +87,41 @@ namespace Signorini
         return (p - (a + s * along)).norm();
       }
 
-      /// Whether the body turns beyond a border, and is not cut there by a plane in which it slides.
-      bool ends_at(const unsigned int edge, const unsigned int triangle) const
+      void add_inner(const unsigned int edge)
       {
+        const auto &[s, t]        = topology.edge_triangles[edge];
+        const unsigned int corner = (topology.local_edge(t, edge) + 2) % 3;
+        const Vector3      one = facet_normal(surface, s), other = facet_normal(surface, t);
+        if (turns(one, other) && one * (surface.mesh.vertices[topology.triangles[t][corner]] -
+                                        surface.mesh.vertices[topology.edges[edge][0]]) <
+                                     0.)
+          faces[edge] = {{one, other}};
+      }
+
+      /// Where the body turns beyond a border, and is not cut there by a plane in which it slides.
+      void add_border(const unsigned int edge)
+      {
+        const auto &[s, t]  = topology.edge_triangles[edge];
         const auto &[a, b]  = topology.edges[edge];
         const auto around_a = surface.beyond.find(a), around_b = surface.beyond.find(b);
         if (around_a == surface.beyond.end() || around_b == surface.beyond.end())
-          return false;
-        const auto &x = surface.mesh.vertices;
+          return;
+        const Vector3 here = facet_normal(surface, s != SurfaceTopology::none ? s : t);
+        const auto   &x    = surface.mesh.vertices;
         for (const ContactSurface::Facet &one : around_a->second)
           for (const ContactSurface::Facet &other : around_b->second)
             if (((x[a] + one.way) - (x[b] + other.way)).norm() <=
-                PartnerSightRule().same_place * length(edge))
-              return turns(facet_normal(surface, triangle), one.normal) &&
-                     facet_normal(surface, triangle) * one.way < 0. &&
-                     !(surface.vertex_fixed[a].contains(one.normal) &&
-                       surface.vertex_fixed[b].contains(one.normal));
-        return false;
+                    PartnerSightRule().same_place * length(edge) &&
+                turns(here, one.normal) && here * one.way < 0. &&
+                !(surface.vertex_fixed[a].contains(one.normal) &&
+                  surface.vertex_fixed[b].contains(one.normal)))
+              faces[edge] = {{here, one.normal}};
       }
 
       const ContactSurface &surface;
       const SurfaceTopology topology;
-      std::vector<bool>     is_sharp;
+      /// By edge, the outward normals of both sides.
+      std::map<unsigned int, std::array<Vector3, 2>> faces;
     };
 
     struct SurfaceWithEdges
@@ -165,10 +172,10 @@ namespace Signorini
             }
           if (!(sum.norm() > 0.))
             return false;
-          met.distance   = seen.distance;
-          met.normal     = -sum / sum.norm();
-          met.doubt      = (met.normal + facet_normal(other, seen.triangle)).norm();
-          met.is_on_edge = surface.edges.distance(seen) < PartnerSightRule().on_edge * width;
+          met.distance    = seen.distance;
+          met.normal      = -sum / sum.norm();
+          met.doubt       = (met.normal + facet_normal(other, seen.triangle)).norm();
+          met.beyond_edge = surface.edges.beyond(seen, PartnerSightRule().on_edge * width);
           return met.normal * normal >= PartnerSightRule().facing;
         };
   }

@@ -10,6 +10,7 @@ import subprocess
 import sys
 import tempfile
 
+import certificate_cases
 import checkpoint_cases
 import deck_cases
 import finished_mesh_cases
@@ -260,7 +261,8 @@ def write_bowl(name, n):
 
 
 def bowl(p):
-    """S2 of the solver problems: normals that vary, a mesh file that is level 0. Its gaps are those of the facets.
+    """S2 of the solver problems: normals that vary (planes would push along their own, functions do not), a mesh file that is level 0. Its gaps are those
+    of the facets.
     With level 0 solved to three digits, and with background levels, whose correction is not exact."""
     with tempfile.TemporaryDirectory() as folder:
         for n, active, energy in S2[:3 if p.command[0] != 'mpirun' else 2]:
@@ -268,7 +270,7 @@ def bowl(p):
             write_bowl(mesh, n)
             for method, levels, bound in (('accelerated', 'none', 10), ('monotone multigrid', 'none', 10), ('accelerated', 'background', 12),
                                           ('monotone multigrid', 'background', 15)):
-                s = p.solve('obstacle/paraboloid.prm', f'Body cube/Mesh={mesh}', f'Solver/Coarse levels={levels}', 'Refinement/Global cycles=0', 'Pair bottom/Obstacle=plane: (0, 0, 0.05), (0, 0, 1)', 'Pair bottom/Surface=faceted',
+                s = p.solve('obstacle/paraboloid.prm', f'Body cube/Mesh={mesh}', f'Solver/Coarse levels={levels}', 'Refinement/Global cycles=0', 'Pair bottom/Obstacle=function: z - 0.05', 'Pair bottom/Surface=faceted',
                             f'Solver/Method={method}')
                 last = s['cycles'][-1]
                 near(last['energy'], energy, 1e-10, f'S2, {n}, {method}: energy')
@@ -709,7 +711,7 @@ def surface_map(p):
 
 
 if __name__ == '__main__':
-    modules = (sys.modules[__name__], checkpoint_cases, deck_cases, geometry_cases, hardening_cases, heat_cases, finished_mesh_cases, free_body_cases, load_cases, output_cases, random_pair_cases, rank_cases, report_cases, shape_cases, slender_cases,
+    modules = (sys.modules[__name__], certificate_cases, checkpoint_cases, deck_cases, geometry_cases, hardening_cases, heat_cases, finished_mesh_cases, free_body_cases, load_cases, output_cases, random_pair_cases, rank_cases, report_cases, shape_cases, slender_cases,
                tool_cases, true_gap_cases, verification_cases, verify_cases, whole_boundary_cases)
     case = next(getattr(m, sys.argv[2]) for m in modules if hasattr(m, sys.argv[2]))
     case(Program(sys.argv[1], int(sys.argv[3])))

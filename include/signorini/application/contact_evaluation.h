@@ -36,9 +36,10 @@ namespace Signorini
     /// What is left of the forces on a body.
     struct Rest
     {
-      /// Norm of their sum; sum of the norms of its nodal forces; force of its displacement: Young's modulus
-      /// times largest displacement times size (forces).
-      double force, scale, of_displacement;
+      /// Norm of their sum; sum of the norms of its nodal forces (forces).
+      double force = 0., scale = 0.;
+      /// Of the body: largest Young's modulus (pressure), largest displacement, size (lengths).
+      double young = 0., displacement = 0., size = 0.;
     };
     /// By body.
     std::vector<Rest> of_bodies;

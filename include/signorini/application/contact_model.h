@@ -105,6 +105,9 @@ namespace Signorini
     /// Holds one more point, from the next ConstrainedSpace on.
     void hold(PointHold hold);
 
+    /// By body a number that is the same for all that chains of pairs link to each other.
+    std::vector<std::size_t> linked_bodies() const;
+
     /// All of them.
     const std::vector<PointHold> &point_holds() const
     {

@@ -20,7 +20,7 @@ namespace Signorini
     double depth = -1.;
     /// Of the node before it is deformed (length).
     dealii::Point<3> place;
-    /// Whether any pair couples these two parts.
+    /// Whether there is a contact pair (not tied) between these two bodies.
     bool has_pair = false;
   };
 

@@ -20,8 +20,8 @@ namespace Signorini
     double distance = 0.;
     /// How far `normal` is from that of a facet that stands for a curved surface there.
     double doubt = 0.;
-    /// Whether it is on an edge of the other side, as far as facets tell.
-    bool is_on_edge = false;
+    /// On an edge of the other side, as far as facets tell: the outward unit normal beyond it; else zero.
+    Vector3 beyond_edge = {};
   };
 
   /// Looks from a place along the unit normal of a facet of a width (length) there; false if nothing is met

@@ -1,0 +1,281 @@
+"""What the certificate sees, and how far bodies move that little holds: problems of users that went wrong with the verdict yes."""
+import os
+import tempfile
+
+from free_body_cases import make_mesh
+from harness import TOP, check, near, read_pressure
+
+# Two roofs, ridge on ridge, along z.
+ROOFS = '''set Bodies        = low, up
+set Contact pairs = ridge
+subsection Body low
+  set Mesh            = prism
+  set Corners         = (0, 0), (-1, -1), (-1, -2), (1, -2), (1, -1)
+  set Height          = 2
+  set Round divisions = 3, 1, 6
+  set Young modulus   = 1000
+  set Dirichlet       = side 3: (0, 0, 0)
+end
+subsection Body up
+  set Mesh            = prism
+  set Corners         = (0, 0), (1, 1), (1, 2), (-1, 2), (-1, 1)
+  set Height          = 2
+  set Round divisions = 3, 1, 5
+  set Young modulus   = 1000
+  set Dirichlet       = side 3: (0, -0.02, 0)
+end
+subsection Pair ridge
+  set First  = low: side 1 + side 5
+  set Second = up: side 1 + side 5
+end
+subsection Refinement
+  set Initial global levels = 0
+end
+'''
+
+# A block that is pressed onto another one, and beside them a third one that nothing keeps out of the second.
+BLOCKS = '''set Bodies        = low, up, wall
+set Contact pairs = c
+subsection Body low
+  set Divisions     = 4, 4, 4
+  set Upper corner  = 2, 1, 1
+  set Young modulus = 1000
+  set Dirichlet     = bottom: (0, 0, 0)
+end
+subsection Body up
+  set Divisions     = 3, 3, 3
+  set Lower corner  = 0, 0, 1
+  set Upper corner  = 2, 1, 2
+  set Young modulus = 1000
+  set Dirichlet     = top: (0, 0, -0.02)
+end
+subsection Body wall
+  set Divisions     = 2, 3, 5
+  set Lower corner  = 2.05, 0.1, 0.1
+  set Upper corner  = 3, 0.9, 0.9
+  set Young modulus = 1000
+  set Dirichlet     = right: (-0.1, 0, 0)
+end
+subsection Pair c
+  set First  = up: bottom
+  set Second = low: top
+end
+subsection Refinement
+  set Initial global levels = 0
+end
+'''
+
+
+def unseen_penetration(p):
+    """Bodies that lie in each other where no pair looks: an edge on an edge, faces that are not in their pair (NO), bodies without a pair (a note)."""
+    with tempfile.TemporaryDirectory() as folder:
+        roofs, blocks = (os.path.join(folder, name) for name in ('roofs.prm', 'blocks.prm'))
+        for path, text in ((roofs, ROOFS), (blocks, BLOCKS)):
+            with open(path, 'w') as f:
+                f.write(text)
+        s = p.solve(roofs, codes=(3,))
+        objections = s['certificate']['objections']
+        # 0.02 in its direction, less than a thousandth of a face as its rounding.
+        check(len(objections) == 1 and 'deep in body' in objections[0] and 'edges that meet edges' in objections[0], f'{objections}')
+        near(float(objections[0].split(' deep')[0].split()[-1]), .02 * .5 ** .5, .04, 'depth')
+        check(not p.solve(roofs, 'Body up/Translation=0, 0.021, 0')['certificate']['objections'], 'roofs apart')
+        s = p.solve(blocks)
+        notes = [note for note in s['notes'] if 'deep in' in note]
+        check(len(notes) == 1 and 'no contact pair keeps them apart' in notes[0] and 'wall' in notes[0] and 'low' in notes[0], f'{notes}')
+        near(float(notes[0].split(' deep')[0].split()[-1]), .05, .1, 'depth of the wall')
+        check(not any('deep in' in note for note in p.solve(blocks, 'Body wall/Translation=0.051, 0, 0')['notes']), 'wall apart')
+        # Half of the face is not in the pair.
+        s = p.solve(blocks, 'Pair c/First region=0.9 - x', 'Pair c/Second region=0.9 - x', 'Body wall/Translation=1, 0, 0', codes=(3,))
+        check(any('deep in body' in text and 'where their pair does not look' in text for text in s['certificate']['objections']), f'{s["certificate"]}')
+
+
+# A block on a floor by its weight; beside it another problem.
+FAR = '''set Bodies        = cube, upper, lower
+set Contact pairs = floor, interface
+subsection Body cube
+  set Divisions     = 4, 4, 4
+  set Young modulus = 1000
+  set Volume force  = (0, 0, -1)
+end
+subsection Pair floor
+  set First    = cube: bottom
+  set Obstacle = plane: (0, 0, -0.3), (0, 0, 1)
+end
+subsection Body upper
+  set Lower corner  = 10, 0, 0
+  set Upper corner  = 11, 1, 1
+  set Divisions     = 3, 3, 3
+  set Young modulus = {young}
+  set Dirichlet     = left: (0, *, *); front: (*, 0, *); top: (*, *, -0.01)
+end
+subsection Body lower
+  set Lower corner  = 10, 0, -1
+  set Upper corner  = 11, 1, 0
+  set Divisions     = 4, 4, 4
+  set Young modulus = {young}
+  set Dirichlet     = left: (0, *, *); front: (*, 0, *); bottom: (*, *, 0)
+end
+subsection Pair interface
+  set First  = upper: bottom
+  set Second = lower: top
+end
+'''
+
+
+def far_problem(p):
+    """Another problem in the same file, with forces of any size: the weight is carried, or the verdict is NO."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, 'far.prm')
+        for young, codes in ((1e3, (0,)), (1e8, (0,)), (1e12, (0, 3))):
+            with open(path, 'w') as f:
+                f.write(FAR.format(young=young))
+            s = p.solve(path, codes=codes)
+            carried = s['pairs'][0]['load']
+            print(f'E = {young:g}: {carried} of 1')
+            if s['certificate']['contact_conditions_hold']:
+                near(carried, 1., 1e-4, f'{young}: the weight')
+            else:
+                check(any('body cube' in text and 'does not balance' in text for text in s['certificate']['objections']), f'{s["certificate"]}')
+
+
+RINGS = '''set Bodies        = in, out
+set Contact pairs = fit
+subsection Body in
+  set Mesh            = {mesh}
+  set Inner radius    = 5
+  set Radius          = 7.003
+  set Height          = 1
+  set Round divisions = 2, 24, 1
+  set Young modulus   = 1000
+  set Poisson ratio   = 0.3
+  set Dirichlet       = start: (*, *, 0); end: (*, *, 0)
+  set Rotation axis   = 0, 0, 1
+end
+subsection Body out
+  set Mesh            = {mesh}
+  set Inner radius    = 7
+  set Radius          = 10
+  set Height          = 1
+  set Round divisions = 3, 28, 1
+  set Young modulus   = 2000
+  set Poisson ratio   = 0.3
+  set Dirichlet       = start: (*, *, 0); end: (*, *, 0)
+end
+subsection Pair fit
+  set First  = in: outer
+  set Second = out: inner
+end
+subsection Refinement
+  set Initial global levels = 0
+end
+'''
+
+
+def turned_rings(p):
+    """A press fit that nothing holds in its plane, every node held across it: the same whatever the angle between the meshes."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, 'rings.prm')
+        with open(path, 'w') as f:
+            f.write(RINGS.format(mesh='tube'))
+        reference = None
+        for angle in (0., 1., 3.3, 6.):
+            s = p.solve(path, f'Body in/Rotation angle={angle}')
+            u = [body['largest_displacement'] for body in s['bodies']]
+            reference = reference or u
+            print(f'{angle} degrees: {u}')
+            for one, other in zip(u, reference):
+                near(one, other, .02, f'{angle} degrees: displacement')
+            check(s['displacements_are_small'], f'{angle} degrees: {s["notes"]}')
+
+
+# A lug on a pin, with clearance, moved by a force.
+CLEARANCE = '''set Bodies        = lug, pin
+set Contact pairs = bearing
+subsection Body lug
+  set Mesh            = tube
+  set Inner radius    = 6
+  set Radius          = 9
+  set Height          = 2
+  set Round divisions = 2, 28, 2
+  set Young modulus   = 1e5
+  set Dirichlet       = start: (*, *, 0)
+  set Volume force    = (1, 0, 0)
+end
+subsection Body pin
+  set Mesh            = tube
+  set Inner radius    = 2
+  set Radius          = 5
+  set Height          = 2
+  set Round divisions = 2, 24, 2
+  set Young modulus   = 1e5
+  set Dirichlet       = start: (0, 0, 0); end: (0, 0, 0)
+end
+subsection Pair bearing
+  set First  = lug: inner
+  set Second = pin: outer
+end
+subsection Refinement
+  set Initial global levels = 0
+end
+'''
+
+
+def moved_by_loads(p):
+    """A lug moves by its clearance along the load, and does not turn about the point in which it is held because nothing else holds its rotation."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, 'lug.prm')
+        with open(path, 'w') as f:
+            f.write(CLEARANCE)
+        for side in ('first', 'second'):
+            for angle in (0., 5.):
+                s = p.solve(path, f'Pair bearing/Nonmortar={side}', 'Body lug/Rotation axis=0, 0, 1', f'Body lug/Rotation angle={angle}', codes=(0, 3))
+                u = s['bodies'][0]['largest_displacement']
+                print(f'{side}, {angle} degrees: {u}, {[note for note in s["notes"] if "held" in note]}')
+                near(u, 1., .03, f'{side}, {angle} degrees: displacement')
+
+
+SHOULDER = '''set Bodies        = bolt, plate
+set Contact pairs = seat
+subsection Body bolt
+  set Mesh          = shoulder.msh
+  set Volumes       = bolt
+  set Young modulus = 2.1e5
+  set Dirichlet     = bolt x0: (0, *, *); bolt y0: (*, 0, *)
+  set Forces        = pull: (0, 0, -1250)
+end
+subsection Body plate
+  set Mesh          = shoulder.msh
+  set Volumes       = plate
+  set Young modulus = 2.1e5
+  set Dirichlet     = plate x0: (0, *, *); plate y0: (*, 0, *); base: (*, *, 0)
+end
+subsection Pair seat
+  set First  = bolt: underside
+  set Second = plate: top
+end
+'''
+
+
+def shoulder(p):
+    """The head of a bolt with one face between shank and rim, given with and without its shank, which has a clearance in the bore: it presses with all of it."""
+    with tempfile.TemporaryDirectory() as folder:
+        make_mesh(os.path.join(TOP, 'tests', 'application', 'shoulder.geo'), os.path.join(folder, 'shoulder.msh'))
+        path = os.path.join(folder, 'shoulder.prm')
+        with open(path, 'w') as f:
+            f.write(SHOULDER)
+
+        def solve(*settings):
+            out = tempfile.mkdtemp(dir=folder)
+            os.rmdir(out)
+            s = p.solve(path, *settings, keep=out)
+            rows = read_pressure(os.path.join(out, 'pressure.csv'))
+            force = sum(r['area'] * r['pressure'] for r in rows)
+            near(force, 1250., 1e-6, f'{settings}: load')
+            return s['bodies'][0]['largest_displacement'], sum(r['area'] * r['pressure'] * (r['x'] ** 2 + r['y'] ** 2) ** .5 for r in rows) / force
+
+        for side in ('first', 'second'):
+            alone = solve(f'Pair seat/Nonmortar={side}')
+            whole = solve(f'Pair seat/Nonmortar={side}', 'Pair seat/First=bolt: underside + shank', 'Pair seat/Second=plate: top + bore')
+            print(f'{side}: displacement, mean radius of the force {whole}, underside and top alone {alone}')
+            near(whole[0], alone[0], .15, f'{side}: displacement')
+            near(whole[1], alone[1], .15, f'{side}: mean radius of the force')
