@@ -27,8 +27,9 @@ namespace Signorini
 
   /// Gives vertices whose normal is less than 60 degrees from the opposite of a direction, the unit normal of
   /// a plane, the opposite of that, and marks them as turn_edges(). Along it the distance from a plane is
-  /// linear in the displacement, however far bodies slide and turn; along their own normals, which differ
-  /// from vertex to vertex beside the place where a ball touches, the plane would push sideways.
+  /// linear in the displacement, however far bodies slide; along their own normals, which differ from vertex
+  /// to vertex beside the place where a round body touches, the plane would push sideways. (But forces along
+  /// the own normals of a sphere go through its centre, and do not turn it.)
   void face_plane(ContactSurface &surface, const Vector3 &plane_normal);
 } // namespace Signorini
 
