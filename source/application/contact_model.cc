@@ -91,15 +91,24 @@ namespace Signorini
 
   void ContactModel::hold(PointHold hold)
   {
-    const auto         prescribed = [value = hold.value](const Point<3> &) { return value; };
     DirichletCondition condition;
-    condition.body                       = hold.body;
-    condition.boundary                   = "held point";
-    condition.components[hold.component] = prescribed;
-    condition.start_vertex               = hold.start_vertex;
-    hold.condition                       = the_loads.dirichlet.size();
+    condition.body         = hold.body;
+    condition.boundary     = "held point";
+    condition.start_vertex = hold.start_vertex;
+    hold.condition         = the_loads.dirichlet.size();
     the_loads.dirichlet.push_back(condition);
     holds.push_back(std::move(hold));
+    set_hold_value(holds.size() - 1, holds.back().value);
+  }
+
+
+
+  void ContactModel::set_hold_value(const std::size_t i, const double value)
+  {
+    holds[i].value                                                         = value;
+    the_loads.dirichlet[holds[i].condition].components[holds[i].component] = [value](const Point<3> &) {
+      return value;
+    };
   }
 
 

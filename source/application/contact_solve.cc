@@ -283,8 +283,7 @@ namespace Signorini
       const LooseMotions   loose    = find_loose_motions(d.free_motions(), fields, spaces, active);
       const double         width    = mean_width(d);
       Drift                drift{HoldReason::drifting,
-                  find_drift(d.free_motions(), fields, spaces, loose, algebraic.v, width), 0.,
-                  loose.undetermined};
+                  find_drift(d.free_motions(), fields, spaces, loose, algebraic.v, width), 0.};
       if (!drift.motions.empty())
         return drift;
       const FreeSolution   solution{d.free_motions(), fields, spaces, active, algebraic.v};
@@ -293,7 +292,7 @@ namespace Signorini
         {
           const auto undetermined = of_same_parts(d.free_motions(), loose.undetermined, sliding);
           sliding.insert(sliding.end(), undetermined.begin(), undetermined.end());
-          return {HoldReason::sliding, sliding, largest_turn(faces, active, d), loose.undetermined};
+          return {HoldReason::sliding, sliding, largest_turn(faces, active, d)};
         }
       note_undetermined(loose, model, d, journal);
       warn_of_facets(model, d.free_motions(),
@@ -385,7 +384,7 @@ namespace Signorini
               settle_free_parts(algebraic->v, model, d, matrix.partition(), algebraic->problem);
           !turning.empty())
         {
-          result.drift = {HoldReason::drifting, {turning}, 0., {}};
+          result.drift = {HoldReason::drifting, {turning}, 0.};
           return result;
         }
     if (!d.free_motions().empty())

@@ -89,6 +89,7 @@ namespace Signorini
         , times(times)
         , journal(journal)
         , tightened(model.pretensions())
+        , full_holds(model.point_holds())
         , previous(last.solution.displacement)
         , before(previous)
       {
@@ -116,6 +117,7 @@ namespace Signorini
             if (checkpoints != nullptr && checkpoints->are_wanted())
               save(*checkpoints);
           }
+        hold_at(full_holds);
         model.set_time(times.back());
         model.pretensions() = tightened;
       }
@@ -143,12 +145,15 @@ namespace Signorini
       {
         if (solver == nullptr)
           set_up(time);
-        if (time != times.front())
+        // From the same values at all steps: they must not depend on where a saved state ends.
+        hold_at(full_holds);
+        if (time != times.front() || !full_holds.empty())
           {
             set_time(time);
             solver->change_loads(*discretization, foretell(time));
           }
         ContactSolution solution = solve_with_pretension(model, *solver, *discretization, journal);
+        settle_holds(solution, time);
         leave_drift(model, *discretization, solution, journal);
         needed_patches = needed_patches || solution.report.needed_patches;
         before.swap(previous);
@@ -192,6 +197,32 @@ namespace Signorini
         time_before    = state.time_before;
         needed_patches = state.needed_patches;
         restore_bolts(model.pretensions(), state.bolts);
+      }
+
+      void hold_at(const std::vector<PointHold> &holds)
+      {
+        for (std::size_t i = 0; i < holds.size(); ++i)
+          model.set_hold_value(i, holds[i].value);
+      }
+
+      /// As in the nested iteration.
+      void settle_holds(ContactSolution &solution, const double time)
+      {
+        const auto at_rest = settle_point_holds(model, *discretization, solution.displacement);
+        if (!at_rest)
+          return;
+        const double strain = strain_of_point_holds(model, *discretization, solution);
+        set_time(time);
+        solver->change_loads(*discretization, *at_rest);
+        ContactSolution settled = solve_with_pretension(model, *solver, *discretization, journal);
+        if (strain_of_point_holds(model, *discretization, settled) <= std::max(strain, small_strain))
+          std::swap(settled, solution);
+        else
+          {
+            hold_at(full_holds);
+            set_time(time);
+            solver->change_loads(*discretization, solution.displacement);
+          }
       }
 
       /// Conditions and strains of bolts of a step.
@@ -245,6 +276,7 @@ namespace Signorini
       const std::vector<double>            &times;
       Journal                              &journal;
       const std::vector<Pretension>         tightened;
+      const std::vector<PointHold>          full_holds;
       CoarserSpaces                         coarser;
       Vector                                previous, before;
       double                                time_previous = 0., time_before = 0.;

@@ -223,22 +223,32 @@ namespace Signorini
 
   namespace
   {
-    /// Whether bodies that touch only each other may move as one, and surfaces that are mapped onto each
-    /// other across a distance oppose that a little, where their images lie beside the normals.
-    bool have_common_motion(const std::vector<Vector> &fields, const HalfSpaces &spaces)
+    /// Motions of bodies that touch only each other and move as one: surfaces that are mapped onto each other
+    /// across a distance oppose them a little, where their images lie beside the normals. Each free motion
+    /// counts by what it moves at contact nodes: parts have many or few of these.
+    std::vector<std::vector<double>> common_motions(const std::vector<Vector> &fields,
+                                                    const HalfSpaces          &spaces)
     {
       constexpr LooseMotionRule rule;
-      const MotionsAtContact sums = at_contact(fields, spaces, std::vector<unsigned char>(spaces.size(), 1));
-      const SymmetricEigen   relative = symmetric_eigen(sums.whole);
-      const double           scale    = sums.whole.diagonal().maxCoeff();
-      const Eigen::Index     n        = (relative.values.array() <= rule.common * scale).count();
-      if (n == 0 || !(scale > 0.))
-        return false;
-      const Eigen::MatrixXd span    = relative.vectors.leftCols(n);
+      const MotionsAtContact sums  = at_contact(fields, spaces, std::vector<unsigned char>(spaces.size(), 1));
+      const double           least = rule.next_to_nothing * sums.whole.diagonal().maxCoeff();
+      std::vector<std::vector<double>> result;
+      if (!(least > 0.) || !(sums.whole.diagonal().minCoeff() > least))
+        return result;
+      const Eigen::MatrixXd scale    = sums.whole.diagonal().cwiseSqrt().cwiseInverse().asDiagonal();
+      const SymmetricEigen  relative = symmetric_eigen(scale * sums.whole * scale);
+      const Eigen::Index    n        = (relative.values.array() <= rule.common).count();
+      if (n == 0)
+        return result;
+      const Eigen::MatrixXd span    = scale * relative.vectors.leftCols(n);
       const SymmetricEigen  opposed = symmetric_eigen(span.transpose() * sums.normal * span);
-      return (opposed.values.array() > rule.next_to_nothing * scale &&
-              opposed.values.array() <= rule.hardly_opposed * scale)
-          .any();
+      for (Eigen::Index k = 0; k < n; ++k)
+        if (opposed.values[k] > rule.next_to_nothing && opposed.values[k] <= rule.hardly_opposed)
+          {
+            const Eigen::VectorXd motion = (span * opposed.vectors.col(k)).normalized();
+            result.emplace_back(motion.begin(), motion.end());
+          }
+      return result;
     }
   } // namespace
 
@@ -251,7 +261,9 @@ namespace Signorini
     const auto drifts = [&](const std::vector<std::vector<double>> &along) {
       return !along.empty() && slip_along(along, fields, spaces, v) > LooseMotionRule().slip * width;
     };
-    const bool drifts_on_facets = drifts(loose.hardly_held) || have_common_motion(fields, spaces);
+    const bool                             slides           = drifts(loose.hardly_held);
+    const std::vector<std::vector<double>> common           = common_motions(fields, spaces);
+    const bool                             drifts_on_facets = slides || !common.empty();
     if (!drifts_on_facets && !drifts(loose.next_to_undetermined))
       return {};
     // Few nodes may be active in a solution that drifts: these need not show what the surfaces allow.
@@ -260,6 +272,8 @@ namespace Signorini
     std::vector<std::vector<double>> result;
     if (drifts_on_facets)
       result = anywhere.hardly_held.empty() ? loose.hardly_held : anywhere.hardly_held;
+    if (!slides)
+      result = of_same_parts(motions, result, common);
     const auto undetermined =
         of_same_parts(motions, anywhere.undetermined, drifts_on_facets ? result : loose.next_to_undetermined);
     result.insert(result.end(), undetermined.begin(), undetermined.end());

@@ -149,17 +149,16 @@ namespace Signorini
         last.discretization = discretize(model, space, sides, cycle, journal);
         sides               = last.discretization->sides;
         // Without points for that the solution shows whether it drifts.
-        const auto unopposed = find_unopposed_motions(model, *last.discretization);
-        const bool holds_now =
-            !unopposed.empty() && hold_points({HoldReason::unopposed, unopposed, 0., {}}, Vector());
-        SolveParameters how_to  = parameters.solve;
-        how_to.measure_sweeps   = how_to.measure_sweeps && cycle == refinement.n_cycles();
-        const NestedStart *from = cycle > 0 && !holds_now ? &start : nullptr;
-        last.solution           = solve_contact(model, *last.discretization, coarser, from, how_to, journal);
+        const auto      unopposed = find_unopposed_motions(model, *last.discretization);
+        const bool      holds_now = !unopposed.empty() && hold_points({HoldReason::unopposed, unopposed, 0.});
+        SolveParameters how_to    = parameters.solve;
+        how_to.measure_sweeps     = how_to.measure_sweeps && cycle == refinement.n_cycles();
+        const NestedStart *from   = cycle > 0 && !holds_now ? &start : nullptr;
+        last.solution = solve_contact(model, *last.discretization, coarser, from, how_to, journal);
         unsigned int before_holds = 0;
         while (!last.solution.drift.motions.empty())
           {
-            if (!hold_points(last.solution.drift, last.solution.displacement))
+            if (!hold_points(last.solution.drift))
               {
                 leave_drift(model, *last.discretization, last.solution, journal);
                 break;
@@ -167,6 +166,7 @@ namespace Signorini
             before_holds += last.solution.report.iterations;
             last.solution = solve_contact(model, *last.discretization, coarser, nullptr, how_to, journal);
           }
+        before_holds += settle_holds(how_to);
         if (before_holds > 0)
           journal.note("cycle " + std::to_string(cycle) + ": " + std::to_string(before_holds) +
                        " iterations more, before points were held.");
@@ -195,18 +195,48 @@ namespace Signorini
       }
 
       /// False if there is no point for that.
-      /// @param displacement of the solution on this mesh; empty before there is one
-      bool hold_points(const Drift &drift, const Vector &displacement)
+      bool hold_points(const Drift &drift)
       {
-        const std::vector<PointHold> holds =
-            choose_point_holds(model, *last.discretization, drift, displacement);
+        const std::vector<PointHold> holds = choose_point_holds(model, *last.discretization, drift);
         if (holds.empty())
           return false;
         for (const PointHold &hold : holds)
           model.hold(hold);
+        renew_conditions();
+        return true;
+      }
+
+      /// Solves once more with held points where they should be, unless they carry more there. Returns the
+      /// number of iterations more.
+      unsigned int settle_holds(const SolveParameters &how_to)
+      {
+        const std::vector<PointHold> holds = model.point_holds();
+        const auto at_rest = settle_point_holds(model, *last.discretization, last.solution.displacement);
+        if (!at_rest)
+          return 0;
+        const double      strain = strain_of_point_holds(model, *last.discretization, last.solution);
+        const NestedStart settled{*at_rest, last.solution.report.needed_interface_sweeps,
+                                  last.solution.report.needed_patches};
+        renew_conditions();
+        ContactSolution solution =
+            solve_contact(model, *last.discretization, coarser, &settled, how_to, journal);
+        const unsigned int n_settled = solution.report.iterations;
+        if (strain_of_point_holds(model, *last.discretization, solution) <= std::max(strain, small_strain))
+          {
+            std::swap(solution, last.solution);
+            return solution.report.iterations;
+          }
+        for (std::size_t i = 0; i < holds.size(); ++i)
+          model.set_hold_value(i, holds[i].value);
+        renew_conditions();
+        return n_settled;
+      }
+
+      /// On the same mesh.
+      void renew_conditions()
+      {
         space               = ConstrainedSpace::with_more_conditions(*space, model);
         last.discretization = std::make_unique<const Discretization>(*last.discretization, space);
-        return true;
       }
 
       bool keeps_state() const

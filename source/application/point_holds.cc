@@ -42,6 +42,8 @@ namespace Signorini
       double sliding = .6;
       /// Displacements of this share of those that they are a part of may be rounding.
       double rounding = 1e-8;
+      /// By what share of the largest displacement a point may be held beside where the body would be.
+      double settled = .005;
       /// Contact forces below this share of the largest one of all bodies that are linked by pairs count as
       /// that: nothing loads the balls of a bearing opposite to its load, and what is held there carries what
       /// rounding leaves (4.8e-10 beside 890). Of all bodies this share is rounding.
@@ -56,8 +58,6 @@ namespace Signorini
       int          part;
       /// Whether nothing is prescribed there; else only what the conditions leave is moved, along axes.
       bool is_free;
-      /// The displacement without the motions that are to be held.
-      std::array<double, dim> at_rest;
     };
 
     std::set<NodeIndex> nodes_of_boundaries(const NodalSpace &space, const std::set<types::boundary_id> &ids)
@@ -94,9 +94,7 @@ namespace Signorini
     }
 
     /// Collective. Nodes without conditions; if there are none (in plane strain), those with some.
-    /// @param at_rest displacements to hold them at; none if empty
-    std::vector<Candidate> find_candidates(const ContactModel &model, const Discretization &d,
-                                           const Vector &at_rest)
+    std::vector<Candidate> find_candidates(const ContactModel &model, const Discretization &d)
     {
       const NodalSpace         &space  = d.nodal();
       const NodePlaces          places = node_places(model.bodies(), space);
@@ -110,18 +108,15 @@ namespace Signorini
           const FixedDirections &fixed  = d.dirichlet().fixed[r];
           if (vertex != StartNodes::none && places.parts[i] >= 0 && fixed.is_along_axes() && !fixed.all() &&
               !space.hanging_nodes().is_constrained(node) && in_use.count(node) == 0)
-            {
-              result.push_back({vertex, places.positions[i], places.parts[i], !fixed.any(), {}});
-              for (unsigned int c = 0; c < dim && at_rest.size() > 0; ++c)
-                result.back().at_rest[c] = at_rest.local_element(dim * i + c);
-            }
+            result.push_back({vertex, places.positions[i], places.parts[i], !fixed.any()});
         }
-      std::vector<int> with_free;
+      std::set<int> has_free;
       for (const Candidate &one : result)
-        if (one.is_free && (with_free.empty() || with_free.back() != one.part))
-          with_free.push_back(one.part);
-      with_free = gather_lists(std::move(with_free), space.communicator(), Receivers::all);
-      const std::set<int> has_free(with_free.begin(), with_free.end());
+        if (one.is_free)
+          has_free.insert(one.part);
+      const std::vector<int> with_free = gather_lists(std::vector<int>(has_free.begin(), has_free.end()),
+                                                      space.communicator(), Receivers::all);
+      has_free                         = std::set<int>(with_free.begin(), with_free.end());
       result.erase(
           std::remove_if(result.begin(), result.end(),
                          [&](const Candidate &one) { return !one.is_free && has_free.count(one.part) > 0; }),
@@ -129,38 +124,47 @@ namespace Signorini
       return result;
     }
 
-    /// Collective. A displacement without the part that is a combination of motions; zero where next to
-    /// nothing would be left of it.
-    Vector without_motions(const ContactModel &model, const Discretization &d,
-                           const std::vector<std::vector<double>> &motions, const Vector &displacement)
+    /// Collective. A displacement less its least squares fit by some fields; zero where next to nothing would
+    /// be left.
+    Vector without_fields(const std::vector<Vector> &fields, const Vector &displacement)
     {
-      if (displacement.size() == 0)
-        return {};
-      const std::vector<Vector> fields =
-          motion_fields(d.free_motions(), model.bodies(), d.nodal(), d.partition());
-      const auto          n = static_cast<Eigen::Index>(motions.size());
-      std::vector<Vector> columns(motions.size());
-      for (Eigen::Index k = 0; k < n; ++k)
-        {
-          columns[k].reinit(displacement);
-          for (std::size_t m = 0; m < fields.size(); ++m)
-            columns[k].add(motions[k][m], fields[m]);
-        }
+      const auto      n = static_cast<Eigen::Index>(fields.size());
       Eigen::MatrixXd gram(n, n);
       Eigen::VectorXd work(n);
       for (Eigen::Index k = 0; k < n; ++k)
         {
-          work[k] = columns[k] * displacement;
+          work[k] = fields[k] * displacement;
           for (Eigen::Index l = 0; l < n; ++l)
-            gram(k, l) = columns[k] * columns[l];
+            gram(k, l) = fields[k] * fields[l];
         }
       const Eigen::VectorXd share = least_squares(gram, work);
       Vector                rest  = displacement;
       for (Eigen::Index k = 0; k < n; ++k)
-        rest.add(-share[k], columns[k]);
+        rest.add(-share[k], fields[k]);
       if (rest.linfty_norm() < PointHoldRule().rounding * displacement.linfty_norm())
         rest = 0.;
       return rest;
+    }
+
+    /// What a combination of free motions does to each part.
+    std::vector<PartMotion> by_part(const std::vector<FreeMotion> &free,
+                                    const std::vector<double>     &coefficients)
+    {
+      std::map<unsigned int, PartMotion> result;
+      for (std::size_t m = 0; m < free.size(); ++m)
+        for (const unsigned int part : free[m].parts)
+          {
+            const Vector3 rotation = coefficients[m] / free[m].length * free[m].rotation;
+            PartMotion   &sum      = result[part];
+            sum.part               = part;
+            sum.rotation += rotation;
+            sum.at_origin +=
+                coefficients[m] * free[m].translation - cross_product_3d(rotation, Vector3(free[m].centre));
+          }
+      std::vector<PartMotion> list;
+      for (const auto &entry : result)
+        list.push_back(entry.second);
+      return list;
     }
 
     /// The displacements of motions at a point, by column.
@@ -274,16 +278,13 @@ namespace Signorini
 
 
   std::vector<PointHold> choose_point_holds(const ContactModel &model, const Discretization &d,
-                                            const Drift &drift, const Vector &displacement)
+                                            const Drift &drift)
   {
-    const std::vector<FreeMotion>   &free  = d.free_motions();
-    std::vector<std::vector<double>> loose = drift.motions;
-    loose.insert(loose.end(), drift.undetermined.begin(), drift.undetermined.end());
-    const std::vector<Candidate> candidates =
-        find_candidates(model, d, without_motions(model, d, loose, displacement));
-    Eigen::MatrixXd        basis = orthonormal(drift.motions);
-    const double           size  = size_at_contact(model, d, basis);
-    std::vector<PointHold> result;
+    const std::vector<FreeMotion> &free       = d.free_motions();
+    const std::vector<Candidate>   candidates = find_candidates(model, d);
+    Eigen::MatrixXd                basis      = orthonormal(drift.motions);
+    const double                   size       = size_at_contact(model, d, basis);
+    std::vector<PointHold>         result;
     while (basis.cols() > 0)
       {
         const std::optional<Choice> choice = choose(candidates, free, basis, d.nodal().communicator());
@@ -295,8 +296,8 @@ namespace Signorini
         hold.start_vertex = choice->candidate.start_vertex;
         hold.component    = choice->component;
         hold.position     = choice->candidate.position;
-        hold.value        = choice->candidate.at_rest[choice->component];
         const std::vector<double> coefficients(held.data(), held.data() + held.size());
+        hold.moves          = by_part(free, coefficients);
         hold.motion         = describe_motion(free, coefficients, model.bodies());
         hold.is_translation = is_translation(free, coefficients);
         hold.arm            = size > 0. ? choice->row.norm() / size : 0.;
@@ -305,6 +306,55 @@ namespace Signorini
         basis = without(basis, choice->row);
       }
     return result;
+  }
+
+
+
+  std::optional<Vector> settle_point_holds(ContactModel &model, const Discretization &d,
+                                           const Vector &displacement)
+  {
+    const std::vector<PointHold> &holds = model.point_holds();
+    if (holds.empty())
+      return {};
+    const NodePlaces    places = node_places(model.bodies(), d.nodal());
+    std::vector<Vector> fields(holds.size());
+    for (std::size_t k = 0; k < holds.size(); ++k)
+      {
+        fields[k].reinit(displacement);
+        for (unsigned int i = 0; i < d.partition().n_owned(); ++i)
+          for (const PartMotion &one : holds[k].moves)
+            if (places.parts[i] == static_cast<int>(one.part))
+              {
+                const Vector3 u =
+                    one.at_origin + cross_product_3d(one.rotation, Vector3(places.positions[i]));
+                for (unsigned int c = 0; c < dim; ++c)
+                  fields[k].local_element(dim * i + c) = u[c];
+              }
+      }
+    Vector rest = without_fields(fields, displacement);
+    struct Value
+    {
+      std::size_t hold;
+      double      value;
+    };
+    std::vector<Value> values;
+    for (unsigned int i = 0; i < d.partition().n_owned(); ++i)
+      {
+        const unsigned int vertex =
+            d.nodal().start_vertices()[d.nodal().relevant().index_within_set(d.partition().to_global(i))];
+        for (std::size_t k = 0; k < holds.size(); ++k)
+          if (vertex == holds[k].start_vertex)
+            values.push_back({k, rest.local_element(dim * i + holds[k].component)});
+      }
+    values            = gather_lists(std::move(values), d.nodal().communicator(), Receivers::all);
+    const double seen = PointHoldRule().settled * displacement.linfty_norm();
+    if (std::none_of(values.begin(), values.end(),
+                     [&](const Value &one) { return std::abs(one.value - holds[one.hold].value) > seen; }))
+      return {};
+    for (const Value &one : values)
+      model.set_hold_value(one.hold, one.value);
+    rest.update_ghost_values();
+    return rest;
   }
 
 
@@ -410,6 +460,26 @@ namespace Signorini
       }
     };
   } // namespace
+
+
+
+  double strain_of_point_holds(const ContactModel &model, const Discretization &d,
+                               const ContactSolution &solution)
+  {
+    if (model.point_holds().empty())
+      return 0.;
+    const Equilibrium         equilibrium = evaluate_equilibrium(model, d, solution);
+    const std::vector<double> forces      = contact_forces(model, d, solution),
+                              idle_force  = idle_forces(model, forces);
+    double result                         = 0.;
+    for (const PointHold &hold : model.point_holds())
+      {
+        const double reaction = equilibrium.reactions[hold.condition].reaction.norm();
+        const double force    = std::max({forces[hold.body], reaction, idle_force[hold.body]});
+        result                = std::max(result, reaction * hold.arm / force / hold.largest_share);
+      }
+    return result;
+  }
 
 
 

@@ -120,9 +120,15 @@ namespace Signorini
   }
 
   template <typename Archive>
+  void transfer(Archive &a, PartMotion &m)
+  {
+    a(m.part, m.at_origin, m.rotation);
+  }
+
+  template <typename Archive>
   void transfer(Archive &a, PointHold &h)
   {
-    a(h.body, h.start_vertex, h.component, h.position, h.value, h.motion, h.is_translation, h.arm,
+    a(h.body, h.start_vertex, h.component, h.position, h.value, h.moves, h.motion, h.is_translation, h.arm,
       h.largest_share);
   }
 

@@ -79,6 +79,16 @@ namespace Signorini
       return true;
     }
 
+    BoxTree::Box grown(BoxTree::Box box, const double by)
+    {
+      for (unsigned int c = 0; c < dim; ++c)
+        {
+          box.low[c] -= by;
+          box.high[c] += by;
+        }
+      return box;
+    }
+
     BoxTree::Box box_of(const DeformedFace &face)
     {
       BoxTree::Box box = {face.vertices[0].place, face.vertices[0].place};
@@ -127,7 +137,7 @@ namespace Signorini
         std::vector<UnseenPenetration> mine;
         for (const auto &[rank, nodes] : send_lists(found, comm))
           for (const FoundNode &node : nodes)
-            if (seen.count(node.where) == 0)
+            if (seen.count(node.where) == 0 && !may_overlap(node.own_part, node.where.part))
               mine.push_back({node.own_part, node.where.part, node.depth, node.place, false});
         return deepest(std::move(mine));
       }
@@ -135,9 +145,8 @@ namespace Signorini
     private:
       void collect_faces(const Vector &displacement)
       {
-        const NodalSpace                             &space = d.nodal();
-        std::vector<NodeIndex>                        nodes;
-        std::vector<const NodalSpace::BoundaryFace *> sources;
+        const NodalSpace      &space = d.nodal();
+        std::vector<NodeIndex> nodes;
         for (const NodalSpace::BoundaryFace &face : space.boundary_faces())
           {
             const NodalSpace::Cell &cell = space.cells()[face.cell];
@@ -157,23 +166,32 @@ namespace Signorini
           }
         std::sort(nodes.begin(), nodes.end());
         nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-        const std::vector<Vector3> values  = import_values(d.partition(), displacement, nodes);
-        double                     largest = 0.;
-        for (const Vector3 &value : values)
-          largest = std::max(largest, value.norm());
+        reaches.assign(bodies.n_parts(), 0.);
+        widest                            = reaches;
+        const std::vector<Vector3> values = import_values(d.partition(), displacement, nodes);
         for (DeformedFace &face : faces)
           {
+            double &reach = reaches[face.part];
             for (unsigned int i = 0; i < face.n_vertices; ++i)
               {
                 DeformedVertex &vertex = face.vertices[i];
-                vertex.place =
-                    space.position(vertex.node) +
+                const Vector3  &u =
                     values[std::lower_bound(nodes.begin(), nodes.end(), vertex.node) - nodes.begin()];
+                vertex.place = space.position(vertex.node) + u;
+                reach        = std::max(reach, 2. * u.norm());
               }
-            width = std::max(width, face.width());
+            widest[face.part] = std::max(widest[face.part], face.width());
           }
-        // Bodies that only move come no deeper into each other than by what both do.
-        reach = Utilities::MPI::max(width, comm) + 2. * Utilities::MPI::max(largest, comm);
+        Utilities::MPI::max(widest, comm, widest);
+        Utilities::MPI::max(reaches, comm, reaches);
+        for (unsigned int part = 0; part < reaches.size(); ++part)
+          reaches[part] += widest[part];
+      }
+
+      /// How deep two bodies may come into each other by what both do (length).
+      double reach(const unsigned int part, const unsigned int other) const
+      {
+        return reaches[part] + reaches[other];
       }
 
       std::vector<PartBox> own_boxes() const
@@ -193,15 +211,11 @@ namespace Signorini
       {
         const std::vector<PartBox> own = own_boxes();
         ListsByRank<PartBox>       boxes;
-        for (PartBox one : gather_lists(own, comm, Receivers::all))
+        for (const PartBox &one : gather_lists(own, comm, Receivers::all))
           {
-            for (unsigned int c = 0; c < dim; ++c)
-              {
-                one.box.low[c] -= reach;
-                one.box.high[c] += reach;
-              }
             if (std::any_of(own.begin(), own.end(), [&](const PartBox &mine) {
-                  return mine.part != one.part && overlap(mine.box, one.box);
+                  return mine.part != one.part &&
+                         overlap(mine.box, grown(one.box, reach(mine.part, one.part)));
                 }))
               boxes[one.rank].push_back(one);
           }
@@ -209,7 +223,9 @@ namespace Signorini
         for (const auto &entry : boxes)
           for (const DeformedFace &face : faces)
             if (std::any_of(entry.second.begin(), entry.second.end(), [&](const PartBox &one) {
-                  return one.part != face.part && overlap(one.box, box_of(face));
+                  return one.part != face.part &&
+                         overlap(grown(one.box, reach(face.part, one.part) + widest[face.part]),
+                                 box_of(face));
                 }))
               lists[entry.first].push_back(face);
         std::vector<DeformedFace> result;
@@ -236,10 +252,11 @@ namespace Signorini
               for (unsigned int i = 0; i < face.n_vertices; ++i)
                 {
                   const DeformedVertex &vertex = face.vertices[i];
-                  if (face.part == part || !overlap(box, {vertex.place, vertex.place}) ||
+                  const double          far    = reach(part, face.part);
+                  if (face.part == part || !overlap(grown(box, far), {vertex.place, vertex.place}) ||
                       !done.insert(vertex.node).second)
                     continue;
-                  if (const double inside = depth(vertex.place, reach); inside > 0.)
+                  if (const double inside = depth(vertex.place, far); inside > 0.)
                     result.push_back(
                         {{vertex.node, part}, face.part, inside, d.nodal().position(vertex.node)});
                 }
@@ -289,48 +306,67 @@ namespace Signorini
         return bodies.part_of_material(surface.faces[surface.triangle_face[triangle]].material);
       }
 
-      /// Those that this rank owns at triangles that a mapping covers, with the part on the other side. On
-      /// other ranks the rest of a mortar triangle may be covered.
+      /// Those that this rank owns at triangles that a mapping covers, with the part on the other side. What
+      /// several ranks cover of a mortar triangle counts together.
       std::set<NodeAndPart> nodes_of_pairs() const
       {
-        std::set<NodeAndPart> mine;
+        Coverage coverage;
         for (const ContactPair &pair : d.pairs)
           if (pair.mapping)
             {
               const ContactSurface &nonmortar = pair.nonmortar.surface, &mortar = pair.mortar.surface;
-              Coverage              of_nonmortar, of_mortar;
               for (const OverlayTriangle &cell : pair.mapping->overlay())
                 {
                   if (!pair.prescribed_gap && !may_touch(facet_normal(nonmortar, cell.nonmortar_triangle),
                                                          facet_normal(mortar, cell.mortar_triangle)))
                     continue;
-                  of_nonmortar[{cell.nonmortar_triangle, part_of(mortar, cell.mortar_triangle)}] +=
-                      share(cell.nonmortar);
-                  of_mortar[{cell.mortar_triangle, part_of(nonmortar, cell.nonmortar_triangle)}] +=
-                      share(cell.mortar);
+                  add(coverage, nonmortar, cell.nonmortar_triangle, part_of(mortar, cell.mortar_triangle),
+                      share(cell.nonmortar));
+                  add(coverage, mortar, cell.mortar_triangle, part_of(nonmortar, cell.nonmortar_triangle),
+                      share(cell.mortar));
                 }
-              add_covered(mine, nonmortar, of_nonmortar);
-              add_covered(mine, mortar, of_mortar);
             }
-        ListsByRank<NodeAndPart> lists;
-        for (const NodeAndPart &one : mine)
-          lists[d.partition().owner(one.node)].push_back(one);
-        std::set<NodeAndPart> result;
+        ListsByRank<CoveredShare> lists;
+        for (const auto &[key, covered] : coverage)
+          for (const NodeIndex node : std::get<0>(key))
+            lists[d.partition().owner(node)].push_back({std::get<0>(key), std::get<1>(key), covered});
+        Coverage sums;
         for (const auto &[rank, list] : send_lists(lists, comm))
-          result.insert(list.begin(), list.end());
+          {
+            // A triangle comes once for each of its nodes that this rank owns.
+            Coverage of_rank;
+            for (const CoveredShare &one : list)
+              of_rank[{one.triangle, one.part}] = one.share;
+            for (const auto &[key, covered] : of_rank)
+              sums[key] += covered;
+          }
+        std::set<NodeAndPart> result;
+        for (const auto &[key, covered] : sums)
+          if (covered > UnseenRule().covered)
+            for (const NodeIndex node : std::get<0>(key))
+              result.insert({node, std::get<1>(key)});
         return result;
       }
 
-      /// Of triangles, by their number and the part that they see.
-      using Coverage = std::map<std::pair<unsigned int, unsigned int>, double>;
+      /// By the sorted nodes of a triangle and the part that it sees.
+      using Triangle = std::array<NodeIndex, 3>;
+      using Coverage = std::map<std::pair<Triangle, unsigned int>, double>;
 
-      static void add_covered(std::set<NodeAndPart> &nodes, const ContactSurface &surface,
-                              const Coverage &coverage)
+      struct CoveredShare
       {
-        for (const auto &[triangle_and_part, covered] : coverage)
-          if (covered > UnseenRule().covered)
-            for (const unsigned int v : surface.mesh.triangles[triangle_and_part.first])
-              nodes.insert({surface.vertex_node[v], triangle_and_part.second});
+        Triangle     triangle;
+        unsigned int part;
+        double       share;
+      };
+
+      static void add(Coverage &coverage, const ContactSurface &surface, const unsigned int triangle,
+                      const unsigned int part, const double covered)
+      {
+        Triangle nodes;
+        for (unsigned int i = 0; i < 3; ++i)
+          nodes[i] = surface.vertex_node[surface.mesh.triangles[triangle][i]];
+        std::sort(nodes.begin(), nodes.end());
+        coverage[{nodes, part}] += covered;
       }
 
       /// Of a polygon in barycentric coordinates, in its triangle.
@@ -340,12 +376,22 @@ namespace Signorini
         return std::abs((b[1] - a[1]) * (c[2] - a[2]) - (b[2] - a[2]) * (c[1] - a[1]));
       }
 
-      /// Whether a pair keeps two parts of bodies apart, of which each may have several.
-      bool have_pair(const unsigned int part, const unsigned int other) const
+      /// Whether a pair glues two parts together, or has a gap that is not that of their places: they may lie
+      /// in each other.
+      bool may_overlap(const unsigned int part, const unsigned int other) const
+      {
+        return have_pair(part, other, [](const ContactPair &pair) {
+          return pair.is_tied || static_cast<bool>(pair.prescribed_gap);
+        });
+      }
+
+      /// Whether a pair of some kind couples two parts of bodies, of which each may have several.
+      template <typename Kind>
+      bool have_pair(const unsigned int part, const unsigned int other, const Kind &kind) const
       {
         const unsigned int a = bodies.part(part).body, b = bodies.part(other).body;
         return std::any_of(d.pairs.begin(), d.pairs.end(), [&](const ContactPair &pair) {
-          return !pair.is_tied && std::minmax(pair.nonmortar.body, pair.mortar.body) == std::minmax(a, b);
+          return kind(pair) && std::minmax(pair.nonmortar.body, pair.mortar.body) == std::minmax(a, b);
         });
       }
 
@@ -368,7 +414,7 @@ namespace Signorini
         std::vector<UnseenPenetration> all = gather_lists(std::move(mine), comm, Receivers::all);
         keep(all);
         for (UnseenPenetration &one : all)
-          one.has_pair = have_pair(one.part, one.other);
+          one.has_pair = have_pair(one.part, one.other, [](const ContactPair &) { return true; });
         return all;
       }
 
@@ -376,7 +422,8 @@ namespace Signorini
       const Discretization     &d;
       const MPI_Comm            comm;
       std::vector<DeformedFace> faces;
-      double                    width = 0., reach = 0.;
+      /// By part: how far its nodes move and its faces are wide, at most; how wide these are (lengths).
+      std::vector<double> reaches, widest;
     };
   } // namespace
 

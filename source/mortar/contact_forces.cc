@@ -101,7 +101,8 @@ namespace Signorini
         if (m.covered > 0.)
           for (unsigned int a = 0; a < surface.faces[m.face].n_corners; ++a)
             for (unsigned int b = 0; b < surface.faces[m.face].n_corners; ++b)
-              visit(m, a, b);
+              if (!surface.faces[m.face].leaves(a) && !surface.faces[m.face].leaves(b))
+                visit(m, a, b);
     }
 
     /// How much the multiplier of corner b counts in the mean of corner a on the covered part of a face

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include "body_edges.h"
 #include "crease_normals.h"
 
 #include <signorini/mesh/facing_parts.h>
@@ -12,6 +13,7 @@
 #include <cmath>
 #include <deque>
 #include <map>
+#include <optional>
 #include <tuple>
 #include <vector>
 
@@ -38,6 +40,9 @@ namespace Signorini
       /// How much of the first one the turn from own to new normals may change by as these spread: where a
       /// surface or the other side is curved they go no farther than they matter.
       double change = .5;
+      /// Distances from edges of both sides, in widths of the facet, that differ by what facets do from an
+      /// arc: rims of 20 and 24 chords are apart by .03.
+      double same_edge = .05;
       /// Cosine between turns of normals that are one: about edges that lie along each other.
       double along = .9;
       /// Differences of unit normals that are rounding.
@@ -381,9 +386,15 @@ namespace Signorini
             return;
           const Point<3> centre((Vector3(x[v]) + Vector3(x[a]) + Vector3(x[b])) / 3.);
           facets.push_back({n, centre - x[v]});
-          if (MetPartner one; partner(one, centre + EdgeRule().toward_vertex * (x[v] - centre), n,
-                                      std::sqrt(triangle_area(surface.mesh, t))))
-            met.emplace_back(one, n);
+          const Point<3> place(centre + EdgeRule().toward_vertex * (x[v] - centre));
+          const double   width = std::sqrt(triangle_area(surface.mesh, t));
+          if (MetPartner one; partner(one, place, n, width))
+            {
+              if (one.beyond_edge.norm() > 0. && std::abs(edges().find(t, place, width).distance -
+                                                          one.edge_distance) > EdgeRule().same_edge * width)
+                one.beyond_edge = Vector3();
+              met.emplace_back(one, n);
+            }
         });
         const auto beyond = surface.beyond.find(v);
         Corner     result(std::move(facets),
@@ -394,12 +405,21 @@ namespace Signorini
         return result;
       }
 
-      const ContactSurface          &surface;
-      const PartnerSight            &partner;
-      const std::vector<Point<3>>   &x;
-      const SurfaceTopology          topology;
-      std::map<unsigned int, Corner> corners;
-      std::deque<Turned>             front;
+      /// Made when they are first needed.
+      const BodyEdges &edges() const
+      {
+        if (!body_edges)
+          body_edges.emplace(surface);
+        return *body_edges;
+      }
+
+      const ContactSurface            &surface;
+      mutable std::optional<BodyEdges> body_edges;
+      const PartnerSight              &partner;
+      const std::vector<Point<3>>     &x;
+      const SurfaceTopology            topology;
+      std::map<unsigned int, Corner>   corners;
+      std::deque<Turned>               front;
     };
   } // namespace
 

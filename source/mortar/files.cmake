@@ -1,4 +1,5 @@
 signorini_add_layer(mortar
+  body_edges.cc
   contact_forces.cc
   contact_indicator.cc
   crease_normals.cc

@@ -156,7 +156,8 @@ namespace Signorini
           continue;
         double force = 0.;
         for (unsigned int a = 0; a < face.n_corners; ++a)
-          force += std::max(0., pressure[face.corners[a]]) * area[f] / face.n_corners;
+          if (!face.leaves(a))
+            force += std::max(0., pressure[face.corners[a]]) * area[f] / face.n_corners;
         sum += force * std::max(0., least[f]);
         load += force;
       }
@@ -212,8 +213,11 @@ namespace Signorini
 
   bool has_corner(const ContactSurface &surface, const unsigned int triangle, const std::vector<bool> &marked)
   {
-    const auto &corners = surface.faces[surface.triangle_face[triangle]].corners;
-    return std::any_of(corners.begin(), corners.end(), [&](const unsigned int v) { return marked[v]; });
+    const ContactSurface::Face &face = surface.faces[surface.triangle_face[triangle]];
+    for (unsigned int a = 0; a < face.n_corners; ++a)
+      if (marked[face.corners[a]] && !face.leaves(a))
+        return true;
+    return false;
   }
 
 

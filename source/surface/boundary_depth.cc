@@ -139,6 +139,30 @@ namespace Signorini
 
 
 
+  /// The largest of the triangles there.
+  double BoundaryDepth::doubt_at(const SurfaceFoot &foot) const
+  {
+    const auto  &corners = mesh.triangles[foot.triangle];
+    double       result  = doubts[foot.triangle];
+    unsigned int one     = 0;
+    for (unsigned int i = 0; i < 3; ++i)
+      if (foot.weights[i] > foot.weights[one])
+        one = i;
+    for (unsigned int k = topology.fan_start[corners[one]]; k < topology.fan_start[corners[one] + 1]; ++k)
+      {
+        const auto &other    = mesh.triangles[topology.fan[k]];
+        bool        contains = true;
+        for (unsigned int i = 0; i < 3; ++i)
+          contains = contains && (foot.weights[i] <= FacetDoubtRule().on_edge ||
+                                  std::find(other.begin(), other.end(), corners[i]) != other.end());
+        if (contains)
+          result = std::max(result, doubts[topology.fan[k]]);
+      }
+    return result;
+  }
+
+
+
   double BoundaryDepth::operator()(const Point<3> &p, const double reach) const
   {
     if (mesh.triangles.empty())
@@ -147,6 +171,6 @@ namespace Signorini
     const double      way  = p.distance(foot.point);
     if (way > reach || !((p - foot.point) * normal(foot) < 0.))
       return 0.;
-    return std::max(0., way - doubts[foot.triangle]);
+    return std::max(0., way - doubt_at(foot));
   }
 } // namespace Signorini

@@ -43,6 +43,15 @@ namespace Signorini
     }
   };
 
+  /// How a motion moves a connected part of a body.
+  struct PartMotion
+  {
+    /// Bodies::part().
+    unsigned int part = 0;
+    /// The displacement at x is at_origin + rotation × x.
+    Vector3 at_origin, rotation;
+  };
+
   /// A node that is held in one direction, because nothing else holds a motion (choose_point_holds()).
   struct PointHold
   {
@@ -51,7 +60,9 @@ namespace Signorini
     dealii::Point<3> position;
     /// The displacement in which it is held (length): that of the elastic body at rest in the mean.
     double value = 0.;
-    /// What it holds, in words, and whether that moves bodies without turning them.
+    /// What it holds, by part of bodies.
+    std::vector<PartMotion> moves;
+    /// The same in words, and whether that moves bodies without turning them.
     std::string motion;
     bool        is_translation = false;
     /// The displacement of that motion there, relative to its mean size on the contact surfaces.
@@ -104,6 +115,9 @@ namespace Signorini
 
     /// Holds one more point, from the next ConstrainedSpace on.
     void hold(PointHold hold);
+
+    /// Holds the i-th of these points at another displacement (PointHold::value).
+    void set_hold_value(const std::size_t i, const double value);
 
     /// By body a number that is the same for all that chains of pairs link to each other.
     std::vector<std::size_t> linked_bodies() const;

@@ -84,8 +84,6 @@ namespace Signorini
     std::vector<std::vector<double>> motions;
     /// Of one that slides: by how much normals change within a face where bodies touch (1).
     double turn = 0.;
-    /// What else nothing determines in the solution.
-    std::vector<std::vector<double>> undetermined;
   };
 
   /// The solution of the contact problem of one mesh. The same on all ranks but for displacement and stress.

@@ -21,8 +21,8 @@ namespace Signorini
     /// iteration would not end there either). So little that no solution shows how far bodies move: 6e-14 of
     /// a disc of tetrahedra that turns in a ring. What facets of round surfaces give.
     double not_opposed = 1e-22, next_to_nothing = 1e-10, hardly_opposed = 1e-4;
-    /// The mean square of a motion at contact nodes, relative to that of the motion that moves these most, up
-    /// to which bodies move as one there: 2e-7 of rings with an interference of 4e-4 of their radius.
+    /// The mean square of a combination of motions at contact nodes, each of which counts as one there, up to
+    /// which bodies move as one: 2e-7 of rings with an interference of 4e-4 of their radius.
     double common = 1e-3;
     /// How far from the active nodes, in widths of a face, the surfaces may touch in truth. A coarse shaft in
     /// a V-block turns by 3 degrees until two rows of nodes are active, half a face to either side of where

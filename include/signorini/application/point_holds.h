@@ -6,6 +6,7 @@
 
 #include <signorini/application/contact_solve.h>
 
+#include <optional>
 #include <vector>
 
 namespace Signorini
@@ -21,10 +22,23 @@ namespace Signorini
   /// contact, conditions and loads, where the motions are largest. Fewer than motions where there are no such
   /// nodes.
   /// @param drift with linearly independent motions
-  /// @param displacement of the solution that drifts; empty if there is none. Points are held where it would
-  /// be without these motions: at zero, bodies would move by what they are deformed by at the points
   std::vector<PointHold> choose_point_holds(const ContactModel &model, const Discretization &discretization,
-                                            const Drift &drift, const Vector &displacement);
+                                            const Drift &drift);
+
+  /// Collective. Holds the points of a model where a solution would be without the motions that they hold,
+  /// if any was held elsewhere by a part of the displacements that is seen. Returns that solution then, to
+  /// start from, for the problem has to be solved again. (A body that loads move turns about a point that
+  /// stays at zero, and moves by what it is deformed by there.)
+  std::optional<Vector> settle_point_holds(ContactModel &model, const Discretization &discretization,
+                                           const Vector &displacement);
+
+  /// Collective. The largest force that a point hold carries, as a share of what it may carry at most; points
+  /// of motions that contact opposes after all carry more where they are settled.
+  double strain_of_point_holds(const ContactModel &model, const Discretization &discretization,
+                               const ContactSolution &solution);
+
+  /// Up to which share of what they may carry points are settled.
+  constexpr double small_strain = .5;
 
   /// Goes on with a solution that drifts: warns. Errors: InputError where the loads have nothing against
   /// them.

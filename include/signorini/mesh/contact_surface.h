@@ -87,6 +87,9 @@ namespace Signorini
       return it != normals_of_rows.end() ? it->second : mesh.vertex_normals[vertex];
     }
 
+    /// The same of all vertices.
+    std::vector<Vector3> row_normals() const;
+
     /// By vertex, what else of the boundary of the body is around it: facets that do not belong to the
     /// surface, or were left out. Known of whole surfaces until they are mapped.
     std::map<unsigned int, std::vector<Facet>> beyond;

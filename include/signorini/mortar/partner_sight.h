@@ -20,8 +20,10 @@ namespace Signorini
     double distance = 0.;
     /// How far `normal` is from that of a facet that stands for a curved surface there.
     double doubt = 0.;
-    /// On an edge of the other side, as far as facets tell: the outward unit normal beyond it; else zero.
-    Vector3 beyond_edge = {};
+    /// Near an edge of the other side: the outward unit normal beyond it, else zero; and how far it is from
+    /// what is met (length).
+    Vector3 beyond_edge   = {};
+    double  edge_distance = 0.;
   };
 
   /// Looks from a place along the unit normal of a facet of a width (length) there; false if nothing is met

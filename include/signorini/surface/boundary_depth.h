@@ -27,6 +27,7 @@ namespace Signorini
   private:
     std::vector<double>  doubts_of_faces(const std::vector<unsigned int> &triangle_face) const;
     dealii::Tensor<1, 3> normal(const SurfaceFoot &foot) const;
+    double               doubt_at(const SurfaceFoot &foot) const;
 
     const SurfaceMesh     mesh;
     const SurfaceTopology topology;
