@@ -287,7 +287,7 @@ namespace Signorini
     for (const auto &[v, jump] : relative_displacements(pair, moved, mortar))
       if (active[v] != 0)
         {
-          const Vector3 &n = non.row_normal(v);
+          const Vector3 &n = non.mesh.vertex_normals[v];
           slip[v]          = jump - (jump * n) * n;
           result.length    = std::max(result.length, slip[v].norm());
         }

@@ -165,7 +165,7 @@ namespace Signorini
     {
       return surface.hanging[v].empty() &&
              (surface.vertex_fixed[v].all() ||
-              project_free(surface.vertex_fixed[v], surface.row_normal(v)).norm() < .5);
+              project_free(surface.vertex_fixed[v], surface.mesh.vertex_normals[v]).norm() < .5);
     }
 
     /// This rank's faces of a pair of which both sides are held.

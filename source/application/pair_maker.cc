@@ -229,6 +229,7 @@ namespace Signorini
       pair.mortar.name = pair.obstacle->description();
     else
       pair.mortar = take(1 - non);
+    pair.nonmortar.surface.take_row_normals();
     turn_edges_of(pair, may_turn[pair.nonmortar.body], journal);
     if (pair.obstacle)
       {

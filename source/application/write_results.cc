@@ -120,7 +120,7 @@ namespace Signorini
             field_of("traction", at_vertices(d, p, traction)),
             {"gap", 1, at_vertices(d, p, gap)},
             active,
-            field_of("normal", surface.row_normals()),
+            field_of("normal", surface.mesh.vertex_normals),
             field_of("mortar_image", vertex_images(pair))};
   }
 

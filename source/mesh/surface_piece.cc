@@ -38,12 +38,11 @@ namespace Signorini
 
 
 
-  std::vector<Vector3> ContactSurface::row_normals() const
+  void ContactSurface::take_row_normals()
   {
-    std::vector<Vector3> normals = mesh.vertex_normals;
     for (const auto &[v, normal] : normals_of_rows)
-      normals[v] = normal;
-    return normals;
+      mesh.vertex_normals[v] = normal;
+    normals_of_rows.clear();
   }
 
 
@@ -53,8 +52,7 @@ namespace Signorini
     std::size_t bytes = list_bytes(mesh.vertices) + list_bytes(mesh.triangles) +
                         list_bytes(mesh.vertex_normals) + list_bytes(faces) + list_bytes(triangle_face) +
                         list_bytes(vertex_node) + list_bytes(vertex_fixed) + list_bytes(hanging) +
-                        has_partner_normal.size() / 8 + true_shape.memory_consumption() +
-                        normals_of_rows.size() * sizeof(*normals_of_rows.begin());
+                        has_partner_normal.size() / 8 + true_shape.memory_consumption();
     for (const auto &parents : hanging)
       bytes += list_bytes(parents);
     if (origin)

@@ -463,8 +463,7 @@ namespace Signorini
         if (surface.hanging[v].empty() && !is_turned[v])
           {
             surface.mesh.vertex_normals[v] = normal;
-            surface.normals_of_rows.erase(v);
-            is_turned[v] = true;
+            is_turned[v]                   = true;
           }
     };
     turn(normals);
@@ -480,12 +479,11 @@ namespace Signorini
     std::vector<bool> is_turned(surface.mesh.vertices.size(), false);
     surface.has_partner_normal.resize(is_turned.size(), false);
     for (unsigned int v = 0; v < is_turned.size(); ++v)
-      if (surface.hanging[v].empty() && -plane_normal * surface.row_normal(v) >= EdgeRule().facing)
+      if (surface.hanging[v].empty() && -plane_normal * surface.mesh.vertex_normals[v] >= EdgeRule().facing)
         {
           surface.mesh.vertex_normals[v] = -plane_normal;
-          surface.normals_of_rows.erase(v);
-          surface.has_partner_normal[v] = true;
-          is_turned[v]                  = true;
+          surface.has_partner_normal[v]  = true;
+          is_turned[v]                   = true;
         }
     turn_hanging(surface, is_turned);
   }

@@ -231,11 +231,9 @@ namespace Signorini
       {
         if (prescribed_gap || turned > FitRule().turned * moments.area || !(moments.covered > 0.))
           return;
-        std::array<Vector3, 4>      normals;
-        const ContactSurface::Face &face = nonmortar.faces[moments.face];
+        std::array<Vector3, 4> normals;
         for (unsigned int a = 0; a < 4; ++a)
-          normals[a] = face.leaves_vertex(face.corners[a]) ? nonmortar.mesh.vertex_normals[face.corners[a]]
-                                                           : nonmortar.row_normal(face.corners[a]);
+          normals[a] = nonmortar.mesh.vertex_normals[nonmortar.faces[moments.face].corners[a]];
         const std::array<Vector3, 4> change =
             fit.correction(normals, moments.covered >= FitRule().covered * moments.area);
         for (unsigned int a = 0; a < 4; ++a)

@@ -150,7 +150,7 @@ namespace Signorini
 
   double MultiplierNodes::free_normal(const unsigned int v) const
   {
-    return project_free(surface.vertex_fixed[v], surface.row_normal(v)).norm();
+    return project_free(surface.vertex_fixed[v], surface.mesh.vertex_normals[v]).norm();
   }
 
 

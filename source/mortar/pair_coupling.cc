@@ -248,7 +248,7 @@ namespace Signorini
         result.coupling.rows.push_back(non.vertex_node[k]);
         result.coupling.weight.push_back(weight);
 
-        const Vector3 &normal = non.row_normal(k);
+        const Vector3 &normal = non.mesh.vertex_normals[k];
         result.normals.push_back(normal);
         result.gaps.push_back((prescribed_gap ? gap[0] : gap * normal) / weight);
         result.positions.push_back(non.mesh.vertices[k]);

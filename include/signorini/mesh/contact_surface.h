@@ -76,19 +76,12 @@ namespace Signorini
       /// As above.
       Vector3 normal, way;
     };
-    /// By vertex whose multiplier acts on one of its sides only (Face::left_corners): the normal of that. In
-    /// a groove that of the mesh, with which the surface is mapped, is between both.
+    /// By vertex in a groove on one side of which alone its multiplier would act (Face::left_corners): the
+    /// normal of that. On a mortar side the normal of the mesh is between both; a nonmortar side takes these.
     std::map<unsigned int, Vector3> normals_of_rows;
 
-    /// The unit normal along which the multiplier of a vertex acts.
-    const Vector3 &row_normal(const unsigned int vertex) const
-    {
-      const auto it = normals_of_rows.find(vertex);
-      return it != normals_of_rows.end() ? it->second : mesh.vertex_normals[vertex];
-    }
-
-    /// The same of all vertices.
-    std::vector<Vector3> row_normals() const;
+    /// Makes them the normals of the mesh.
+    void take_row_normals();
 
     /// By vertex, what else of the boundary of the body is around it: facets that do not belong to the
     /// surface, or were left out. Known of whole surfaces until they are mapped.

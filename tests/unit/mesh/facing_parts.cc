@@ -179,12 +179,15 @@ TEST(FacingParts, InGroovesWhatFacesNothingLeavesTheNormalToWhatDoes)
           const unsigned int v = ribs.faces[f].corners[i];
           EXPECT_LT(ribs.mesh.vertices[v].distance(Point<3>(-1., ribs.mesh.vertices[v][1], 1.)), 1e-14);
           EXPECT_LT(std::abs(area_vector(ribs, ribs.faces[f])[2]), .1) << "a wall";
-          EXPECT_LT((ribs.row_normal(v) - vector(0., 0., -1.)).norm(), 1e-14);
+          EXPECT_LT((ribs.normals_of_rows.at(v) - vector(0., 0., -1.)).norm(), 1e-14);
           EXPECT_LT(ribs.mesh.vertex_normals[v][0], -.1) << "between both";
           EXPECT_LT(ribs.mesh.vertex_normals[v][2], -.5) << "between both";
           ++n_left;
         }
   EXPECT_EQ(n_left, 8u);
+  ContactSurface nonmortar = ribs;
+  nonmortar.take_row_normals();
+  EXPECT_LT((normal_at(nonmortar, Point<3>(-1., .5, 1.)) - vector(0., 0., -1.)).norm(), 1e-14);
   EXPECT_LT((normal_at(ribs, Point<3>(-2., .5, 1.)) - vector(0., 0., -1.)).norm(), 1e-14);
 }
 
