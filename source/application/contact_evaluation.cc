@@ -275,7 +275,6 @@ namespace Signorini
   {
     ContactEvaluation result;
     result.equilibrium = evaluate_equilibrium(model, d, solution);
-    result.unseen      = find_unseen_penetrations(model, d, solution.displacement);
     for (unsigned int p = 0; p < d.pairs.size(); ++p)
       {
         PairResult &pair = result.pairs.emplace_back(evaluate_pair(d, solution, p));

@@ -28,6 +28,7 @@ signorini_add_layer(application COLD
   error_estimate.cc
   facing_sides.cc
   free_bodies.cc
+  hold_forces.cc
   interpolated_field.cc
   journal.cc
   linear_comparison.cc
@@ -52,6 +53,7 @@ signorini_add_layer(application COLD
   run_problem.cc
   run_state.cc
   side_choice.cc
+  smallest_displacement.cc
   ties.cc
   turning_faces.cc
   unseen_penetration.cc

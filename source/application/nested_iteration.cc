@@ -419,6 +419,7 @@ namespace Signorini
         const Discretization &d          = *last.discretization;
         Results              &results    = last.results;
         ContactEvaluation     evaluation = evaluate_contact(model, d, last.solution);
+        evaluation.unseen                = find_unseen_penetrations(model, d, last.solution.displacement);
         results.probes                   = evaluate_probes(model, d, last.solution, parameters.probes);
         results.certificate = certify(model, d, last.solution, evaluation, parameters.solve.solver.tolerance,
                                       results.converged);

@@ -231,6 +231,19 @@ namespace Signorini
           if (distances.widths > FacingRule().alike * least.widths + FacingRule().touching)
             far_in_grooves[v].insert(part);
       }
+    // A vertex that hangs on the edge of a larger face of the near side is a corner of the others alone.
+    for (unsigned int v = 0; v < surface.hanging.size(); ++v)
+      if (!surface.hanging[v].empty())
+        {
+          std::map<unsigned int, unsigned int> counts;
+          for (const auto &parent : surface.hanging[v])
+            if (const auto far = far_in_grooves.find(parent.first); far != far_in_grooves.end())
+              for (const unsigned int part : far->second)
+                ++counts[part];
+          for (const auto &[part, count] : counts)
+            if (count == surface.hanging[v].size())
+              far_in_grooves[v].insert(part);
+        }
   }
 
 

@@ -73,11 +73,11 @@ namespace Signorini
     std::vector<PressureRow> pressure, mortar_pressure;
     /// Reactions, and what is left of the forces.
     Equilibrium equilibrium;
-    /// Where bodies lie in each other and no pair looks.
+    /// Where bodies lie in each other and no pair looks (find_unseen_penetrations()).
     std::vector<UnseenPenetration> unseen;
   };
 
-  /// Collective. All of the above.
+  /// Collective. All of the above but `unseen`.
   ContactEvaluation evaluate_contact(const ContactModel &model, const Discretization &discretization,
                                      const ContactSolution &solution);
 
