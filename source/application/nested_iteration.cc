@@ -206,20 +206,19 @@ namespace Signorini
         return true;
       }
 
-      /// Solves once more with held points where they should be, unless they carry more there. Returns the
-      /// number of iterations more.
+      /// Solves once more with held points where they should be, unless they carry more there; from zero, for
+      /// motions that hardly anything opposes are the last to converge. Returns the number of iterations
+      /// more.
       unsigned int settle_holds(const SolveParameters &how_to)
       {
         const std::vector<PointHold> holds = model.point_holds();
         const auto at_rest = settle_point_holds(model, *last.discretization, last.solution.displacement);
         if (!at_rest)
           return 0;
-        const double      strain = strain_of_point_holds(model, *last.discretization, last.solution);
-        const NestedStart settled{*at_rest, last.solution.report.needed_interface_sweeps,
-                                  last.solution.report.needed_patches};
+        const double strain = strain_of_point_holds(model, *last.discretization, last.solution);
         renew_conditions();
         ContactSolution solution =
-            solve_contact(model, *last.discretization, coarser, &settled, how_to, journal);
+            solve_contact(model, *last.discretization, coarser, nullptr, how_to, journal);
         const unsigned int n_settled = solution.report.iterations;
         if (strain_of_point_holds(model, *last.discretization, solution) <= std::max(strain, small_strain))
           {
