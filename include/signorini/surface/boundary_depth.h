@@ -14,9 +14,11 @@ namespace Signorini
   class BoundaryDepth
   {
   public:
+    /// Builds a search tree.
     /// @param boundary its triangles; their normals point out of the body
     /// @param triangle_face by triangle, the face of the mesh that it is a part of
     BoundaryDepth(SurfaceMesh boundary, std::vector<unsigned int> triangle_face);
+    /// It searches in its own surface.
     BoundaryDepth(const BoundaryDepth &) = delete;
 
     /// The distance of a point in the body from the boundary, without what facets that stand for a curved
