@@ -314,6 +314,7 @@ namespace Signorini
                                text_of(pair.moment_balance) +
                                " of force times width; refine, or give Boundary shapes");
     }
+
     /// Where bodies lie in each other although a pair should keep them apart.
     void object_to_unseen(Certificate &c, const ContactModel &model,
                           const std::vector<UnseenPenetration> &unseen, const Scales &scales)

@@ -55,6 +55,31 @@ namespace Signorini
         result.push_back(std::max(rule.idle * of_sets[linked[b]], rule.nothing * largest));
       return result;
     }
+
+    /// What a point carries: its force; its moment, relative to contact force and size of the surfaces;
+    /// whether nothing presses its body.
+    struct HoldForce
+    {
+      double force, share;
+      bool   is_idle;
+    };
+
+    /// Collective. By point hold.
+    std::vector<HoldForce> forces_of_holds(const ContactModel &model, const Discretization &d,
+                                           const ContactSolution &solution)
+    {
+      const Equilibrium         equilibrium = evaluate_equilibrium(model, d, solution);
+      const std::vector<double> forces      = contact_forces(model, d, solution),
+                                idle        = idle_forces(model, forces);
+      std::vector<HoldForce> result;
+      for (const PointHold &hold : model.point_holds())
+        {
+          const double reaction = equilibrium.reactions[hold.condition].reaction.norm();
+          const double scale    = std::max({forces[hold.body], reaction, idle[hold.body]});
+          result.push_back({reaction, reaction * hold.arm / scale, forces[hold.body] <= idle[hold.body]});
+        }
+      return result;
+    }
   } // namespace
 
 
@@ -122,16 +147,10 @@ namespace Signorini
   {
     if (model.point_holds().empty())
       return 0.;
-    const Equilibrium         equilibrium = evaluate_equilibrium(model, d, solution);
-    const std::vector<double> forces      = contact_forces(model, d, solution),
-                              idle_force  = idle_forces(model, forces);
-    double result                         = 0.;
-    for (const PointHold &hold : model.point_holds())
-      {
-        const double reaction = equilibrium.reactions[hold.condition].reaction.norm();
-        const double force    = std::max({forces[hold.body], reaction, idle_force[hold.body]});
-        result                = std::max(result, reaction * hold.arm / force / hold.largest_share);
-      }
+    const std::vector<HoldForce> forces = forces_of_holds(model, d, solution);
+    double                       result = 0.;
+    for (std::size_t i = 0; i < forces.size(); ++i)
+      result = std::max(result, forces[i].share / model.point_holds()[i].largest_share);
     return result;
   }
 
@@ -142,17 +161,14 @@ namespace Signorini
   {
     if (model.point_holds().empty())
       return {};
-    const Equilibrium         equilibrium = evaluate_equilibrium(model, d, solution);
-    const std::vector<double> forces      = contact_forces(model, d, solution),
-                              idle_force  = idle_forces(model, forces);
+    const std::vector<HoldForce> forces = forces_of_holds(model, d, solution);
     // By body.
     std::map<unsigned int, HeldBody> held;
     std::set<std::string>            idle;
-    for (const PointHold &hold : model.point_holds())
+    for (std::size_t i = 0; i < forces.size(); ++i)
       {
-        const double reaction = equilibrium.reactions[hold.condition].reaction.norm();
-        const double force    = std::max({forces[hold.body], reaction, idle_force[hold.body]});
-        const double share    = reaction * hold.arm / force;
+        const PointHold &hold                  = model.point_holds()[i];
+        const auto &[reaction, share, is_idle] = forces[i];
         if (share > hold.largest_share)
           {
             std::ostringstream text;
@@ -164,7 +180,7 @@ namespace Signorini
                     "loads.";
             throw InputError(text.str());
           }
-        if (forces[hold.body] <= idle_force[hold.body])
+        if (is_idle)
           {
             idle.insert("body " + model.bodies().body_name(hold.body));
             continue;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include "motion_columns.h"
+
 #include <signorini/algebra/collectives.h>
-#include <signorini/algebra/dense_matrix.h>
 #include <signorini/algebra/gathered_lists.h>
 #include <signorini/application/free_bodies.h>
 #include <signorini/application/journal.h>
@@ -124,15 +125,6 @@ namespace Signorini
 
   namespace
   {
-    /// Coefficients of the free motions by column.
-    Eigen::MatrixXd as_columns(const std::vector<std::vector<double>> &motions)
-    {
-      Eigen::MatrixXd result(motions[0].size(), motions.size());
-      for (std::size_t k = 0; k < motions.size(); ++k)
-        result.col(k) = Eigen::Map<const Eigen::VectorXd>(motions[k].data(), result.rows());
-      return result;
-    }
-
     /// Collective. Whether the normal parts of a motion (its coefficients are pure numbers, and so are these)
     /// at active nodes are no more than what they change by within a face.
     /// @param turned what a rotation changes them by

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
-#include <signorini/algebra/dense_matrix.h>
+#include "motion_columns.h"
+
 #include <signorini/algebra/gathered_lists.h>
 #include <signorini/algebra/input_error.h>
 #include <signorini/application/contact_evaluation.h>
@@ -264,10 +265,7 @@ namespace Signorini
     /// An orthonormal basis of motions, by column.
     Eigen::MatrixXd orthonormal(const std::vector<std::vector<double>> &motions)
     {
-      Eigen::MatrixXd columns(motions[0].size(), motions.size());
-      for (std::size_t k = 0; k < motions.size(); ++k)
-        columns.col(k) = Eigen::Map<const Eigen::VectorXd>(motions[k].data(), columns.rows());
-      return orthonormal_columns(columns, columns.cols());
+      return orthonormal_columns(as_columns(motions), static_cast<Eigen::Index>(motions.size()));
     }
   } // namespace
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
-#include <signorini/algebra/dense_matrix.h>
+#include "motion_columns.h"
+
 #include <signorini/algebra/gathered_lists.h>
 #include <signorini/application/loose_motions.h>
 #include <signorini/application/nodal_sums.h>
@@ -18,15 +19,6 @@ namespace Signorini
 
   namespace
   {
-    /// Coefficients of the free motions.
-    Eigen::MatrixXd columns_of(const std::vector<std::vector<double>> &motions)
-    {
-      Eigen::MatrixXd result(motions[0].size(), motions.size());
-      for (std::size_t k = 0; k < motions.size(); ++k)
-        result.col(k) = Eigen::Map<const Eigen::VectorXd>(motions[k].data(), result.rows());
-      return result;
-    }
-
     /// The half-spaces that a motion of at most some length along some directions may leave, as rows (normal
     /// parts of a step along each direction) and what is left to the bounds.
     struct Reach
@@ -87,7 +79,7 @@ namespace Signorini
                              const HalfSpaces &spaces)
   {
     const auto                n            = static_cast<Eigen::Index>(motions.size());
-    const Eigen::MatrixXd     coefficients = columns_of(motions);
+    const Eigen::MatrixXd     coefficients = as_columns(motions);
     const std::vector<Vector> z            = combine(displacements, coefficients);
     // |u + Z x|^2 = |y + L^-1 Z^T u|^2 + const., where Z^T Z = L L^T, y = L^T x.
     Eigen::MatrixXd gram(n, n);

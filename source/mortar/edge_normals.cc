@@ -182,8 +182,8 @@ namespace Signorini
         });
       }
 
-      /// The same where it is not the one that the vertex has already, between these where edges meet; else
-      /// zero.
+      /// The normal of what is met where it is not the one that the vertex has already, between these where
+      /// edges meet; else zero.
       Vector3 normal() const
       {
         const Vector3 met         = met_normal();
