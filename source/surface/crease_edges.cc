@@ -35,8 +35,7 @@ namespace Signorini
             if (const double length = normals.back().norm(); length > 0.)
               normals.back() /= length;
           }
-        for (unsigned int e = 0; e < topology.edges.size(); ++e)
-          is_sharp[e] = !topology.is_border(e) && angle(e) > rule.sharp;
+        find_sharp_edges();
       }
 
       std::vector<bool> find() const
@@ -59,6 +58,47 @@ namespace Signorini
       }
 
     private:
+      /// Edges of large angles. Some of those that are not so large are chords of coarse fillets.
+      void find_sharp_edges()
+      {
+        for (unsigned int e = 0; e < topology.edges.size(); ++e)
+          is_sharp[e] = !topology.is_border(e) && angle(e) > rule.largest_chord;
+        std::vector<unsigned int> found;
+        for (unsigned int e = 0; e < topology.edges.size(); ++e)
+          if (!topology.is_border(e) && !is_sharp[e] && angle(e) > rule.sharp && !is_chord(e))
+            found.push_back(e);
+        for (const unsigned int e : found)
+          is_sharp[e] = true;
+      }
+
+      /// Whether the surface turns on in the same sense on either side of an edge, straight on.
+      bool is_chord(const unsigned int edge) const
+      {
+        const auto &sides = topology.edge_triangles[edge];
+        for (unsigned int i = 0; i < 2; ++i)
+          {
+            const std::optional<double> on = turn_beside(edge, sides[i]);
+            // Beyond an edge that sticks out normals lean away from it.
+            const double own =
+                std::copysign(angle(edge), -(normals[sides[1 - i]] * away_from(edge, sides[i])));
+            if (!on || *on / own < rule.least_of_chord)
+              return false;
+          }
+        return true;
+      }
+
+      /// Unit vector in a triangle across its edge, away from that.
+      Tensor<1, 3> away_from(const unsigned int edge, const unsigned int triangle) const
+      {
+        const auto &[p, q]   = topology.edges[edge];
+        const unsigned int i = topology.local_corner(triangle, p), j = topology.local_corner(triangle, q);
+        const Point<3> &a = mesh.vertices[p], &apex = mesh.vertices[topology.triangles[triangle][3 - i - j]];
+        const Tensor<1, 3> along = (mesh.vertices[q] - a) / mesh.vertices[q].distance(a);
+        Tensor<1, 3>       away  = apex - a;
+        away -= (away * along) * along;
+        return away.norm() > 0. ? away / away.norm() : away;
+      }
+
       /// Between the triangles at an edge (degrees).
       double angle(const unsigned int edge) const
       {
@@ -79,10 +119,12 @@ namespace Signorini
         const std::optional<double> one = turn_beside(edge, s), other = turn_beside(edge, t);
         if (!one && !other)
           return std::numeric_limits<double>::infinity();
-        return one && other ? std::max(*one, *other) : rule.one_sided * (one ? *one : *other);
+        return one && other ? std::max(std::abs(*one), std::abs(*other))
+                            : rule.one_sided * std::abs(one ? *one : *other);
       }
 
-      /// The same on the side of one of its triangles; nothing if that ends at a border or sharp edge.
+      /// The same on the side of one of its triangles, positive where normals lean away from the edge;
+      /// nothing if that ends at a border or sharp edge.
       std::optional<double> turn_beside(const unsigned int edge, const unsigned int triangle) const
       {
         const auto &[p, q]   = topology.edges[edge];
@@ -118,10 +160,11 @@ namespace Signorini
             if (!(way.norm() > 0.))
               break;
             way /= way.norm();
-            here   = next;
-            came   = exit->edge;
-            result = std::max(result.value_or(0.),
-                              degrees(std::asin(std::min(1., std::abs(normals[here] * away)))));
+            here              = next;
+            came              = exit->edge;
+            const double turn = degrees(std::asin(std::max(-1., std::min(1., normals[here] * away))));
+            if (!result || std::abs(turn) > std::abs(*result))
+              result = turn;
           }
         return result;
       }

@@ -14,9 +14,11 @@ signorini_add_layer(surface
   plane_graph_edges.cc
   plane_graph_layers.cc
   plane_graph_vertices.cc
+  smooth_pieces.cc
   smooth_surface.cc
   surface_feet.cc
   surface_mesh.cc
   triangle_polygons.cc
+  vertex_fits.cc
   vertex_quadric.cc
 )

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
-#include "vertex_quadric.h"
+#include "smooth_pieces.h"
+#include "vertex_fits.h"
 
 #include <signorini/surface/crease_edges.h>
 #include <signorini/surface/smooth_surface.h>
@@ -10,7 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <map>
 
 namespace Signorini
 {
@@ -18,104 +19,6 @@ namespace Signorini
 
   namespace
   {
-    /// What a corner x of a triangle adds to the normal at x: the direction of the sum over the triangles
-    /// around a vertex is exact on a sphere (Max: Weights for computing vertex normals from facet normals,
-    /// 1999).
-    Tensor<1, 3> corner_normal(const Point<3> &x, const Point<3> &next, const Point<3> &previous)
-    {
-      const Tensor<1, 3> a = next - x, b = previous - x;
-      const double       lengths = a.norm() * b.norm();
-      return lengths > 0. ? cross_product_3d(a, b) / lengths / lengths : Tensor<1, 3>();
-    }
-
-    /// A vertex as seen from one smooth piece: the corners of triangles there that no crease separates.
-    struct PieceVertex
-    {
-      unsigned int vertex = SurfaceTopology::none;
-      /// Triangles of the piece around the vertex.
-      std::vector<unsigned int> triangles;
-      /// Whether the triangles go all the way round.
-      bool is_closed = true;
-    };
-
-    /// The smooth pieces of a surface, vertex by vertex. Edges are numbered as in the topology.
-    class Pieces
-    {
-    public:
-      Pieces(const SurfaceTopology &topology, const std::vector<bool> &is_cut)
-        : of_corner(3 * topology.triangles.size())
-      {
-        std::iota(of_corner.begin(), of_corner.end(), 0u);
-        for (unsigned int e = 0; e < topology.edges.size(); ++e)
-          if (!is_cut[e])
-            for (const unsigned int v : topology.edges[e])
-              join(corner(topology, topology.edge_triangles[e][0], v),
-                   corner(topology, topology.edge_triangles[e][1], v));
-        std::vector<unsigned int> number(of_corner.size(), SurfaceTopology::none);
-        for (unsigned int c = 0; c < of_corner.size(); ++c)
-          {
-            const unsigned int r = root(c);
-            if (number[r] == SurfaceTopology::none)
-              {
-                number[r] = static_cast<unsigned int>(vertices.size());
-                vertices.emplace_back();
-                vertices.back().vertex = topology.triangles[c / 3][c % 3];
-              }
-            vertices[number[r]].triangles.push_back(c / 3);
-          }
-        std::vector<unsigned int> piece_vertex;
-        for (unsigned int c = 0; c < of_corner.size(); ++c)
-          piece_vertex.push_back(number[root(c)]);
-        of_corner = std::move(piece_vertex);
-        for (unsigned int t = 0; t < topology.triangles.size(); ++t)
-          for (unsigned int i = 0; i < 3; ++i)
-            if (is_cut[topology.triangle_edges[t][i]])
-              for (const unsigned int k : {i, (i + 1) % 3})
-                vertices[of_corner[3 * t + k]].is_closed = false;
-      }
-
-      /// The piece vertices in up to `n_rings` rings of triangles around one, without itself.
-      void neighbours(std::vector<unsigned int> &found, const unsigned int centre,
-                      const unsigned int n_rings) const
-      {
-        found            = {centre};
-        std::size_t next = 0;
-        for (unsigned int ring = 0; ring < n_rings; ++ring)
-          for (const std::size_t end = found.size(); next < end; ++next)
-            for (const unsigned int t : vertices[found[next]].triangles)
-              for (unsigned int i = 0; i < 3; ++i)
-                if (const unsigned int p = of_corner[3 * t + i];
-                    std::find(found.begin(), found.end(), p) == found.end())
-                  found.push_back(p);
-        found.erase(found.begin());
-      }
-
-      std::vector<PieceVertex> vertices;
-      /// Piece vertex of corner i of triangle t: of_corner[3 t + i].
-      std::vector<unsigned int> of_corner;
-
-    private:
-      static unsigned int corner(const SurfaceTopology &topology, const unsigned int t, const unsigned int v)
-      {
-        return 3 * t + topology.local_corner(t, v);
-      }
-
-      unsigned int root(unsigned int c)
-      {
-        while (of_corner[c] != c)
-          c = of_corner[c] = of_corner[of_corner[c]];
-        return c;
-      }
-
-      void join(const unsigned int a, const unsigned int b)
-      {
-        const unsigned int ra = root(a), rb = root(b);
-        of_corner[std::max(ra, rb)] = std::min(ra, rb);
-      }
-    };
-
-
-
     /// Makes the patches of a surface.
     class PatchMaker
     {
@@ -150,31 +53,20 @@ namespace Signorini
       {
         cut_off_flat_parts();
         find_flat_neighbours();
-        const Pieces pieces(topology, is_cut);
-        enum State : unsigned char
-        {
-          unknown,
-          fitted,
-          failed
-        };
-        std::vector<Quadric> quadrics(pieces.vertices.size());
-        std::vector<State>   state(quadrics.size(), unknown);
+        const SmoothPieces pieces(topology, is_cut);
+        VertexFits         fits(mesh, pieces, rule);
         patches.resize(mesh.triangles.size());
         for (unsigned int t = 0; t < mesh.triangles.size(); ++t)
           if (wanted[t])
             {
-              std::array<const Quadric *, 3> corners;
-              bool                           all_fitted = !is_flat[t];
+              patches[t].is_flat = is_flat[t];
+              patches[t].normals = {{normals[t], normals[t], normals[t]}};
+              if (is_flat[t])
+                continue;
+              TriangleFit fit = fits.at_corners(t);
               for (unsigned int i = 0; i < 3; ++i)
-                {
-                  const unsigned int p = pieces.of_corner[3 * t + i];
-                  if (state[p] == unknown)
-                    state[p] = is_flat[t] ? (set_frame(quadrics[p], normals[t]), fitted)
-                                          : (fit_vertex(quadrics[p], pieces, p) ? fitted : failed);
-                  corners[i] = &quadrics[p];
-                  all_fitted = all_fitted && state[p] == fitted;
-                }
-              finish(patches[t], t, corners, all_fitted);
+                touch_flat_part(fit.corners[i], pieces.vertices[pieces.of_corner[3 * t + i]]);
+              finish(patches[t], t, fit);
             }
       }
 
@@ -183,7 +75,7 @@ namespace Signorini
       /// all of two rings at a border (one cell of a cylinder alone is as flat as a strip along its axis).
       void cut_off_flat_parts()
       {
-        const Pieces              pieces(topology, is_cut);
+        const SmoothPieces        pieces(topology, is_cut);
         std::vector<unsigned int> near;
         for (unsigned int p = 0; p < pieces.vertices.size(); ++p)
           {
@@ -269,54 +161,15 @@ namespace Signorini
           turn_frame(quadric, nearest);
       }
 
-      bool fit_vertex(Quadric &quadric, const Pieces &pieces, const unsigned int p) const
+      void finish(SmoothSurface::Patch &patch, const unsigned int t, const TriangleFit &fit) const
       {
-        const PieceVertex &centre = pieces.vertices[p];
-        Tensor<1, 3>       mean;
-        for (const unsigned int t : centre.triangles)
-          {
-            const unsigned int i = topology.local_corner(t, centre.vertex);
-            const auto        &v = mesh.triangles[t];
-            mean += corner_normal(mesh.vertices[v[i]], mesh.vertices[v[(i + 1) % 3]],
-                                  mesh.vertices[v[(i + 2) % 3]]);
-          }
-        set_frame(quadric, mean.norm() > 0. ? mean : normals[centre.triangles[0]]);
-        std::vector<unsigned int> near;
-        std::vector<Tensor<1, 3>> points;
-        // A corner of the surface may need one more ring.
-        for (unsigned int n_rings = 2; n_rings <= 3; ++n_rings)
-          {
-            pieces.neighbours(near, p, n_rings);
-            points.clear();
-            for (const unsigned int q : near)
-              if (const Tensor<1, 3> x =
-                      mesh.vertices[pieces.vertices[q].vertex] - mesh.vertices[centre.vertex];
-                  x.norm() > 0.)
-                points.push_back(x);
-            Quadric found = quadric;
-            if (fit(found, points))
-              {
-                quadric = found;
-                touch_flat_part(quadric, centre);
-                return true;
-              }
-          }
-        return false;
-      }
-
-      void finish(SmoothSurface::Patch &patch, const unsigned int t,
-                  const std::array<const Quadric *, 3> &corners, const bool all_fitted) const
-      {
-        patch.is_flat = is_flat[t];
         for (unsigned int i = 0; i < 3; ++i)
-          patch.normals[i] = patch.is_flat ? normals[t] : corners[i]->normal;
-        if (patch.is_flat)
-          return;
+          patch.normals[i] = fit.corners[i].normal;
         double curvature = 0., longest = 0., residual = 0.;
         for (unsigned int i = 0; i < 3; ++i)
           {
             // Heights of the middle of an edge: from the normals at its ends and from either curvature.
-            const Quadric     &a = *corners[i], &b = *corners[(i + 1) % 3];
+            const Quadric     &a = fit.corners[i], &b = fit.corners[(i + 1) % 3];
             const Tensor<1, 3> edge =
                 mesh.vertices[mesh.triangles[t][(i + 1) % 3]] - mesh.vertices[mesh.triangles[t][i]];
             const double by_normals = edge * (b.normal - a.normal) / 8., by_a = -a.along(edge) / 8.,
@@ -329,10 +182,10 @@ namespace Signorini
             residual  = std::max(residual, a.residual);
           }
         const double typical = curvature * longest * longest / 8.;
-        patch.is_smooth      = all_fitted && residual <= rule.largest_residual &&
+        patch.is_smooth      = fit.is_complete && residual <= rule.largest_residual &&
                           patch.doubt <= rule.largest_disagreement * typical;
         patch.doubt = std::max(patch.doubt, residual * typical);
-        if (!all_fitted)
+        if (!fit.is_complete)
           patch.doubt = std::max(patch.doubt, patch.height);
       }
 

@@ -33,8 +33,12 @@ namespace Signorini
 
   void turn_frame(Quadric &q, const Tensor<1, 3> &normal)
   {
-    q.normal = normal / normal.norm();
-    q.u -= (q.u * q.normal) * q.normal;
+    const Tensor<1, 3> to = normal / normal.norm(), both = q.normal + to;
+    // The rotation that takes the one to the other.
+    if (const double cosine = q.normal * to; cosine > -1. + 1e-12)
+      q.u -= (q.u * to) / (1. + cosine) * both;
+    q.normal = to;
+    q.u -= (q.u * to) * to;
     q.u /= q.u.norm();
     q.v = cross_product_3d(q.normal, q.u);
   }
@@ -81,6 +85,14 @@ namespace Signorini
         x -= along(x) / curvature * open;
       return true;
     }
+
+    /// The larger principal curvature is linear in c, d, e as long as its direction stays.
+    std::array<double, 3> share_in_curvature(const Quadric &q)
+    {
+      const double half = .5 * (q.c - q.e), size = std::hypot(half, q.d), sign = q.c + q.e < 0. ? -1. : 1.;
+      const double cosine = size > 0. ? sign * half / size : 1., sine = size > 0. ? sign * q.d / size : 0.;
+      return {{.5 * (1. + cosine), sine, .5 * (1. - cosine)}};
+    }
   } // namespace
 
 
@@ -96,7 +108,9 @@ namespace Signorini
       size = std::max(size, x.norm());
     Eigen::Matrix<double, Eigen::Dynamic, 5> a(n, 5);
     Eigen::VectorXd                          b(n);
-    double                                   curvature = 0., last = std::numeric_limits<double>::max();
+    double curvature = 0., bend_before = 0., last = std::numeric_limits<double>::max();
+    // The share of c, d, e in the curvature k: along its direction. Nothing where k has been cut.
+    std::array<double, 3> share = {{0., 0., 0.}};
     for (unsigned int step = 0; step < n_steps; ++step)
       {
         double highest = 0.;
@@ -106,9 +120,10 @@ namespace Signorini
             const double       s = x * q.u, t = x * q.v, z = x * q.normal;
             highest             = std::max(highest, std::abs(z));
             const double weight = 1. / x.norm_square();
-            a.row(i) << s, t, .5 * s * s, s * t, .5 * t * t;
+            const double h      = .5 * z * z;
+            a.row(i) << s, t, .5 * s * s + share[0] * h, s * t + share[1] * h, .5 * t * t + share[2] * h;
             a.row(i) *= weight;
-            b[i] = weight * (z - .5 * curvature * z * z);
+            b[i] = weight * (z - curvature * h);
           }
         Eigen::Matrix<double, 5, 1> x;
         if (!solve_for_quadric(x, a, b))
@@ -118,13 +133,16 @@ namespace Signorini
         q.e                  = x[4];
         const double turn    = std::hypot(x[0], x[1]);
         const double heights = (b - a.leftCols<2>() * x.head<2>()).norm();
-        q.residual           = heights > 0. ? (b - a * x).norm() / heights : 0.;
+        q.left_over          = (b - a * x).norm();
+        q.residual           = heights > 0. ? q.left_over / heights : 0.;
         turn_frame(q, q.normal - x[0] * q.u - x[1] * q.v);
-        // Where the surface is wild k may do harm: a hemisphere is as far as it can reach.
-        const double limit  = 1. / highest;
-        const double bend   = std::max(-limit, std::min(limit, q.largest_curvature()));
-        const double change = std::max(turn, std::abs(bend - curvature));
-        curvature           = bend;
+        // Where the surface is wild k may do harm: beyond three quarters of a sphere it reaches nothing.
+        const double limit = 1.5 / highest, k = q.largest_curvature();
+        const double bend   = std::max(-limit, std::min(limit, k));
+        const double change = std::max(turn, std::abs(bend - bend_before));
+        bend_before         = bend;
+        curvature           = bend == k ? 0. : bend;
+        share               = bend == k ? share_in_curvature(q) : std::array<double, 3>{{0., 0., 0.}};
         if (change < 1e-13 || (step > 2 && change > .7 * last))
           break;
         last = change;
@@ -132,6 +150,38 @@ namespace Signorini
     q.c /= size;
     q.d /= size;
     q.e /= size;
+    q.n_checks = static_cast<unsigned int>(n - 5);
+    q.left_over *= 2. / (size * std::sqrt(std::max(1., static_cast<double>(q.n_checks))));
+    return true;
+  }
+
+
+
+  bool fit_sphere(Quadric &q, const std::vector<Tensor<1, 3>> &neighbours)
+  {
+    if (neighbours.size() < 3)
+      return false;
+    // |x|² = 2 x·m at all points, with the vector m to the centre.
+    Eigen::Matrix<double, Eigen::Dynamic, 3> a(neighbours.size(), 3);
+    for (std::size_t i = 0; i < neighbours.size(); ++i)
+      for (unsigned int k = 0; k < 3; ++k)
+        a(i, k) = 2. * neighbours[i][k] / neighbours[i].norm_square();
+    const Eigen::VectorXd                                          ones = Eigen::VectorXd::Ones(a.rows());
+    const Eigen::ColPivHouseholderQR<Eigen::Matrix<double, -1, 3>> qr(a);
+    if (qr.rank() < 3)
+      return false;
+    const Eigen::Vector3d m      = qr.solve(ones);
+    const double          radius = m.norm();
+    if (!(radius > 0.))
+      return false;
+    const Tensor<1, 3> to_centre({m[0], m[1], m[2]});
+    const double       sign = to_centre * q.normal > 0. ? 1. : -1.;
+    set_frame(q, sign * to_centre);
+    q.c = q.e   = sign / radius;
+    q.d         = 0.;
+    q.residual  = (ones - a * m).norm() / ones.norm();
+    q.left_over = q.residual / radius;
+    q.n_checks  = static_cast<unsigned int>(neighbours.size() - 3);
     return true;
   }
 } // namespace Signorini

@@ -20,6 +20,10 @@ namespace Signorini
     double               c = 0., d = 0., e = 0.;
     /// Root mean square of what the fit leaves over that of the heights of the neighbours.
     double residual = 0.;
+    /// The former as a curvature (1/length): where the surface is nearly flat the ratio says little.
+    double left_over = 0.;
+    /// How many more points than unknowns there were.
+    unsigned int n_checks = 0;
 
     /// The principal curvature of larger magnitude.
     double largest_curvature() const
@@ -34,6 +38,14 @@ namespace Signorini
       const double s = x * u, t = x * v, z = x * normal;
       return c * s * s + 2. * d * s * t + e * t * t + largest_curvature() * z * z;
     }
+
+    /// Its unit normal where it comes nearest to the place with this vector from the vertex.
+    dealii::Tensor<1, 3> normal_at(const dealii::Tensor<1, 3> &x) const
+    {
+      const double               s = x * u, t = x * v, k = largest_curvature() * (x * normal);
+      const dealii::Tensor<1, 3> gradient = (1. - k) * normal - (c * s + d * t) * u - (d * s + e * t) * v;
+      return gradient.norm() > 0. ? gradient / gradient.norm() : normal;
+    }
   };
 
   /// With any axes across a normal of any length.
@@ -45,6 +57,10 @@ namespace Signorini
   /// Fits a quadratic surface to the vectors from a vertex to its neighbours, with weights 1/distance², and
   /// turns the frame to the normal found until it rests. Returns false if they do not determine one.
   bool fit(Quadric &q, const std::vector<dealii::Tensor<1, 3>> &neighbours);
+
+  /// The sphere through a vertex that comes nearest to its neighbours, weighted in the same way: it needs
+  /// fewer. Returns false if they do not determine one.
+  bool fit_sphere(Quadric &q, const std::vector<dealii::Tensor<1, 3>> &neighbours);
 } // namespace Signorini
 
 #endif

@@ -5,6 +5,7 @@ import os
 import tempfile
 
 import verification_cases as v
+from free_body_cases import make_mesh
 from harness import TOP, check, near, read_pressure
 from verification_cases import PRESCRIBED_GAP, PRESCRIBED_INTERFERENCE, INTERFERENCE, tetrahedra_in
 
@@ -191,3 +192,44 @@ def missed_contact(p):
         for settings in (['Pair c/Nonmortar=second'], ['Refinement/Initial global levels=2']):
             pair = p.solve(path, *settings)['pairs'][0]
             check(pair['load'] > 8e4 and pair['missed_penetration'] == 0, f'{settings}: {pair}')
+
+
+FILLETS = '''set Bodies        = block, pocket
+set Contact pairs = seat
+subsection Body block
+  set Mesh          = fillets.msh
+  set Volumes       = block
+  set Young modulus = 2000
+  set Forces        = top: (300, 0, -500)
+end
+subsection Body pocket
+  set Mesh          = fillets.msh
+  set Volumes       = pocket
+  set Young modulus = 3000
+  set Dirichlet     = base: (0, 0, 0)
+end
+subsection Pair seat
+  set First  = block: skin
+  set Second = pocket: inner
+end
+'''
+
+
+def fillets(p):
+    """A block with rounded edges and corners in a pocket with the same rounding, two and three faces around each: the gap is that of the roundings, where flat
+    parts, cylinders and spheres go over into each other, and either side as nonmortar finds the same."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, 'fillets.prm')
+        with open(path, 'w') as f:
+            f.write(FILLETS)
+        for size in (2, 1.3):
+            make_mesh(os.path.join(TOP, 'tests', 'application', 'fillets.geo'), os.path.join(folder, 'fillets.msh'), '-setnumber', 'h', str(size))
+            loads = []
+            for side in ('first', 'second'):
+                s = p.solve(path, f'Pair seat/Nonmortar={side}')
+                pair = s['pairs'][0]
+                near(pair['force'][0], -300. if side == 'first' else 300., 1e-6, 'force along x')
+                near(abs(pair['force'][2]), 500., 1e-6, 'force along z')
+                check(pair['gap_doubt'] < 1e-5 and pair['initial_penetration'] < 1e-5, f'{size}, {side}: {pair}')
+                loads.append(pair['load'])
+            near(loads[0], loads[1], .01, f'{size}: load by either side')

@@ -21,6 +21,20 @@ namespace Signorini
     /// facets (tests/unit/surface/smooth_surface.cc); on the bones of a knee the residual is 0.11 (median).
     double largest_residual     = .1;
     double largest_disagreement = .35;
+    /// Residual up to which a fit is the surface itself: vertices of spheres and cylinders from CAD lie on
+    /// them to 1e-5 of the heights of coarse facets and better. Such fits hold as far as vertices lie on
+    /// them.
+    double exact = 1e-3;
+    /// A triangle takes the fit of a vertex nearby that leaves over much less than those at its corners: this
+    /// part, or if these are not so bad (their residual) or it is exact, that one. Blocks whose edges and
+    /// corners are rounded with 2 to 11 faces: normals wrong by 28 to 4 degrees at the seams without it, to
+    /// rounding with it. Cylinders with a torus at the rim, 2 to 8 faces around: errors of the surface 6 to
+    /// 25 times smaller; .1 in place of .25 leaves a fifth of the coarse ones out. Fits to a cubic graph stay
+    /// the best there.
+    double borrows = .05, much_better = .25, far_better = .02;
+    /// How many points more than unknowns there must be: at corners of a surface fits with two are exact by
+    /// chance.
+    unsigned int least_checks = 3;
     /// Triangles that lie in one plane up to this share of their size are flat: noise of files with eight
     /// digits is none.
     double flat = 1e-6;

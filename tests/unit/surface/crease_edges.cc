@@ -67,6 +67,27 @@ TEST(CreaseEdges, ConeOnCylinder)
 
 
 
+// Angles of 45 degrees: chamfers of one cell and of more are creases, an octagon of one cell a side is a
+// circle.
+TEST(CreaseEdges, ChordsOfCoarseFillets)
+{
+  constexpr unsigned int n = 12;
+  for (const unsigned int n_cells : {1, 3})
+    {
+      const SurfaceMesh chamfer = bent(n, 0., [&](const double s, const double t) {
+        const double row = n * t - 4., way = std::max(0., std::min(1., row / n_cells));
+        return Point<3>(way + std::min(0., row), s, -way - std::max(0., row - n_cells));
+      });
+      EXPECT_EQ(n_creases(chamfer), 2 * n) << n_cells;
+    }
+  const SurfaceMesh octagon = bent(8, 0., [](const double s, const double t) {
+    return Point<3>(std::cos(2. * M_PI * t), s, std::sin(2. * M_PI * t));
+  });
+  EXPECT_EQ(n_creases(octagon), 16u);
+}
+
+
+
 TEST(CreaseEdges, NoneOnRoundSurfaces)
 {
   const auto sphere = [](const double s, const double t) {

@@ -126,6 +126,53 @@ TEST(SmoothSurface, StripsOfOneCell)
 
 
 
+// Where a cylinder goes on as a sphere, or as two planes, curvature jumps: a surface fitted to both is
+// neither.
+TEST(SmoothSurface, IsExactOnBothSidesOfSeams)
+{
+  // A quarter of a capsule, without its pole.
+  for (const unsigned int n : {6, 8, 16})
+    {
+      const SmoothSurface surface = smooth(bent(n, 0., [](const double s, const double t) {
+        const double angle = .5 * M_PI * s, height = 2. * t - 1., latitude = 1.3 * std::max(0., height);
+        return Point<3>(std::cos(latitude) * std::cos(angle), std::cos(latitude) * std::sin(angle),
+                        std::min(0., height) + std::sin(latitude));
+      }));
+      EXPECT_EQ(n_smooth(surface), surface.mesh().triangles.size()) << n;
+      const auto capsule = [](const Point<3> &x) { return std::hypot(x[0], x[1], std::max(0., x[2])) - 1.; };
+      EXPECT_LT(heights(surface, capsule)[1], 1e-10) << n;
+      for (unsigned int t = 0; t < surface.mesh().triangles.size(); ++t)
+        EXPECT_LT(surface.patch(t).doubt, 1e-4) << n;
+    }
+}
+
+
+
+// A right angle with a fillet of two faces or more: edges of 45 degrees are chords of it.
+TEST(SmoothSurface, FilletsOfFewFaces)
+{
+  for (const unsigned int n_chords : {2, 3, 4})
+    {
+      constexpr unsigned int n       = 12;
+      const SmoothSurface    surface = smooth(bent(n, 0., [&](const double s, const double t) {
+        // Rows of vertices: n_chords over the fillet, the others on the planes before and after it.
+        const double row = n * t - 4., angle = .5 * M_PI * std::max(0., std::min(1., row / n_chords));
+        return Point<3>(std::sin(angle) + std::min(0., row), 2. * s,
+                        std::cos(angle) - std::max(0., row - n_chords));
+      }));
+      for (const bool crease : surface.creases())
+        EXPECT_FALSE(crease);
+      const auto rounded = [](const Point<3> &x) {
+        return x[0] < 0. ? x[2] - 1. : x[2] < 0. ? x[0] - 1. : std::hypot(x[0], x[2]) - 1.;
+      };
+      EXPECT_LT(heights(surface, rounded)[1], 1e-10) << n_chords;
+      for (unsigned int t = 0; t < surface.mesh().triangles.size(); ++t)
+        EXPECT_LT(surface.patch(t).doubt, 1e-10) << n_chords;
+    }
+}
+
+
+
 // A fillet of few faces beside the flat part that it touches does not dip into it.
 TEST(SmoothSurface, FilletsTouchFlatParts)
 {

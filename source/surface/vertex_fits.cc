@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include "vertex_fits.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace Signorini
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// What a corner x of a triangle adds to the normal at x: the direction of the sum over the triangles
+    /// around a vertex is exact on a sphere (Max: Weights for computing vertex normals from facet normals,
+    /// 1999).
+    Tensor<1, 3> corner_normal(const Point<3> &x, const Point<3> &next, const Point<3> &previous)
+    {
+      const Tensor<1, 3> a = next - x, b = previous - x;
+      const double       lengths = a.norm() * b.norm();
+      return lengths > 0. ? cross_product_3d(a, b) / lengths / lengths : Tensor<1, 3>();
+    }
+  } // namespace
+
+
+
+  VertexFits::VertexFits(const SurfaceMesh &mesh, const SmoothPieces &pieces, const SmoothingRule &rule)
+    : mesh(mesh)
+    , pieces(pieces)
+    , rule(rule)
+    , quadrics(pieces.vertices.size())
+    , was_tried(quadrics.size(), false)
+    , has_fit(quadrics.size(), false)
+    , lenders(mesh.triangles.size(), unknown)
+  {
+  }
+
+
+
+  TriangleFit VertexFits::at_corners(const unsigned int triangle)
+  {
+    TriangleFit result;
+    for (unsigned int i = 0; i < 3; ++i)
+      {
+        const unsigned int p = pieces.of_corner[3 * triangle + i];
+        result.corners[i]    = taken_at(triangle, i);
+        result.is_complete =
+            result.is_complete && (lender(triangle) != SurfaceTopology::none || is_fitted(p));
+        Tensor<1, 3> mean;
+        bool         is_own = true;
+        for (const unsigned int t : pieces.vertices[p].triangles)
+          {
+            const unsigned int corner = pieces.corner_of(t, p);
+            const Quadric      taken  = taken_at(t, corner);
+            const double       weight = 1. / (rule.exact + taken.residual);
+            mean += weight * weight * taken.normal;
+            is_own = is_own && lender(t) == SurfaceTopology::none;
+          }
+        if (!is_own)
+          turn_frame(result.corners[i], mean);
+      }
+    return result;
+  }
+
+
+
+  Quadric VertexFits::taken_at(const unsigned int triangle, const unsigned int corner)
+  {
+    const unsigned int from = lender(triangle);
+    if (from == SurfaceTopology::none)
+      return own_fit(pieces.of_corner[3 * triangle + corner]);
+    Quadric result = own_fit(from);
+    turn_frame(result, result.normal_at(mesh.vertices[mesh.triangles[triangle][corner]] -
+                                        mesh.vertices[pieces.vertices[from].vertex]));
+    return result;
+  }
+
+
+
+  unsigned int VertexFits::lender(const unsigned int triangle)
+  {
+    if (lenders[triangle] == unknown)
+      lenders[triangle] = find_lender(triangle);
+    return lenders[triangle];
+  }
+
+
+
+  unsigned int VertexFits::find_lender(const unsigned int triangle)
+  {
+    double own = 0., left_over = 0.;
+    for (unsigned int i = 0; i < 3; ++i)
+      {
+        const unsigned int p = pieces.of_corner[3 * triangle + i];
+        own                  = std::max(own, is_fitted(p) ? own_fit(p).residual : 1.);
+        left_over =
+            std::max(left_over, is_fitted(p) ? own_fit(p).left_over : std::numeric_limits<double>::max());
+      }
+    unsigned int result = SurfaceTopology::none;
+    if (own <= rule.exact)
+      return result;
+    double                    least = std::numeric_limits<double>::max();
+    std::vector<unsigned int> one, two;
+    for (unsigned int i = 0; i < 3; ++i)
+      {
+        const unsigned int p = pieces.of_corner[3 * triangle + i];
+        pieces.neighbours(one, p, 1);
+        pieces.neighbours(two, p, 2);
+        two.push_back(p);
+        for (const unsigned int q : two)
+          {
+            const Quadric &quadric  = own_fit(q);
+            const bool     is_exact = quadric.residual <= rule.exact;
+            const double   part     = is_exact || own < rule.borrows ? rule.far_better : rule.much_better;
+            if (!has_fit[q] || quadric.left_over >= std::min(least, part * left_over))
+              continue;
+            // Fits that are not exact hold where they have seen the triangle.
+            const bool is_near = q == p || std::find(one.begin(), one.end(), q) != one.end();
+            if (quadric.n_checks >= rule.least_checks && (is_exact ? lies_on(triangle, q) : is_near))
+              {
+                least  = quadric.left_over;
+                result = q;
+              }
+          }
+      }
+    return result;
+  }
+
+
+
+  bool VertexFits::lies_on(const unsigned int triangle, const unsigned int piece_vertex)
+  {
+    const Quadric  &quadric = own_fit(piece_vertex);
+    const Point<3> &centre  = mesh.vertices[pieces.vertices[piece_vertex].vertex];
+    double          most = 0., size = 0.;
+    for (const unsigned int v : mesh.triangles[triangle])
+      {
+        const Tensor<1, 3> x = mesh.vertices[v] - centre;
+        most                 = std::max(most, std::abs(x * quadric.normal - .5 * quadric.along(x)));
+        size                 = std::max(size, .5 * std::abs(quadric.largest_curvature()) * x.norm_square());
+      }
+    return most <= 2. * rule.exact * size;
+  }
+
+
+
+  const Quadric &VertexFits::own_fit(const unsigned int piece_vertex)
+  {
+    if (!was_tried[piece_vertex])
+      {
+        has_fit[piece_vertex]   = fit_vertex(quadrics[piece_vertex], piece_vertex);
+        was_tried[piece_vertex] = true;
+      }
+    return quadrics[piece_vertex];
+  }
+
+
+
+  bool VertexFits::is_fitted(const unsigned int piece_vertex)
+  {
+    own_fit(piece_vertex);
+    return has_fit[piece_vertex];
+  }
+
+
+
+  bool VertexFits::fit_vertex(Quadric &quadric, const unsigned int piece_vertex)
+  {
+    const PieceVertex &centre = pieces.vertices[piece_vertex];
+    Tensor<1, 3>       mean, some;
+    for (const unsigned int t : centre.triangles)
+      {
+        const unsigned int i = pieces.corner_of(t, piece_vertex);
+        const auto        &v = mesh.triangles[t];
+        const Point<3>    &x = mesh.vertices[v[i]], &next = mesh.vertices[v[(i + 1) % 3]],
+                       &previous = mesh.vertices[v[(i + 2) % 3]];
+        mean += corner_normal(x, next, previous);
+        if (some.norm() == 0.)
+          some = cross_product_3d(next - x, previous - x);
+      }
+    if (mean.norm() > 0. || some.norm() > 0.)
+      set_frame(quadric, mean.norm() > 0. ? mean : some);
+    std::vector<Tensor<1, 3>> points;
+    // A corner of the surface may need one more ring.
+    for (unsigned int n_rings = 2; n_rings <= 3; ++n_rings)
+      {
+        pieces.neighbours(near, piece_vertex, n_rings);
+        points.clear();
+        for (const unsigned int q : near)
+          if (const Tensor<1, 3> x = mesh.vertices[pieces.vertices[q].vertex] - mesh.vertices[centre.vertex];
+              x.norm() > 0.)
+            points.push_back(x);
+        Quadric found = quadric;
+        if (!fit(found, points))
+          continue;
+        quadric = found;
+        if (centre.is_closed && quadric.residual > rule.exact)
+          {
+            pieces.neighbours(near, piece_vertex, 1);
+            points.resize(std::min(points.size(), near.size()));
+            if (fit_sphere(found, points) && found.residual <= rule.exact &&
+                found.n_checks >= rule.least_checks)
+              quadric = found;
+          }
+        return true;
+      }
+    return false;
+  }
+} // namespace Signorini

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#ifndef signorini_source_surface_vertex_fits_h
+#define signorini_source_surface_vertex_fits_h
+
+#include "smooth_pieces.h"
+#include "vertex_quadric.h"
+
+#include <signorini/surface/smooth_surface.h>
+
+#include <vector>
+
+namespace Signorini
+{
+  /// What is known of the surface at the corners of a triangle.
+  struct TriangleFit
+  {
+    std::array<Quadric, 3> corners;
+    /// Whether there was enough around all of them to fit a surface to.
+    bool is_complete = true;
+  };
+
+  /// The quadratic surfaces through the vertices, as the triangles around them see them. Where a cylinder
+  /// goes on as a sphere or a torus, a fit through a vertex at the seam is neither: curvature jumps. Then a
+  /// triangle takes the surface through a vertex nearby that lies on one side alone, and the normal at a
+  /// vertex is the mean of what the triangles around it took: both sides of a seam have the same there.
+  class VertexFits
+  {
+  public:
+    VertexFits(const SurfaceMesh &mesh, const SmoothPieces &pieces, const SmoothingRule &rule);
+
+    TriangleFit at_corners(const unsigned int triangle);
+
+  private:
+    /// The fit through a piece vertex, made when it is first asked for; its mean normal alone if that fails.
+    const Quadric &own_fit(const unsigned int piece_vertex);
+    bool           is_fitted(const unsigned int piece_vertex);
+    bool           fit_vertex(Quadric &quadric, const unsigned int piece_vertex);
+
+    /// The piece vertex whose surface a triangle takes; nothing if each corner has its own.
+    unsigned int lender(const unsigned int triangle);
+    unsigned int find_lender(const unsigned int triangle);
+    /// Whether the corners of a triangle lie on the surface fitted to a piece vertex.
+    bool lies_on(const unsigned int triangle, const unsigned int piece_vertex);
+    /// The surface that a triangle takes, at one of its corners.
+    Quadric taken_at(const unsigned int triangle, const unsigned int corner);
+
+    const SurfaceMesh   &mesh;
+    const SmoothPieces  &pieces;
+    const SmoothingRule &rule;
+    /// By piece vertex.
+    std::vector<Quadric> quadrics;
+    std::vector<bool>    was_tried, has_fit;
+    /// By triangle, once it has been asked for.
+    std::vector<unsigned int>     lenders;
+    static constexpr unsigned int unknown = SurfaceTopology::none - 1;
+    std::vector<unsigned int>     near;
+  };
+} // namespace Signorini
+
+#endif
