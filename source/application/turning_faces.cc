@@ -102,24 +102,25 @@ namespace Signorini
     std::map<unsigned int, std::vector<Vector3>> planes;
     for (const Ending &ending : find_endings(space.nodal(), model.loads(), *space.dirichlet.rigid))
       planes[ending.face].push_back(ending.normal);
-    for (const auto &[number, normals] : planes)
+    for (const auto &planes_of_face : planes)
       {
-        const RigidFace &face  = space.dirichlet.rigid->faces()[number];
-        const bool       turns = std::any_of(face.free.begin(), face.free.end(), [&](const RigidMotion &m) {
-          return normals.size() > 1 ? m.rotation.norm() > TurningRule().same
-                                          : cross_product_3d(m.rotation, normals[0]).norm() > TurningRule().same;
+        const std::vector<Vector3> &of_face = planes_of_face.second;
+        const RigidFace            &face    = space.dirichlet.rigid->faces()[planes_of_face.first];
+        const bool turns = std::any_of(face.free.begin(), face.free.end(), [&](const RigidMotion &m) {
+          return of_face.size() > 1 ? m.rotation.norm() > TurningRule().same
+                                    : cross_product_3d(m.rotation, of_face[0]).norm() > TurningRule().same;
         });
         // Guided along a curved boundary.
-        if (!turns || normals.size() > dim)
+        if (!turns || of_face.size() > dim)
           continue;
         std::string text;
-        for (const Vector3 &normal : normals)
+        for (const Vector3 &normal : of_face)
           text += (text.empty() ? "" : " and ") + text_of_normal(normal);
         journal.note("the rigid boundary " + model.loads().rigid_faces[face.index].boundary + " of body " +
                      model.bodies().body_name(face.body) + " ends at a plane across " + text +
                      ", in which the body slides, and may turn about its edge there. If that is a plane of "
                      "symmetry, the whole would not: add " +
-                     (normals.size() > 1 ? "\"rotation (0, 0, 0)\"" : advice(normals[0])) +
+                     (of_face.size() > 1 ? "\"rotation (0, 0, 0)\"" : advice(of_face[0])) +
                      " to Rigid (in a deck: hold these rotations of its reference node).");
       }
   }
