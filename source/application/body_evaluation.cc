@@ -272,20 +272,69 @@ namespace Signorini
 
 
 
+  namespace
+  {
+    /// When surfaces that end up apart have slid along each other, rather than been lifted off.
+    struct SlidApartRule
+    {
+      /// How far they come apart somewhere, relative to their slip, from where on they are lifted: all that
+      /// touched before is far away then. A hair between tweezers whose arms make 2 degrees with its way out:
+      /// .035; a ball on its way out of a socket, whose walls it slides along: 1.
+      double lifted = .5;
+    };
+
+    /// Collective. Where slip counts, by vertex: where the surfaces touch; if they do nowhere, where they
+    /// could have, but not if they are lifted off each other.
+    /// @param jumps relative displacements at vertices
+    std::vector<unsigned char> where_slip_counts(const Discretization &d, const ContactSolution &solution,
+                                                 const unsigned int                                   p,
+                                                 const std::vector<std::pair<unsigned int, Vector3>> &jumps)
+    {
+      const MPI_Comm             comm     = d.nodal().communicator();
+      const ContactPair         &pair     = d.pairs[p];
+      const PairCoupling        &coupling = d.couplings[p];
+      const ContactStress        stress   = stress_of_pair(d, solution.stress, p);
+      std::vector<unsigned char> result   = spread_rows(coupling, *pair.halo, stress.active);
+      const bool                 touches =
+          std::any_of(stress.active.begin(), stress.active.end(), [](const auto one) { return one != 0; });
+      if (pair.is_tied || Utilities::MPI::max(static_cast<int>(touches), comm) > 0)
+        return result;
+      const auto is_row =
+          spread_rows(coupling, *pair.halo, std::vector<unsigned char>(coupling.vertices.size(), 1));
+      const auto opening = spread_rows(coupling, *pair.halo, stress.opening);
+      double     lifted = 0., slid = 0.;
+      for (const auto &[v, jump] : jumps)
+        if (is_row[v] != 0)
+          {
+            const Vector3 &n    = pair.nonmortar.surface.mesh.vertex_normals[v];
+            const double   slip = (jump - (jump * n) * n).norm();
+            lifted              = std::max(lifted, -(jump * n));
+            slid                = std::max(slid, slip);
+            // What is farther away than it has slid does not meet slopes below 45 degrees.
+            result[v] = opening[v] < slip;
+          }
+      if (Utilities::MPI::max(lifted, comm) >= SlidApartRule().lifted * Utilities::MPI::max(slid, comm))
+        std::fill(result.begin(), result.end(), 0);
+      return result;
+    }
+  } // namespace
+
+
+
   Slip largest_slip(const Discretization &d, const ContactSolution &solution, const unsigned int p)
   {
-    const ContactPair               &pair   = d.pairs[p];
-    const ContactSurface            &non    = pair.nonmortar.surface;
-    const ContactStress              stress = stress_of_pair(d, solution.stress, p);
-    const std::vector<unsigned char> active = spread_rows(d.couplings[p], *pair.halo, stress.active);
-    const auto                       moved  = vertex_values(non, d.partition(), solution.displacement);
-    const auto                       mortar = pair.obstacle
-                                                  ? std::vector<Vector3>()
-                                                  : vertex_values(pair.mortar.surface, d.partition(), solution.displacement);
-    std::vector<Vector3>             slip(non.mesh.vertices.size());
-    Slip                             result;
-    for (const auto &[v, jump] : relative_displacements(pair, moved, mortar))
-      if (active[v] != 0)
+    const ContactPair    &pair   = d.pairs[p];
+    const ContactSurface &non    = pair.nonmortar.surface;
+    const auto            moved  = vertex_values(non, d.partition(), solution.displacement);
+    const auto            mortar = pair.obstacle
+                                       ? std::vector<Vector3>()
+                                       : vertex_values(pair.mortar.surface, d.partition(), solution.displacement);
+    const auto            jumps  = relative_displacements(pair, moved, mortar);
+    const auto            counts = where_slip_counts(d, solution, p, jumps);
+    std::vector<Vector3>  slip(non.mesh.vertices.size());
+    Slip                  result;
+    for (const auto &[v, jump] : jumps)
+      if (counts[v] != 0)
         {
           const Vector3 &n = non.mesh.vertex_normals[v];
           slip[v]          = jump - (jump * n) * n;

@@ -222,20 +222,19 @@ namespace Signorini
     }
 
     /// Why the discrete solution is not one.
-    void object_to_solver(Certificate &c, const double tolerance, const bool has_converged,
-                          const bool has_forces)
+    void object_to_solver(Certificate &c, const SolverOutcome &solver, const bool has_forces)
     {
       const CertificateRule rule;
-      if (!has_converged)
+      if (!solver.has_converged)
         c.objections.push_back("the iteration did not converge; see convergence.csv");
-      const double asked       = 10. * tolerance;
+      const double asked       = 10. * solver.tolerance;
       const double equilibrium = has_forces ? c.equilibrium : 0.;
       if (c.penetration > std::max(rule.penetration, asked) || c.tension > std::max(rule.tension, asked) ||
           equilibrium > std::max(rule.equilibrium, asked))
         c.objections.push_back("the solver left " +
                                text_of(std::max({c.penetration, c.tension, equilibrium})) +
                                " of penetration, tension or forces; try a smaller Solver/Tolerance");
-      if (has_converged && has_forces &&
+      if (solver.has_converged && has_forces &&
           std::max({c.force_balance, c.body_force_balance, c.body_moment_balance}) >
               std::max(rule.balance, asked))
         c.objections.push_back("forces or moments on a body do not balance; please report this");
@@ -329,7 +328,8 @@ namespace Signorini
 
 
   Certificate certify(const ContactModel &model, const Discretization &d, const ContactSolution &solution,
-                      const ContactEvaluation &evaluation, const double tolerance, const bool has_converged)
+                      const ContactEvaluation &evaluation, const std::vector<UnseenPenetration> &unseen,
+                      const SolverOutcome &solver)
   {
     const Scales scales(model.bodies(), d, solution.displacement, evaluation.pairs);
     Certificate  c;
@@ -344,11 +344,11 @@ namespace Signorini
         potential_energy(model.bodies(), d.nodal(), d.partition(), model.loads(), solution.displacement);
     // Where bodies only move all forces are rounding, or what the solver has left of them.
     const bool has_forces = evaluation.equilibrium.largest_nodal_force >
-                            std::max(CertificateRule().rounding, tolerance) * scales.force;
+                            std::max(CertificateRule().rounding, solver.tolerance) * scales.force;
     const std::size_t n_before = c.objections.size();
-    object_to_solver(c, tolerance, has_converged, has_forces);
+    object_to_solver(c, solver, has_forces);
     if (c.objections.size() == n_before)
-      object_to_bodies(c, model, evaluation.equilibrium, tolerance);
+      object_to_bodies(c, model, evaluation.equilibrium, solver.tolerance);
     for (unsigned int p = 0; p < d.pairs.size(); ++p)
       {
         const ErrorsInContact mapping_errors = errors_in_contact(d, solution.stress, p);
@@ -356,7 +356,7 @@ namespace Signorini
           c.wrongly_mapped_pairs.push_back(p);
         object_to_pair(c, evaluation.pairs[p], model.pairs()[p], mapping_errors, scales);
       }
-    object_to_unseen(c, model, evaluation.unseen, scales);
+    object_to_unseen(c, model, unseen, scales);
     return c;
   }
 } // namespace Signorini

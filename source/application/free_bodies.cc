@@ -14,6 +14,10 @@
 
 #include <Eigen/Dense>
 
+#include <iomanip>
+#include <numeric>
+#include <sstream>
+
 namespace Signorini
 {
   using namespace dealii;
@@ -28,6 +32,9 @@ namespace Signorini
       /// The energy of a motion in ties, relative to what it would be if no two nodes moved together, that is
       /// not seen.
       double opposed_by_ties = 1e-11;
+      /// The net force of loads on what flies away, relative to their sum, below which they may have been
+      /// meant to balance: a clothes peg with tractions on the meshes of both arms had 1.5e-7.
+      double nearly_balanced = .01;
       /// What there is of a motion of the size of 1 that should be zero: 1e-16 of matching surfaces of a
       /// body.
       double rounding = 1e-12;
@@ -169,12 +176,38 @@ namespace Signorini
 
 
 
+  namespace
+  {
+    /// The net load in a flight, and what it is if it is small.
+    std::string describe_load(const ContactModel &model, const std::vector<FreeMotion> &motions,
+                              const std::vector<double> &flight, const WorkOfLoads &loads)
+    {
+      if (loads.work.empty() || !(loads.sum > 0.))
+        return ", would fly away.";
+      const double       work = std::inner_product(flight.begin(), flight.end(), loads.work.begin(), 0.);
+      const FlightLoad   load = load_of_flight(motions, flight, work, model.bodies());
+      std::ostringstream text;
+      text << std::setprecision(2) << ", would fly away with a net "
+           << (load.moment == 0. ? "force of " : "moment of ") << load.force + load.moment;
+      if (load.moment == 0. && load.force < FreedomRule().nearly_balanced * loads.sum)
+        text << ", " << load.force / loads.sum
+             << " of the loads: if they should balance, integrals over different meshes may be the reason. "
+                "Give Forces instead of tractions and pressures, or hold one of these bodies.";
+      else
+        text << ".";
+      return text.str();
+    }
+  } // namespace
+
+
+
   void refuse_flight(const ContactModel &model, const std::vector<FreeMotion> &motions,
-                     const std::vector<double> &flight)
+                     const std::vector<double> &flight, const WorkOfLoads &loads)
   {
     throw InputError("The loads press no body into contact that could hold it: " +
                      describe_flight(motions, flight, model.bodies()) +
-                     ", would fly away. Prescribe displacements, or change the loads.");
+                     describe_load(model, motions, flight, loads) +
+                     " Prescribe displacements, or change the loads.");
   }
 
 
@@ -289,7 +322,7 @@ namespace Signorini
     if (!balance.is_held && rigid.turns_freely(d.free_motions(), balance.flight))
       return balance.flight;
     if (!balance.is_held)
-      refuse_flight(model, d.free_motions(), balance.flight);
+      refuse_flight(model, d.free_motions(), balance.flight, {rigid.work, rigid.loads});
     for (std::size_t m = 0; m < n; ++m)
       v.add(balance.settling[m], rigid.fields[m]);
     return {};

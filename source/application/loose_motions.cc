@@ -359,7 +359,8 @@ namespace Signorini
     if (!(work.norm() > LooseMotionRule().work_of_mesh * loads.l1_norm() * mean))
       return;
     const Eigen::VectorXd motion = span * work / work.norm();
-    refuse_flight(model, solution.motions, std::vector<double>(motion.begin(), motion.end()));
+    refuse_flight(model, solution.motions, std::vector<double>(motion.begin(), motion.end()),
+                  {std::vector<double>(all.begin(), all.end()), loads.l1_norm()});
   }
 
 

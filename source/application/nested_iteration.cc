@@ -418,10 +418,10 @@ namespace Signorini
         const Discretization &d          = *last.discretization;
         Results              &results    = last.results;
         ContactEvaluation     evaluation = evaluate_contact(model, d, last.solution);
-        evaluation.unseen                = find_unseen_penetrations(model, d, last.solution.displacement);
+        const auto            unseen     = find_unseen_penetrations(model, d, last.solution.displacement);
         results.probes                   = evaluate_probes(model, d, last.solution, parameters.probes);
-        results.certificate = certify(model, d, last.solution, evaluation, parameters.solve.solver.tolerance,
-                                      results.converged);
+        results.certificate              = certify(model, d, last.solution, evaluation, unseen,
+                                                   {parameters.solve.solver.tolerance, results.converged});
         results.cycles.back().potential_energy = results.certificate.potential_energy;
         for (unsigned int p = 0; p < d.pairs.size(); ++p)
           {
@@ -430,7 +430,7 @@ namespace Signorini
               journal.note("pair " + d.pairs[p].name +
                            ": the surfaces are separated, there is no contact force.");
           }
-        for (const UnseenPenetration &one : evaluation.unseen)
+        for (const UnseenPenetration &one : unseen)
           if (!one.has_pair)
             journal.note(describe_unseen(model, one));
         for (const std::string &remark : check_point_holds(model, d, last.solution))

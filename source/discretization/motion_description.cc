@@ -227,11 +227,62 @@ namespace Signorini
 
 
 
+  namespace
+  {
+    /// Whether a part moves as another one does, as if both were one rigid body.
+    bool moves_along(const FreeMotion &part, const FreeMotion &other)
+    {
+      const Vector3 turn  = part.rotation / part.length - other.rotation / other.length;
+      const Vector3 shift = part(other.centre) - other.translation;
+      return std::max(shift.norm(), other.length * turn.norm()) <=
+             little_turn * std::max(other.translation.norm(), other.rotation.norm());
+    }
+
+    /// "a", "a and b", "a, b and c".
+    std::string list(const std::vector<std::string> &names)
+    {
+      constexpr std::size_t most = 8;
+      const std::size_t     n    = std::min(names.size(), most);
+      std::string           text;
+      for (std::size_t i = 0; i < n; ++i)
+        text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
+      return text + (names.size() > most ? " and " + std::to_string(names.size() - most) + " more" : "");
+    }
+  } // namespace
+
+
+
   std::string describe_flight(const std::vector<FreeMotion> &motions, const std::vector<double> &coefficients,
                               const Bodies &bodies)
   {
-    const PartMotion part = largest_part(motions, coefficients, bodies);
-    return name_of_moving(part.motion, bodies) + ", " + describe(part);
+    const PartMotion       largest = largest_part(motions, coefficients, bodies);
+    const double           size = std::max(largest.motion.translation.norm(), largest.motion.rotation.norm());
+    std::set<unsigned int> parts;
+    for (const FreeMotion &motion : motions)
+      parts.insert(motion.first_part());
+    std::vector<std::string> along, too;
+    for (const unsigned int part : parts)
+      {
+        const FreeMotion one = motion_of_part(motions, coefficients, part);
+        if (moves_along(one, largest.motion))
+          along.push_back(name_of_moving(one, bodies));
+        else if (std::max(one.translation.norm(), one.rotation.norm()) > little_turn * size)
+          too.push_back(name_of_moving(one, bodies));
+      }
+    return list(along) + ", " + describe(largest) +
+           (too.empty() ? "" : " (" + list(too) + (too.size() > 1 ? " move, too)" : " moves, too)"));
+  }
+
+
+
+  FlightLoad load_of_flight(const std::vector<FreeMotion> &motions, const std::vector<double> &coefficients,
+                            const double work, const Bodies &bodies)
+  {
+    const PartMotion largest = largest_part(motions, coefficients, bodies);
+    const double     turn = largest.motion.rotation.norm(), shift = largest.motion.translation.norm();
+    if (largest.is_mostly_translation())
+      return {work / shift, 0.};
+    return {0., work / turn * largest.motion.length};
   }
 
 

@@ -59,8 +59,8 @@ namespace Signorini
         "Boundary shapes", shapes,
         "True shapes that new nodes of boundaries move to, in the frame of the mesh: \"boundary: sphere: "
         "centre, "
-        "radius; boundary: cylinder: point, axis, radius; boundary: torus: centre, axis, radius, radius of "
-        "the "
+        "radius; boundary: cylinder: point, axis, radius; boundary: cone: point, axis, radius there, half "
+        "angle in degrees (it opens along the axis); boundary: torus: centre, axis, radius, radius of the "
         "tube; boundary: plane: point, normal; boundary: file: NAME\" (a triangulated surface, .stl, .obj, "
         ".off, "
         ".ply), with points as (x, y, z). Nodes on several such boundaries move to their common edge.");

@@ -18,6 +18,49 @@ namespace Signorini
 
   namespace
   {
+    /// A cone with its apex, which opens along its axis.
+    class ConeShape : public BoundaryShape
+    {
+    public:
+      /// @param axis unit vector
+      /// @param half_angle between axis and surface (radians)
+      ConeShape(const Point<3> &apex, const Tensor<1, 3> &axis, const double half_angle)
+        : apex(apex)
+        , axis(axis)
+        , cosine(std::cos(half_angle))
+        , sine(std::sin(half_angle))
+      {
+      }
+
+      Point<3> project(const Point<3> &p) const override
+      {
+        const Tensor<1, 3> d     = p - apex;
+        const double       along = d * axis;
+        const Tensor<1, 3> out   = d - along * axis;
+        const double       r = out.norm(), way = along * cosine + r * sine;
+        if (way <= 0.)
+          return apex;
+        return r > 0. ? apex + way * (cosine * axis + sine / r * out) : p;
+      }
+
+      Tensor<1, 3> normal(const Point<3> &p, const Tensor<1, 3> &facing) const override
+      {
+        const Tensor<1, 3> d   = p - apex;
+        const Tensor<1, 3> out = d - (d * axis) * axis;
+        if (!(out.norm() > 0.))
+          return facing;
+        const Tensor<1, 3> n = cosine / out.norm() * out - sine * axis;
+        return n * facing < 0. ? -n : n;
+      }
+
+    private:
+      const Point<3>     apex;
+      const Tensor<1, 3> axis;
+      const double       cosine, sine;
+    };
+
+
+
     /// Sphere, cylinder, torus or plane.
     class RoundShape : public BoundaryShape
     {
@@ -120,14 +163,45 @@ namespace Signorini
 
 
 
+  namespace
+  {
+    /// A direction of a text, of length 1, in its place.
+    Tensor<1, 3> parse_direction(const std::string &text, const Placement &placement,
+                                 const std::string &where)
+    {
+      const Tensor<1, 3> direction = placement.rotation * Tensor<1, 3>(parse_point(text, where));
+      if (!(direction.norm() > 0.))
+        throw InputError(where + ": the direction \"" + text + "\" has no length.");
+      return direction / direction.norm();
+    }
+
+    /// @param pieces point, axis, radius at the point, half angle (degrees)
+    BoundaryShapePointer parse_cone(const std::vector<std::string> &pieces, const Placement &placement,
+                                    const std::string &where)
+    {
+      const Tensor<1, 3> axis   = parse_direction(pieces[1], placement, where);
+      const double       radius = parse_number(pieces[2], where), degrees = parse_number(pieces[3], where);
+      if (!(radius >= 0.))
+        throw InputError(where + ": the radius \"" + pieces[2] + "\" of a cone must not be negative.");
+      if (!(degrees > 0. && degrees < 90.))
+        throw InputError(where + ": the half angle \"" + pieces[3] +
+                         "\" of a cone must lie between 0 and 90 degrees.");
+      const double half_angle = degrees * numbers::PI / 180.;
+      return std::make_shared<ConeShape>(
+          placement(parse_point(pieces[0], where)) - radius / std::tan(half_angle) * axis, axis, half_angle);
+    }
+  } // namespace
+
+
+
   BoundaryShapePointer make_boundary_shape(const std::string &text, const Placement &placement,
                                            const std::string &base_folder, const std::string &where)
   {
     const std::string usage =
         where + ": \"" + text +
-        "\" should read \"sphere: centre, radius\", \"cylinder: point, axis, radius\", \"torus: centre, "
-        "axis, "
-        "radius, radius of the tube\", \"plane: point, normal\" with points as (x, y, z), or \"file: NAME\".";
+        "\" should read \"sphere: centre, radius\", \"cylinder: point, axis, radius\", \"cone: point, axis, "
+        "radius there, half angle\", \"torus: centre, axis, radius, radius of the tube\", \"plane: point, "
+        "normal\" with points as (x, y, z), or \"file: NAME\".";
     const std::size_t colon = text.find(':');
     if (colon == std::string::npos)
       throw InputError(usage);
@@ -136,6 +210,8 @@ namespace Signorini
     if (name == "file")
       return read_shape(rest, placement, base_folder, where);
     const auto pieces = split_list(rest, ',', where);
+    if (name == "cone" && pieces.size() == 4)
+      return parse_cone(pieces, placement, where);
     const std::map<std::string, std::pair<RoundShape::Kind, std::size_t>> kinds = {
         {"sphere", {RoundShape::sphere, 2}},
         {"cylinder", {RoundShape::cylinder, 3}},
@@ -144,16 +220,10 @@ namespace Signorini
     const auto kind = kinds.find(name);
     if (kind == kinds.end() || pieces.size() != kind->second.second)
       throw InputError(usage);
-    const bool   is_sphere = kind->second.first == RoundShape::sphere;
-    Tensor<1, 3> axis({0., 0., 1.});
-    double       radii[2] = {1., 1.};
-    if (!is_sphere)
-      {
-        axis = placement.rotation * Tensor<1, 3>(parse_point(pieces[1], where));
-        if (!(axis.norm() > 0.))
-          throw InputError(where + ": the direction \"" + pieces[1] + "\" has no length.");
-        axis /= axis.norm();
-      }
+    const bool         is_sphere = kind->second.first == RoundShape::sphere;
+    const Tensor<1, 3> axis =
+        is_sphere ? Tensor<1, 3>({0., 0., 1.}) : parse_direction(pieces[1], placement, where);
+    double radii[2] = {1., 1.};
     for (std::size_t i = is_sphere ? 1 : 2, k = 0; i < pieces.size(); ++i, ++k)
       if (!((radii[k] = parse_number(pieces[i], where)) > 0.))
         throw InputError(where + ": the radius \"" + pieces[i] + "\" must be positive.");

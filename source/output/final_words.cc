@@ -210,8 +210,9 @@ namespace Signorini
       if (pair.slip_in_faces > rule.slip_in_faces)
         {
           std::ostringstream line;
-          line << std::setprecision(2) << "pair " << pair.name << ": the surfaces slide by " << pair.slip
-               << ", " << pair.slip_in_faces
+          line << std::setprecision(2) << "pair " << pair.name << ": the surfaces "
+               << (pair.contact_area > 0. ? "slide by " : "end up apart after they have slid by ")
+               << pair.slip << ", " << pair.slip_in_faces
                << " widths of the faces there, and the gap is that of the points that face each other at the "
                   "beginning.";
           lines.push_back(line.str());

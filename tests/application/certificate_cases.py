@@ -2,7 +2,7 @@
 import os
 import tempfile
 
-from free_body_cases import make_mesh
+from free_body_cases import RING_ON_CONE, make_mesh
 from harness import TOP, check, near, read_pressure
 
 # Two roofs, ridge on ridge, along z.
@@ -279,3 +279,94 @@ def shoulder(p):
             print(f'{side}: displacement, mean radius of the force {whole}, underside and top alone {alone}')
             near(whole[0], alone[0], .15, f'{side}: displacement')
             near(whole[1], alone[1], .15, f'{side}: mean radius of the force')
+
+
+# A ball between two arms whose ends the loads press together: without friction it is squeezed out towards their wide end.
+TWEEZERS = '''set Bodies        = ball, upper, lower
+set Contact pairs = above, below
+subsection Body ball
+  set Mesh          = ball
+  set Translation   = 2, 0, 0
+  set Young modulus = 1000
+end
+''' + ''.join(f'''subsection Body {name}
+  set Lower corner    = -3, -2, {low}
+  set Upper corner    = 3, 2, {high}
+  set Divisions       = 24, 8, 2
+  set Rotation axis   = 0, 1, 0
+  set Rotation angle  = {angle}
+  set Young modulus   = 10000
+  set Dirichlet       = left: (0, 0, 0)
+  set Pressures       = {outside}: 0.06
+end
+''' for name, low, high, angle, outside in (('upper', 1.1, 1.6, 2, 'top'), ('lower', -1.6, -1.1, -2, 'bottom'))) + '''subsection Pair above
+  set First     = ball: sphere
+  set Second    = upper: bottom
+  set Nonmortar = second
+end
+subsection Pair below
+  set First     = ball: sphere
+  set Second    = lower: top
+  set Nonmortar = second
+end
+subsection Refinement
+  set Initial global levels = 0
+end
+'''
+
+# A block a little above a slope, which it is to be moved along.
+SLOPE = '''set Bodies        = block, slope
+set Contact pairs = c
+subsection Body block
+  set Lower corner    = -1, -1, 0.02
+  set Upper corner    = 1, 1, 1
+  set Divisions       = 8, 8, 4
+  set Rotation axis   = 0, 1, 0
+  set Rotation angle  = 3
+  set Young modulus   = 1000
+end
+subsection Body slope
+  set Lower corner    = -3, -2, -1
+  set Upper corner    = 3, 2, 0
+  set Divisions       = 12, 8, 2
+  set Rotation axis   = 0, 1, 0
+  set Rotation angle  = 3
+  set Young modulus   = 1000
+  set Dirichlet       = bottom: (0, 0, 0)
+end
+subsection Pair c
+  set First  = block: bottom
+  set Second = slope: top
+end
+subsection Refinement
+  set Initial global levels = 0
+end
+'''
+
+
+def slid_apart(p):
+    """Surfaces that end up apart after they have slid along each other are told; not those that are lifted off, and not those that are farther apart than they slide."""
+    with tempfile.TemporaryDirectory() as folder:
+        def solve(text, *settings):
+            path = os.path.join(folder, 'problem.prm')
+            with open(path, 'w') as f:
+                f.write(text)
+            s = p.solve(path, *settings, codes=(0, 3))
+            told = [note for note in s['notes'] if 'end up apart after they have slid' in note]
+            print(settings, [(pair['contact_area'], pair['slip'], pair['slip_in_faces']) for pair in s['pairs']], told)
+            check(s['displacements_are_small'] == (not told), f'{settings}: {s["notes"]}')
+            return s, told
+
+        s, told = solve(TWEEZERS)
+        check(s['bodies'][0]['largest_displacement'] > .6, 'the ball is not squeezed out')
+        check(len(told) == 2 and all(pair['slip'] > .6 for pair in s['pairs']), f'a ball is squeezed out: {s["notes"]}')
+        for side in ('first', 'second'):
+            for moved, is_told in (('2, 0, 0', True), ('2, 0, 0.5', True), ('0.1, 0, 0', False), ('0, 0, 2', False), ('0.1, 0, 2', False), ('2, 0, 2', False)):
+                s, told = solve(SLOPE, f'Body block/Dirichlet=top: ({moved})', f'Pair c/Nonmortar={side}')
+                check(s['pairs'][0]['contact_area'] == 0 and bool(told) == is_told, f'moved by {moved}: {s["pairs"]}')
+        # Above the slope by 1.
+        s, told = solve(SLOPE, 'Body block/Dirichlet=top: (0.8, 0, 0)', 'Body block/Translation=0, 0, 1')
+        check(not told, f'far away: {s["pairs"]}')
+        # Out of the cone that it lies on.
+        s, told = solve(RING_ON_CONE, 'Body ring/Forces=', 'Body ring/Dirichlet=end: (0, 0, 0.5)')
+        check(s['pairs'][0]['contact_area'] == 0 and not told, f'lifted off a cone: {s["pairs"]}')

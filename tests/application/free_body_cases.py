@@ -192,6 +192,30 @@ end
 """
 
 
+# Three blocks that nothing else holds, between two forces.
+PILE = """set Bodies        = low, between, up
+set Contact pairs = one, other
+""" + ''.join(f"""subsection Body {name}
+  set Lower corner  = 0, 0, {low}
+  set Upper corner  = 1, 1, {low + 1}
+  set Divisions     = {n}, {n}, {n}
+  set Young modulus = 1000
+  set Forces        = {force}
+end
+""" for name, low, n, force in (('low', 0, 3, ''), ('between', 1, 2, ''), ('up', 2, 3, 'top: (0, 0, -1)'))) + """subsection Pair one
+  set First  = low: top
+  set Second = between: bottom
+end
+subsection Pair other
+  set First  = between: top
+  set Second = up: bottom
+end
+subsection Refinement
+  set Initial global levels = 0
+end
+"""
+
+
 def refused(p, path, *settings):
     run = p.call(path, '--output', 'refused', *(w for s in settings for w in ('--set', s)))
     check(run.returncode == 1 and not os.path.exists('refused'), f'{settings}: exit {run.returncode}')
@@ -219,7 +243,17 @@ def turning_ball(p):
     # A translation that surfaces allow is never held.
     text = refused(p, os.path.join(TOP, 'prm', 'patch_test/patch_test.prm'), 'Body upper/Dirichlet=', 'Body upper/Pressures=top: 1',
                    'Body upper/Tractions=-x: (1e-3, 0, 0)')
-    check('body upper, translation (1, 0, 0), would fly away' in text, text)
+    check('body upper, translation (1, 0, 0), would fly away with a net force of 0.001, 0.001 of the loads' in text, text)
+    # An assembly whose loads differ a little, with a body that carries none.
+    with tempfile.TemporaryDirectory() as folder:
+        assembly = os.path.join(folder, 'pile.prm')
+        with open(assembly, 'w') as f:
+            f.write(PILE)
+        for rest, told in (('1e-4', 'a net force of 0.0001, 5e-05 of the loads: if they should balance'), ('0.5', 'a net force of 0.5. Prescribe')):
+            text = refused(p, assembly, f'Body low/Forces=bottom: (0, 0, 1 + {rest})')
+            check('body low, body between and body up, translation (0, 0, 1), would fly away with ' + told in text, text)
+        s = p.solve(assembly, 'Body low/Forces=bottom: (0, 0, 1)')
+        near(s['pairs'][0]['load'], 1, 1e-6, 'force through the pile')
 
 
 RINGS = """set Bodies = disc, ring

@@ -1,9 +1,10 @@
-"""Problems with known answers whose bodies are all generated: prm/shapes."""
+"""Problems with known answers whose bodies have known shapes: generated ones (prm/shapes), and a cone."""
 import math
 import os
 import tempfile
 
-from harness import certificate, check, read_pressure
+from free_body_cases import make_mesh
+from harness import TOP, certificate, check, near, read_pressure
 
 
 def line_contact(p):
@@ -43,3 +44,62 @@ def press_fit_of_tubes(p):
           f'{pair["min_pressure"] / pressure - 1:+.2%} to {pair["max_pressure"] / pressure - 1:+.2%}')
     for key in ('min_pressure', 'max_pressure'):
         check(abs(pair[key] / pressure - 1) < .01, f'{key}: {pair[key]}, expected {pressure}')
+
+
+CONE = """set Bodies        = plug, socket
+set Contact pairs = seat
+subsection Body plug
+  set Mesh          = cone.msh
+  set Volumes       = plug
+  set Young modulus = 210e3
+  set Poisson ratio = 0.3
+  set Dirichlet     = at y: (*, 0, *); at x: (0, *, *)
+  set Forces        = head: (0, 0, -1000)
+end
+subsection Body socket
+  set Mesh          = cone.msh
+  set Volumes       = socket
+  set Young modulus = 210e3
+  set Poisson ratio = 0.3
+  set Dirichlet     = at y: (*, 0, *); at x: (0, *, *); foot: (*, *, 0)
+end
+subsection Pair seat
+  set First     = plug: taper
+  set Second    = socket: seat
+  set Nonmortar = SIDE
+end
+"""
+
+
+def cone_in_socket(p):
+    """A conical plug in a socket of the same shape, on coarse meshes that do not match: nothing overlaps, all of the seat carries, and the pressure has the axial force."""
+    angle = math.radians(20)
+    with tempfile.TemporaryDirectory() as folder:
+        make_mesh(os.path.join(TOP, 'tests', 'application', 'cone.geo'), os.path.join(folder, 'cone.msh'))
+        # By the radius at the lower end, and by the apex.
+        shapes = {'plug': 'taper: cone: (0, 0, 0), (0, 0, 1), 5, 20', 'socket': f'seat: cone: (0, 0, {-5 / math.tan(angle)}), (0, 0, 2), 0, 20'}
+        low, high = 5 + math.tan(angle), 5 + 9 * math.tan(angle)
+        area = math.pi / 4 * (high ** 2 - low ** 2) / math.sin(angle)
+        moved = {}
+        for side in ('first', 'second'):
+            path = os.path.join(folder, 'cone.prm')
+            with open(path, 'w') as f:
+                f.write(CONE.replace('SIDE', side))
+            # The facets overlap.
+            facets = p.solve(path, 'Pair seat/Surface=faceted', codes=(0, 3))['pairs'][0]['initial_penetration']
+            check(facets > .02, f'{side}: facets overlap by {facets}')
+            for cycles in (0, 1):
+                s = p.solve(path, *(f'Body {body}/Boundary shapes={shape}' for body, shape in shapes.items()), f'Refinement/Global cycles={cycles}')
+                certificate(s)
+                pair, moved[side, cycles] = s['pairs'][0], s['bodies'][0]['largest_displacement']
+                print(f'{side}, {cycles} cycles: overlap {pair["initial_penetration"]}, load {pair["load"]}, force {pair["force"]}, '
+                      f'contact area {pair["contact_area"] / area - 1:+.2%}, displacement {moved[side, cycles]}')
+                check(pair['initial_penetration'] <= 5e-4 * facets and pair['gap_doubt'] == 0, f'{side}: the gap is not that of the cones: {pair}')
+                check(s['certificate']['contact_conditions_hold'], f'{side}: {s["certificate"]["objections"]}')
+                near(abs(pair['force'][2]), 1000, 1e-8, 'axial force')
+                near(pair['load'], 1000 / math.sin(angle), 1e-6, 'load')
+                check(abs(pair['contact_area'] / area - 1) < .01, f'{side}: contact area {pair["contact_area"]}, of the seat {area}')
+        for cycles in (0, 1):
+            near(moved['first', cycles], moved['second', cycles], .02, 'displacement, by the side')
+        run = p.call(path, '--check', '--set', 'Body plug/Boundary shapes=taper: cone: (0, 0, 0), (0, 0, -1), 5, 20')
+        check(run.returncode == 1 and 'Does it belong to this boundary' in run.stderr, f'a cone that narrows: {run.returncode}, {run.stderr}')

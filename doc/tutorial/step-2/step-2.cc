@@ -175,9 +175,11 @@ namespace Step2
         if (cycle + 1 == n_meshes)
           {
             // Whether one may believe it: forces and moments balance, nothing penetrates, ...
-            const ContactEvaluation evaluation  = evaluate_contact(model, *discretization, solution);
-            const Certificate       certificate = certify(model, *discretization, solution, evaluation,
-                                                          parameters.solver.tolerance, /* has_converged = */ true);
+            const ContactEvaluation evaluation = evaluate_contact(model, *discretization, solution);
+            const auto unseen = find_unseen_penetrations(model, *discretization, solution.displacement);
+            const Certificate certificate =
+                certify(model, *discretization, solution, evaluation, unseen,
+                        {parameters.solver.tolerance, /* has_converged = */ true});
             for (const BoundaryResult &boundary : evaluation.equilibrium.reactions)
               out << "reaction of " << boundary.body << ", " << boundary.name << ": " << boundary.reaction
                   << '\n';

@@ -31,8 +31,10 @@ namespace Signorini
   std::vector<BodyResult> evaluate_bodies(const ContactModel &model, const Discretization &discretization,
                                           const Vector &displacement, const Results &results);
 
-  /// Collective. How far bodies slide on each other where they touch: along the surface (length), and in
-  /// multiples of the width of the faces there.
+  /// How far bodies slide on each other where they touch: along the surface (length), and in multiples of the
+  /// width of the faces there. Of surfaces that end up apart without having been lifted off each other, where
+  /// they are nearer than they have slid: whether they touch there is for the gap to say, which is that of
+  /// the points that face each other at the beginning.
   struct Slip
   {
     /// Along the surface; in multiples of the width of faces (1).

@@ -5,6 +5,7 @@
 #define signorini_application_certificate_h
 
 #include <signorini/application/contact_evaluation.h>
+#include <signorini/application/unseen_penetration.h>
 
 namespace Signorini
 {
@@ -41,12 +42,21 @@ namespace Signorini
     double moment_balance = .05;
   };
 
+  /// What is known of the iteration.
+  struct SolverOutcome
+  {
+    /// What a user asked for is enough.
+    double tolerance;
+    /// On all meshes.
+    bool has_converged;
+  };
+
   /// Collective. Whether the contact conditions hold, of the solver and of the true bodies.
-  /// @param tolerance of the solver: what a user asked for is enough
-  /// @param has_converged on all meshes
+  /// @param unseen where bodies lie in each other and no pair looks: find_unseen_penetrations() of the
+  ///   solution
   Certificate certify(const ContactModel &model, const Discretization &discretization,
                       const ContactSolution &solution, const ContactEvaluation &evaluation,
-                      const double tolerance, const bool has_converged);
+                      const std::vector<UnseenPenetration> &unseen, const SolverOutcome &solver);
 } // namespace Signorini
 
 #endif

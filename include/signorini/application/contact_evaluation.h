@@ -5,7 +5,6 @@
 #define signorini_application_contact_evaluation_h
 
 #include <signorini/application/contact_solve.h>
-#include <signorini/application/unseen_penetration.h>
 #include <signorini/output/results.h>
 
 #include <string>
@@ -73,11 +72,9 @@ namespace Signorini
     std::vector<PressureRow> pressure, mortar_pressure;
     /// Reactions, and what is left of the forces.
     Equilibrium equilibrium;
-    /// Where bodies lie in each other and no pair looks (find_unseen_penetrations()).
-    std::vector<UnseenPenetration> unseen;
   };
 
-  /// Collective. All of the above but `unseen`.
+  /// Collective. All of the above.
   ContactEvaluation evaluate_contact(const ContactModel &model, const Discretization &discretization,
                                      const ContactSolution &solution);
 

@@ -41,9 +41,19 @@ namespace Signorini
   void refuse_opposed_motions(const NodeBlockMatrix &matrix, const std::vector<Vector> &motions,
                               const ContactModel &model, const Discretization &discretization);
 
+  /// What loads do on rigid motions.
+  struct WorkOfLoads
+  {
+    /// By motion (force, as motions are of the size of 1).
+    std::vector<double> work;
+    /// Of the norms of all nodal loads (force).
+    double sum = 0.;
+  };
+
   /// Ends the run for loads that no contact can hold. Errors: InputError, always.
+  /// @param loads where they are known: the net load in the flight is told
   [[noreturn]] void refuse_flight(const ContactModel &model, const std::vector<FreeMotion> &motions,
-                                  const std::vector<double> &flight);
+                                  const std::vector<double> &flight, const WorkOfLoads &loads = {});
 } // namespace Signorini
 
 #endif

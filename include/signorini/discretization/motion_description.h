@@ -22,9 +22,22 @@ namespace Signorini
   std::string describe_motion(const std::vector<FreeMotion> &motions, const std::vector<double> &coefficients,
                               const Bodies &bodies);
 
-  /// The same of a motion that goes one way only.
+  /// A motion that goes one way only, with all that moves in it: "body arm and body pin, translation (0, 0,
+  /// -1) (body wire moves, too)".
   std::string describe_flight(const std::vector<FreeMotion> &motions, const std::vector<double> &coefficients,
                               const Bodies &bodies);
+
+  /// What loads do in a motion.
+  struct FlightLoad
+  {
+    /// Along a translation (force), or about the axis of a rotation (force times length); the other is zero.
+    double force, moment;
+  };
+
+  /// The sum over all that moves of the loads in a motion.
+  /// @param work of the loads on it
+  FlightLoad load_of_flight(const std::vector<FreeMotion> &motions, const std::vector<double> &coefficients,
+                            const double work, const Bodies &bodies);
 
   /// Several motions, which span what is free: the translations of a part together, its rotations about axes
   /// through one point together.

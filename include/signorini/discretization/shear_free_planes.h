@@ -5,11 +5,10 @@
 #define signorini_discretization_shear_free_planes_h
 
 #include <signorini/algebra/fixed_directions.h>
-#include <signorini/algebra/node_partition.h>
+#include <signorini/algebra/node_request.h>
 #include <signorini/discretization/face_conditions.h>
 #include <signorini/mesh/nodal_space.h>
 
-#include <array>
 #include <vector>
 
 namespace Signorini
@@ -25,23 +24,34 @@ namespace Signorini
     /// @param fixed at the relevant nodes (DirichletData::fixed)
     ShearFreePlanes(const NodalSpace &space, const Loads &loads, const std::vector<FixedDirections> &fixed);
 
-    /// What a stress (force per area) at a relevant node is without the shear that there cannot be: itself on
-    /// no such plane, and where two of them meet of which none lies across an axis of coordinates.
+    /// What a stress (force per area) at a relevant node is without the shear that there cannot be on any of
+    /// the planes: the nearest one without. Where two planes meet that are not orthogonal it has no
+    /// direction across their common line.
     Block without_shear(const NodeIndex node, const Block &stress) const;
 
   private:
-    /// Orthonormal; what is fixed at a node (a hanging one: at its parents) comes first.
-    std::array<Vector3, 3> directions(const NodeIndex node) const;
-    /// The votes of a face that is held along its normal.
-    void add(const NodalSpace::BoundaryFace &face, const FaceConditions &conditions, const bool is_loaded);
+    /// A plane at a node, and what the faces in it are held in: there is no shear in what is free.
+    struct Plane
+    {
+      Vector3         normal;
+      FixedDirections held;
+    };
+    /// What a face says to one of its nodes.
+    struct Vote
+    {
+      NodeIndex node;
+      Plane     plane;
+    };
+
+    /// What is fixed at a node; at a hanging one what is at its parents.
+    FixedDirections fixed_at(const NodeIndex node) const;
+    /// Of this rank's cells, to the ranks that own the nodes.
+    ListsByRank<Vote> votes(const Loads &loads, const NodePartition &partition) const;
 
     const NodalSpace                   &space;
     const std::vector<FixedDirections> &fixed;
-    const NodePartition                 partition;
-    /// By node, for its directions 0 and 1, 1 and 2, 2 and 0: how many faces across the first, and across the
-    /// second of them, say that there is no shear between these; far below zero where one says that there may
-    /// be. One of the two planes is enough.
-    std::array<Vector, 2> votes;
+    /// Of the relevant nodes.
+    NodeRequest::Lists<Plane> planes;
   };
 } // namespace Signorini
 

@@ -79,11 +79,12 @@ namespace Signorini
     }
   };
 
-  /// "sphere: centre, radius", "cylinder: point, axis, radius", "torus: centre, axis, radius of the circle,
-  /// radius of the tube", "plane: point, normal" with points as (x, y, z), or "file: NAME" (see
-  /// read_surface()), all in the frame of the mesh before it is placed. Files are relative to base_folder.
-  /// Errors: InputError that begins with `where`: texts and files that cannot be understood, surfaces with
-  /// edges of more than two triangles.
+  /// "sphere: centre, radius", "cylinder: point, axis, radius", "cone: point, axis, radius there, half angle"
+  /// (in degrees; it opens along the axis, and a radius of 0 makes the point its apex), "torus: centre, axis,
+  /// radius of the circle, radius of the tube", "plane: point, normal" with points as (x, y, z), or "file:
+  /// NAME" (see read_surface()), all in the frame of the mesh before it is placed. Files are relative to
+  /// base_folder. Errors: InputError that begins with `where`: texts and files that cannot be understood,
+  /// surfaces with edges of more than two triangles.
   BoundaryShapePointer make_boundary_shape(const std::string &text, const Placement &placement,
                                            const std::string &base_folder, const std::string &where);
 

@@ -110,8 +110,8 @@ namespace Signorini
     /// By how much the true surfaces penetrate each other although the pair carries no force (length), beyond
     /// what is not known of them (MissedContactRule): a contact that is narrower than the faces.
     double missed_penetration = 0.;
-    /// How far the surfaces slide on each other where they touch (length), and in multiples of the width of
-    /// the faces there.
+    /// How far the surfaces slide on each other where they touch, or end up apart by less than that (length),
+    /// and in multiples of the width of the faces there.
     double slip = 0., slip_in_faces = 0.;
   };
 

@@ -307,6 +307,91 @@ TEST(NodalStress, OfATurnedQuarter)
 
 
 
+namespace
+{
+  /// A body and its displacement turned about an axis through the origin; its sides are held along their
+  /// normals.
+  DisplacedBlock turned_block(BodyParameters parameters, const std::string &sides, const Vector3 &axis,
+                              const double degrees)
+  {
+    const Vector3 a           = axis / axis.norm();
+    parameters.rotation_axis  = axis;
+    parameters.rotation_angle = degrees;
+    const auto turn           = [a](const Vector3 &v, const double angle) {
+      return std::cos(angle) * v + std::sin(angle) * cross_product_3d(a, v) +
+             (1. - std::cos(angle)) * (a * v) * a;
+    };
+    const double      angle = degrees * dealii::numbers::PI / 180.;
+    const VectorField field = [=](const Point<3> &x) {
+      return turn(symmetric_field(Point<3>(turn(Vector3(x), -angle))), angle);
+    };
+    LoadParameters held;
+    held.dirichlet = sides;
+    return DisplacedBlock(parameters, held, field);
+  }
+
+  /// By owned node, in the order of the mesh.
+  std::vector<double> von_mises_of(const DisplacedBlock &block)
+  {
+    std::vector<double> result;
+    for (const auto &[x, s] : block.nodal())
+      result.push_back(von_mises(s));
+    return result;
+  }
+} // namespace
+
+
+
+// Planes of symmetry that meet, orthogonal or not, say the same in any frame.
+TEST(NodalStress, WherePlanesMeetInAnyFrame)
+{
+  BodyParameters block  = DisplacedBlock::parameters({3, 3, 3}, false);
+  BodyParameters prism  = block;
+  prism.mesh            = "prism";
+  prism.corners         = "(0, 0); (1, 0); (0.5, 0.8660254037844386)";
+  prism.round_divisions = {3, 2, 3};
+  const std::vector<std::pair<BodyParameters, std::string>> problems = {
+      {block, "left: (normal: 0); front: (normal: 0)"},
+      {block, "left: (normal: 0); front: (normal: 0); bottom: (normal: 0)"},
+      {prism, "side 1: (normal: 0); side 3: (normal: 0); start: (normal: 0)"}};
+  for (const auto &[body, sides] : problems)
+    {
+      const std::vector<double> straight = von_mises_of(turned_block(body, sides, Vector3({0., 0., 1.}), 0.));
+      for (const auto &[axis, angle] : {std::pair<Vector3, double>{Vector3({0., 0., 1.}), 25.},
+                                        std::pair<Vector3, double>{Vector3({0., 0., 1.}), -30.},
+                                        std::pair<Vector3, double>{Vector3({1., -2., 3.}), 40.}})
+        {
+          const std::vector<double> turned = von_mises_of(turned_block(body, sides, axis, angle));
+          ASSERT_EQ(turned.size(), straight.size());
+          for (std::size_t i = 0; i < turned.size(); ++i)
+            EXPECT_NEAR(turned[i], straight[i], 1e-12) << sides << ", " << angle << " degrees, node " << i;
+        }
+    }
+}
+
+// Where two planes meet that are not orthogonal no direction across their line is another one.
+TEST(NodalStress, WhereObliquePlanesMeet)
+{
+  BodyParameters prism  = DisplacedBlock::parameters({3, 3, 3}, false);
+  prism.round_divisions = {3, 2, 3};
+  prism.mesh            = "prism";
+  prism.corners         = "(0, 0); (1, 0); (0.5, 0.8660254037844386)";
+  const DisplacedBlock block =
+      turned_block(prism, "side 1: (normal: 0); side 3: (normal: 0)", Vector3({0., 0., 1.}), 0.);
+  unsigned int n = 0;
+  for (const auto &[x, s] : block.nodal())
+    if (std::hypot(x[0], x[1]) < 1e-10)
+      {
+        ++n;
+        EXPECT_NEAR(s[0], s[1], 1e-14);
+        for (unsigned int c = 3; c < 6; ++c)
+          EXPECT_NEAR(s[c], 0., 1e-14);
+      }
+  EXPECT_GT(dealii::Utilities::MPI::sum(n, MPI_COMM_WORLD), 0u);
+}
+
+
+
 // Where a side is held across its normal, or loaded, there may be shear.
 TEST(NodalStress, ShearOfASideThatIsHeldOrLoaded)
 {

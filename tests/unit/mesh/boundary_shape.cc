@@ -186,6 +186,60 @@ TEST(BoundaryShape, AnalyticShapes)
 
 
 
+// Points of a cone come from points on its normals, from inside and outside; beyond the apex there is
+// nothing.
+TEST(BoundaryShape, Cone)
+{
+  const double       angle = 25. * dealii::numbers::PI / 180., c = std::cos(angle), s = std::sin(angle);
+  const Point<3>     apex(1., 2., 3.);
+  const Tensor<1, 3> axis({0., .6, .8}), one({1., 0., 0.}), two({0., .8, -.6});
+  const double       h    = 2.;
+  const auto         text = [](const Point<3> &p, const double radius) {
+    std::ostringstream stream;
+    stream.precision(17);
+    stream << "cone: (" << p[0] << ", " << p[1] << ", " << p[2] << "), (0, 3, 4), " << radius << ", 25";
+    return stream.str();
+  };
+  // By its apex, and by the radius somewhere else.
+  for (const auto &cone : {shape(text(apex, 0.)), shape(text(apex + h * axis, h * s / c))})
+    {
+      EXPECT_TRUE(cone->is_exact());
+      for (unsigned int i = 0; i < 50; ++i)
+        {
+          const Tensor<1, 3> out = std::cos(.7 * i) * one + std::sin(.7 * i) * two;
+          const Tensor<1, 3> n   = c * out - s * axis;
+          const double       way = .1 + .05 * i;
+          const Point<3>     x   = apex + way * (c * axis + s * out);
+          for (const double off : {-.4 * way * s / c, 0., .3, 5.})
+            {
+              EXPECT_LT(cone->project(x + off * n).distance(x), 1e-13) << i << ", " << off;
+              EXPECT_LT((cone->normal(x + off * n, n) - n).norm(), 1e-13);
+              EXPECT_LT((cone->normal(x + off * n, -2. * n) + n).norm(), 1e-13);
+            }
+        }
+      EXPECT_LT(cone->project(apex - .5 * axis + .1 * one).distance(apex), 1e-15);
+    }
+  // Where it meets a plane across its axis.
+  const Point<3> edge =
+      project_onto({shape("cone: (0, 0, 0), (0, 0, 1), 0, 45"), shape("plane: (0, 0, 2), (0, 0, 1)")},
+                   Point<3>(1.9, .1, 2.1));
+  EXPECT_NEAR(std::hypot(edge[0], edge[1]), 2., 1e-12);
+  EXPECT_NEAR(edge[2], 2., 1e-12);
+  // Placed like the body: turned by 90 degrees about x, so that it opens along -y, then moved.
+  Placement placement;
+  placement.rotation    = Tensor<2, 3>({{1., 0., 0.}, {0., 0., -1.}, {0., 1., 0.}});
+  placement.translation = Tensor<1, 3>({10., 0., 0.});
+  const Point<3> x = shape("cone: (0, 0, 0), (0, 0, 1), 1, 45", placement)->project(Point<3>(13., -2.2, 0.));
+  EXPECT_NEAR(x[0] - 10., 1. - x[1], 1e-14);
+  EXPECT_EQ(x[2], 0.);
+  for (const std::string bad : {"cone: (0, 0, 0), (0, 0, 1), 1", "cone: (0, 0, 0), (0, 0, 1), -1, 20",
+                                "cone: (0, 0, 0), (0, 0, 1), 1, 0", "cone: (0, 0, 0), (0, 0, 1), 1, 90",
+                                "cone: (0, 0, 0), (0, 0, 0), 1, 20"})
+    EXPECT_THROW(shape(bad), InputError) << bad;
+}
+
+
+
 // The facets of a sphere are off by h^2 / 8; projections of points on a normal come back to its foot.
 TEST(BoundaryShape, TriangulatedSphere)
 {

@@ -429,3 +429,93 @@ TEST(EdgeNormals, WhatIsNotFacedIsNotMet)
           }
     }
 }
+
+namespace
+{
+  /// The lower half of a cylinder of radius 1 along y, with a face that is cut in four beside hanging
+  /// vertices.
+  ContactSurface half_cylinder()
+  {
+    FlatSurfaces::Grid grid;
+    grid.nx       = 11;
+    grid.ny       = 3;
+    grid.faces_up = false;
+    // From 16 to 33 and from 82 to 98 degrees.
+    grid.refined           = {{1, 1}, {5, 1}};
+    ContactSurface surface = FlatSurfaces::make_surface(grid);
+    for (unsigned int v = 0; v < surface.mesh.vertices.size(); ++v)
+      {
+        Point<3>    &x                 = surface.mesh.vertices[v];
+        const double angle             = PI * x[0];
+        surface.mesh.vertex_normals[v] = Vector3({-std::cos(angle), 0., -std::sin(angle)});
+        x                              = Point<3>(-std::cos(angle), x[1], -std::sin(angle));
+      }
+    return surface;
+  }
+} // namespace
+
+// All that looks towards the plane has its normal, the rest its own; also towards a plane that is inclined.
+TEST(FacePlane, WhatLooksTowardsIt)
+{
+  for (const double angle : {0., .3})
+    {
+      const Vector3        normal({std::sin(angle), 0., std::cos(angle)});
+      const ContactSurface before  = half_cylinder();
+      ContactSurface       surface = before;
+      face_plane(surface, normal);
+      unsigned int n_turned = 0;
+      for (unsigned int v = 0; v < surface.mesh.vertices.size(); ++v)
+        if (surface.hanging[v].empty())
+          {
+            const Vector3 &own   = before.mesh.vertex_normals[v];
+            const bool     looks = -normal * own >= .5;
+            n_turned += looks ? 1 : 0;
+            EXPECT_EQ(surface.has_partner_normal[v], looks) << surface.mesh.vertices[v];
+            EXPECT_LT((surface.mesh.vertex_normals[v] - (looks ? -normal : own)).norm(), 1e-14)
+                << surface.mesh.vertices[v];
+          }
+      EXPECT_GT(n_turned, 30u);
+      EXPECT_LT(n_turned, surface.mesh.vertices.size() - 10);
+    }
+}
+
+// Hanging vertices have the mean of their parents, and are marked where both are.
+TEST(FacePlane, HangingVertices)
+{
+  const ContactSurface before  = half_cylinder();
+  ContactSurface       surface = before;
+  const Vector3        normal({0., 0., 1.});
+  face_plane(surface, normal);
+  unsigned int n_marked = 0, n_mixed = 0;
+  for (unsigned int v = 0; v < surface.hanging.size(); ++v)
+    if (!surface.hanging[v].empty())
+      {
+        unsigned int n_turned = 0;
+        Vector3      mean;
+        for (const auto &[parent, weight] : surface.hanging[v])
+          {
+            n_turned += surface.has_partner_normal[parent] ? 1 : 0;
+            mean += weight * surface.mesh.vertex_normals[parent];
+          }
+        const bool all = n_turned == surface.hanging[v].size();
+        n_marked += all ? 1 : 0;
+        n_mixed += n_turned > 0 && !all ? 1 : 0;
+        EXPECT_EQ(surface.has_partner_normal[v], all);
+        const Vector3 expected = n_turned > 0 ? mean / mean.norm() : before.mesh.vertex_normals[v];
+        EXPECT_LT((surface.mesh.vertex_normals[v] - expected).norm(), 1e-14);
+      }
+  EXPECT_GT(n_marked, 0u);
+  EXPECT_GT(n_mixed, 0u);
+}
+
+// What edges have met before stays marked.
+TEST(FacePlane, KeepsWhatEdgesHaveMet)
+{
+  ContactSurface surface = half_cylinder();
+  surface.has_partner_normal.assign(surface.mesh.vertices.size(), false);
+  const Vector3 own             = surface.mesh.vertex_normals[0];
+  surface.has_partner_normal[0] = true;
+  face_plane(surface, Vector3({0., 0., 1.}));
+  EXPECT_TRUE(surface.has_partner_normal[0]);
+  EXPECT_EQ(surface.mesh.vertex_normals[0], own);
+}
