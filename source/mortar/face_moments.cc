@@ -240,6 +240,14 @@ namespace Signorini
           moments.gap[a] += change[a];
       }
 
+      /// After the last triangle.
+      void add_facing()
+      {
+        for (const auto &[vertex, values] : moments.coupling)
+          for (unsigned int a = 0; a < 4; ++a)
+            moments.facing[a] += values[a] * mortar.mesh.vertex_normals[vertex];
+      }
+
       FaceMoments moments;
 
     private:
@@ -355,6 +363,7 @@ namespace Signorini
               integrator.add_face_triangle(static_cast<unsigned int>(triangles.list[i]));
             add(integrator, f, triangles);
             integrator.smooth_gap();
+            integrator.add_facing();
             mine.push_back(std::move(integrator.moments));
           }
       return mine;

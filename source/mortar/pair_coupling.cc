@@ -21,6 +21,7 @@ namespace Signorini
                                         "normal direction prescribed",
                                         "node of another surface in contact, too",
                                         "on a sharp edge",
+                                        "the other side faces across their normal",
                                         "thinly covered",
                                         "extrapolating"};
     return texts[reason];
@@ -159,7 +160,7 @@ namespace Signorini
                   add_function(m, corners, psi.corner[i], psi.coefficients[i]);
                   is_lost = false;
                 }
-            if (is_lost && is_own)
+            if (is_lost && is_own && !nodes.turns_away(m))
               result.lost_area += m.covered;
           }
       }

@@ -31,8 +31,9 @@ namespace Signorini
       data.insert(data.end(), {static_cast<double>(m.face), m.covered, m.area});
       data.insert(data.end(), m.full.begin(), m.full.end());
       data.insert(data.end(), m.mass.begin(), m.mass.end());
-      for (const Vector3 &g : m.gap)
-        data.insert(data.end(), {g[0], g[1], g[2]});
+      for (const auto *const vectors : {&m.gap, &m.facing})
+        for (const Vector3 &g : *vectors)
+          data.insert(data.end(), {g[0], g[1], g[2]});
       data.push_back(static_cast<double>(m.coupling.size()));
       for (const auto &[vertex, values] : m.coupling)
         {
@@ -49,9 +50,10 @@ namespace Signorini
       m.area          = next();
       std::generate(m.full.begin(), m.full.end(), next);
       std::generate(m.mass.begin(), m.mass.end(), next);
-      for (Vector3 &g : m.gap)
-        for (unsigned int c = 0; c < dim; ++c)
-          g[c] = next();
+      for (auto *const vectors : {&m.gap, &m.facing})
+        for (Vector3 &g : *vectors)
+          for (unsigned int c = 0; c < dim; ++c)
+            g[c] = next();
       m.coupling.resize(static_cast<std::size_t>(next()));
       for (auto &[vertex, values] : m.coupling)
         {

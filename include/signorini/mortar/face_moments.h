@@ -30,6 +30,9 @@ namespace Signorini
     /// Corner function times initial_gap() without its bubbles (area * length; doc/algorithm.md, (17a)); or,
     /// with a prescribed gap, that gap in component 0.
     std::array<Vector3, 4> gap;
+    /// Corner function times the outward unit normal of the other side at the images (area), interpolated
+    /// from its vertices. Nothing with obstacles, which are seen along the own normals.
+    std::array<Vector3, 4> facing;
     /// For each mortar vertex (index of its surface): products of its bilinear function with the corner
     /// functions.
     std::vector<std::pair<unsigned int, std::array<double, 4>>> coupling;
