@@ -10,6 +10,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace Signorini
 {
@@ -69,7 +70,7 @@ namespace Signorini
         else if (on_sharp_edge[v])
           drop(v, DroppedNode::sharp_edge);
         else if (state.is_touched &&
-                 -(facing[v] * surface.mesh.vertex_normals[v]) < rule.least_facing * facing[v].norm())
+                 std::abs(facing[v] * surface.mesh.vertex_normals[v]) < rule.least_facing * facing[v].norm())
           drop(v, DroppedNode::turned_away);
         else if (state.is_touched && others.kept.count(surface.vertex_node[v]) > 0)
           state.is_protected = true;
