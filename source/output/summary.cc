@@ -310,6 +310,7 @@ namespace Signorini
     json.number("lost_triangles", report.n_lost_triangles);
     json.number("torn_edges", report.n_torn_edges);
     json.number("turned_away", report.n_turned_away);
+    json.number("slight", report.n_slight);
   }
 
 

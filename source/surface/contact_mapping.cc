@@ -32,17 +32,22 @@ namespace Signorini
 
 
 
-  void MappingReport::add_edge(const unsigned int edge, const double excess, const bool can_touch)
+  void MappingReport::add_edge(const OpenEdge &sides)
   {
-    if (std::abs(excess) <= torn)
+    if (std::abs(sides.excess) <= torn)
       return;
-    if (!can_touch)
+    if (!sides.can_touch)
       {
         ++n_turned_away;
         return;
       }
+    if (std::abs(sides.excess) <= slight || sides.are_tiled)
+      {
+        ++n_slight;
+        return;
+      }
     ++n_torn_edges;
-    torn_edges.push_back(edge);
+    torn_edges.push_back(sides.edge);
   }
 
 
@@ -114,10 +119,18 @@ namespace Signorini
           ++report.n_turned_away;
           return;
         }
+      report.worst_tiling_defect = std::max(report.worst_tiling_defect, polygons.defect());
+      const auto is_slight = [](const auto &polygon) { return polygon.share >= -MappingReport::slight; };
+      if (is_wrong && !polygons.is_lost() && polygons.n_broken == 0 &&
+          polygons.defect() <= MappingReport::slight &&
+          std::all_of(polygons.list.begin(), polygons.list.end(), is_slight))
+        {
+          ++report.n_slight;
+          return;
+        }
       report.n_flips += n_flips;
       report.n_broken += polygons.n_broken;
       report.n_lost_triangles += polygons.is_lost();
-      report.worst_tiling_defect = std::max(report.worst_tiling_defect, polygons.defect());
       if (is_wrong)
         report.wrong_triangles.push_back(t);
     }
@@ -127,10 +140,10 @@ namespace Signorini
     /// Both triangles of an edge run through it in opposite directions: what they have of it adds up to
     /// nothing.
     /// @param balance these sums, by edge
-    /// @param can_touch by triangle
+    /// @param can_touch, is_tiled by triangle
     void find_torn_edges(MappingReport &report, const SurfaceTopology &nonmortar,
                          const std::vector<double> &balance, const std::vector<bool> &can_touch,
-                         const Selection &is_selected)
+                         const std::vector<bool> &is_tiled, const Selection &is_selected)
     {
       for (unsigned int e = 0; e < nonmortar.edges.size(); ++e)
         if (!nonmortar.is_border(e))
@@ -138,11 +151,14 @@ namespace Signorini
             const auto        &beside = nonmortar.edge_triangles[e];
             const unsigned int n_selected =
                 !is_selected ? 2 : is_selected(beside[0]) + is_selected(beside[1]);
-            const bool touches = can_touch[beside[0]] || can_touch[beside[1]];
+            const auto is_unknown = [&](const unsigned int t) { return is_selected && !is_selected(t); };
+            const MappingReport::OpenEdge edge = {e, balance[e], can_touch[beside[0]] || can_touch[beside[1]],
+                                                  (is_tiled[beside[0]] || is_unknown(beside[0])) &&
+                                                      (is_tiled[beside[1]] || is_unknown(beside[1]))};
             if (n_selected == 2)
-              report.add_edge(e, balance[e], touches);
+              report.add_edge(edge);
             else if (n_selected == 1)
-              report.open_edges.push_back({e, balance[e], touches});
+              report.open_edges.push_back(edge);
           }
     }
 
@@ -222,17 +238,18 @@ namespace Signorini
     TrianglePolygons        polygons(incidence, graph, mortar_border);
     VisitedPolygons         visited(nonmortar.triangles.size(), graph.nodes.size());
     std::vector<double>     balance(nonmortar.edges.size(), 0.);
-    std::vector<bool>       can_touch(nonmortar.triangles.size(), false);
+    std::vector<bool>       can_touch(nonmortar.triangles.size(), false), is_tiled(can_touch);
     visit_triangles(nonmortar_mesh, nonmortar, is_selected, [&](const unsigned int t) {
       polygons.compute(t);
       can_touch[t] = polygons.can_touch();
+      is_tiled[t]  = polygons.is_tiled(MappingReport::slight);
       add_area(summary, polygons, t, incidence);
       add_errors(summary, polygons, t);
       for (const auto &side : polygons.sides)
         balance[side.edge] += side.length;
       visited.add(polygons, t);
     });
-    find_torn_edges(summary, nonmortar, balance, can_touch, is_selected);
+    find_torn_edges(summary, nonmortar, balance, can_touch, is_tiled, is_selected);
     visited.put_in_order(*this);
     graph_nodes = std::move(graph.nodes);
   }

@@ -119,12 +119,14 @@ namespace Signorini
       for (const auto &part : Utilities::MPI::all_gather(communicator, report.open_edges))
         for (const MappingReport::OpenEdge &side : part)
           {
-            MappingReport::OpenEdge &sum = sums[side.edge];
+            MappingReport::OpenEdge &sum =
+                sums.insert({side.edge, {side.edge, 0., false, true}}).first->second;
             sum.excess += side.excess;
             sum.can_touch = sum.can_touch || side.can_touch;
+            sum.are_tiled = sum.are_tiled && side.are_tiled;
           }
       for (const auto &[edge, sum] : sums)
-        report.add_edge(edge, sum.excess, sum.can_touch);
+        report.add_edge(sum);
       report.open_edges.clear();
     }
   } // namespace
@@ -135,8 +137,9 @@ namespace Signorini
   {
     for (double *area : {&report.area_nonmortar, &report.area_covered, &report.area_mortar_covered})
       *area = Utilities::MPI::sum(*area, communicator);
-    for (std::size_t *number : {&report.n_cells, &report.n_pairs, &report.n_flips, &report.n_broken,
-                                &report.n_lost_triangles, &report.n_torn_edges, &report.n_turned_away})
+    for (std::size_t *number :
+         {&report.n_cells, &report.n_pairs, &report.n_flips, &report.n_broken, &report.n_lost_triangles,
+          &report.n_torn_edges, &report.n_turned_away, &report.n_slight})
       *number = Utilities::MPI::sum(*number, communicator);
     report.worst_tiling_defect = Utilities::MPI::max(report.worst_tiling_defect, communicator);
     // An edge over several parts may be lost in each of them; a vertex is told by one.
@@ -189,9 +192,6 @@ namespace Signorini
 
   namespace
   {
-    /// Above the size of what is taken for incident.
-    constexpr double largest_defect = 1e-9;
-
     /// Parts of the surfaces that are covered.
     std::array<std::pair<const char *, double>, 2> covered_shares(const MappingReport &report)
     {
@@ -202,7 +202,7 @@ namespace Signorini
     /// No point of a surface has more than one image.
     bool is_too_much(const double share)
     {
-      return !(share <= 1. + largest_defect);
+      return !(share <= 1. + MappingReport::slight);
     }
   } // namespace
 
@@ -228,7 +228,7 @@ namespace Signorini
     add(report.lost_edges.size(), "mortar edges lost");
     add(report.n_flips, "cells turned");
     add(report.n_broken, "pairs of triangles without a polygon");
-    if (report.worst_tiling_defect > largest_defect)
+    if (report.worst_tiling_defect > MappingReport::slight)
       text << (text.tellp() > 0 ? ", " : "") << "a triangle that is covered wrongly by "
            << report.worst_tiling_defect << " of its area";
     for (const auto &[name, share] : covered_shares(report))

@@ -39,6 +39,12 @@ namespace Signorini
       return is_covered_all && !list.empty() ? std::abs(covered - 1.) : 0.;
     }
 
+    /// Whether it is known to be covered as a whole, up to a share of it.
+    bool is_tiled(const double share) const
+    {
+      return is_covered_all && !list.empty() && defect() <= share;
+    }
+
     /// Whether it has images everywhere, but no polygon.
     bool is_lost() const
     {

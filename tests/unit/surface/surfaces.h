@@ -150,7 +150,7 @@ namespace TestSurfaces
       return std::to_string(report.lost_edges.size()) + " edges lost";
     if (report.n_broken > 0)
       return std::to_string(report.n_broken) + " pairs without a polygon";
-    if (report.n_flips == 0 && report.n_lost_triangles + report.n_torn_edges > 0)
+    if (report.n_flips == 0 && report.n_lost_triangles + report.n_torn_edges + report.n_slight > 0)
       return std::to_string(report.n_lost_triangles) + " triangles lost, " +
              std::to_string(report.n_torn_edges) + " edges torn";
     // Where the mapping is turned it is not one-to-one: the report says so, and pieces need not fit exactly.
