@@ -81,7 +81,7 @@ namespace Signorini
             // Beyond an edge that sticks out normals lean away from it.
             const double own =
                 std::copysign(angle(edge), -(normals[sides[1 - i]] * away_from(edge, sides[i])));
-            if (!on || *on / own < rule.least_of_chord)
+            if (!on || *on / own < rule.least_of_chord || *on / own > rule.most_of_chord)
               return false;
           }
         return true;

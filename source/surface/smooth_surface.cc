@@ -150,14 +150,20 @@ namespace Signorini
                               [&](const Tensor<1, 3> &one, const Tensor<1, 3> &other) {
                                 return one * quadric.normal < other * quadric.normal;
                               });
-        const Tensor<1, 3> turn  = nearest - (nearest * quadric.normal) * quadric.normal;
-        const double       angle = turn.norm();
-        double             width = 0.;
+        const Tensor<1, 3> turn     = nearest - (nearest * quadric.normal) * quadric.normal;
+        const double       angle    = turn.norm();
+        double             width    = 0.;
+        double             steepest = 0.;
         for (const unsigned int t : centre.triangles)
-          for (const unsigned int v : topology.triangles[t])
-            width = std::max(width, std::abs((mesh.vertices[v] - mesh.vertices[centre.vertex]) * turn));
-        if (nearest * quadric.normal >= std::cos(rule.touches_flat * numbers::PI / 180.) && angle > 0. &&
-            angle * angle * angle * angle <= rule.of_the_turn * std::abs(quadric.along(turn)) * width)
+          {
+            steepest = std::max(steepest, (nearest - normals[t]).norm());
+            for (const unsigned int v : topology.triangles[t])
+              width = std::max(width, std::abs((mesh.vertices[v] - mesh.vertices[centre.vertex]) * turn));
+          }
+        const bool is_small =
+            nearest * quadric.normal >= std::cos(rule.touches_flat * numbers::PI / 180.) &&
+            angle * angle * angle * angle <= rule.of_the_turn * std::abs(quadric.along(turn)) * width;
+        if (angle > 0. && (is_small || angle <= rule.of_the_facets * steepest))
           turn_frame(quadric, nearest);
       }
 

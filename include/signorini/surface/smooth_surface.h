@@ -18,8 +18,9 @@ namespace Signorini
     /// disagreement of the estimates of a height, relative to the height that the largest curvature there
     /// gives. Both are nothing on spheres and cylinders. With these limits all triangles of spheres and
     /// cylinders of six cells across pass, and less than a quarter where noise is as large as the heights of
-    /// facets (tests/unit/surface/smooth_surface.cc); on the bones of a knee the residual is 0.11 (median).
-    double largest_residual     = .1;
+    /// facets (tests/unit/surface/smooth_surface.cc; more with .35). Around tori of two faces over a rim the
+    /// residual is .1 to .3, and the patches are right to a twentieth of the height of the facets.
+    double largest_residual     = .3;
     double largest_disagreement = .35;
     /// Residual up to which a fit is the surface itself: vertices of spheres and cylinders from CAD lie on
     /// them to 1e-5 of the heights of coarse facets and better. Such fits hold as far as vertices lie on
@@ -42,6 +43,8 @@ namespace Signorini
     /// beside it up to which it may touch that, as fillets of three faces do (7 at corners); and up to what
     /// part of what the curved part turns by within its first faces. A cone does not turn across.
     double touches_flat = 10., of_the_turn = .5;
+    /// Or up to what part of the angle to the facets there: those of a cone have its normal.
+    double of_the_facets = .5;
   };
 
   /// The smooth surface that a triangulated one stands for: a curved patch over each triangle, through its

@@ -3,6 +3,8 @@
 
 #include "surfaces.h"
 
+#include <signorini/surface/mapping_quality.h>
+
 using namespace TestSurfaces;
 
 
@@ -196,4 +198,21 @@ TEST(ContactMapping, SelectionDoesNotChangeATriangle)
       EXPECT_EQ(expected[i].nonmortar, odd.overlay()[i].nonmortar);
       EXPECT_EQ(expected[i].mortar, odd.overlay()[i].mortar);
     }
+}
+
+// Edges that are torn over slivers of triangles that are covered all the same are told apart.
+TEST(MappingReport, SlightErrors)
+{
+  Signorini::MappingReport report;
+  report.add_edge({3, 1e-12, true, false});
+  report.add_edge({4, .1, false, false});
+  report.add_edge({5, .1, true, true});
+  report.add_edge({6, 1e-6, true, false});
+  EXPECT_EQ(report.n_turned_away, 1u);
+  EXPECT_EQ(report.n_slight, 2u);
+  EXPECT_EQ(Signorini::describe_errors(report).find("torn"), std::string::npos);
+  report.add_edge({7, .1, true, false});
+  ASSERT_EQ(report.torn_edges.size(), 1u);
+  EXPECT_EQ(report.torn_edges[0], 7u);
+  EXPECT_NE(Signorini::describe_errors(report).find("torn"), std::string::npos);
 }
