@@ -10,7 +10,6 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace Signorini
 {
@@ -24,8 +23,7 @@ namespace Signorini
     , moments(moments)
     , states(surface.vertex_node.size())
   {
-    std::vector<double>  covered(states.size(), 0.), full(covered);
-    std::vector<Vector3> facing(states.size());
+    std::vector<double> covered(states.size(), 0.), full(covered);
     for (const FaceMoments &m : moments)
       for (unsigned int a = 0; a < 4; ++a)
         {
@@ -33,7 +31,6 @@ namespace Signorini
           if (surface.faces[m.face].leaves(a))
             continue;
           full[v] += m.full[a];
-          facing[v] += m.facing[a];
           if (!is_empty(m))
             for (unsigned int b = 0; b < 4; ++b)
               covered[v] += m.mass[4 * a + b];
@@ -69,9 +66,6 @@ namespace Signorini
           drop(v, DroppedNode::normal_fixed);
         else if (on_sharp_edge[v])
           drop(v, DroppedNode::sharp_edge);
-        else if (state.is_touched &&
-                 std::abs(facing[v] * surface.mesh.vertex_normals[v]) < rule.least_facing * facing[v].norm())
-          drop(v, DroppedNode::turned_away);
         else if (state.is_touched && others.kept.count(surface.vertex_node[v]) > 0)
           state.is_protected = true;
         else if (!(covered[v] > 0.) || covered[v] < rule.smallest_share * full[v])
@@ -114,22 +108,7 @@ namespace Signorini
 
   bool MultiplierNodes::is_reported(const unsigned int v) const
   {
-    return states[v].in_r && !is_hanging(v) && states[v].is_touched && !turns_away(v);
-  }
-
-
-
-  bool MultiplierNodes::turns_away(const unsigned int v) const
-  {
-    return states[v].in_r && states[v].reason == DroppedNode::turned_away;
-  }
-
-
-
-  bool MultiplierNodes::turns_away(const FaceMoments &m) const
-  {
-    const auto &list = surface.faces[m.face].corners;
-    return std::any_of(list.begin(), list.end(), [&](const unsigned int v) { return turns_away(v); });
+    return states[v].in_r && !is_hanging(v) && states[v].is_touched;
   }
 
 
@@ -271,7 +250,7 @@ namespace Signorini
         add_place(places, false, h, true, parents(h));
     for (const FaceMoments &m : moments)
       {
-        if (!halo.owns_face(m.face) || is_empty(m) || turns_away(m))
+        if (!halo.owns_face(m.face) || is_empty(m))
           continue;
         const std::vector<unsigned int> vertices = corners(m);
         if (!all_in_r(vertices) || !any_may_return(vertices))
@@ -327,7 +306,7 @@ namespace Signorini
     std::vector<PairCoupling::LostFace> result;
     for (const FaceMoments &m : moments)
       {
-        if (!halo.owns_face(m.face) || !(m.covered > 0.) || turns_away(m))
+        if (!halo.owns_face(m.face) || !(m.covered > 0.))
           continue;
         std::map<NodeIndex, unsigned int> nodes;
         for (const unsigned int v : corners(m))

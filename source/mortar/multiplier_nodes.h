@@ -42,10 +42,6 @@ namespace Signorini
       return states[v].is_ceded;
     }
 
-    /// Whether the other side faces across the normal of a corner of a face: then it need not have a
-    /// function.
-    bool turns_away(const FaceMoments &m) const;
-
     /// Whether a vertex hangs.
     bool is_hanging(const unsigned int v) const
     {
@@ -109,7 +105,6 @@ namespace Signorini
 
     void drop(const unsigned int v, const DroppedNode::Reason why);
     bool is_reported(const unsigned int v) const;
-    bool turns_away(const unsigned int v) const;
     bool all_in_r(const std::vector<unsigned int> &vertices) const;
     void update_hanging();
 

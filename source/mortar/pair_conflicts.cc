@@ -461,8 +461,6 @@ namespace Signorini
           {
             DroppingRule rule_of_pair      = rule;
             rule_of_pair.drops_sharp_edges = rule.drops_sharp_edges && !pairs[p].is_tied;
-            if (pairs[p].is_tied || pairs[p].prescribed_gap)
-              rule_of_pair.least_facing = DroppingRule::any_facing;
             couplings.push_back(couple(pairs[p].surfaces, pairs[p].moments, several.of_pair(p),
                                        pairs[p].prescribed_gap, rule_of_pair));
           }

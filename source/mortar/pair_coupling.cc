@@ -21,7 +21,6 @@ namespace Signorini
                                         "normal direction prescribed",
                                         "node of another surface in contact, too",
                                         "on a sharp edge",
-                                        "the other side faces across their normal",
                                         "thinly covered",
                                         "extrapolating"};
     return texts[reason];
@@ -31,6 +30,29 @@ namespace Signorini
 
   namespace
   {
+    /// Pure number.
+    struct FacingRule
+    {
+      /// Least cosine between the normal of a node and those of the other side, in the mean over its
+      /// function, along which gaps are measured.
+      double least = .2;
+    };
+
+    /// The gap of a node (area * length). Along a normal that lies across those of the other side there is
+    /// none, whatever the distance: where a fillet of two faces that stands on a table goes over into the
+    /// upright wall, nodes carried twice the load of the block, two of its radii away from the table. They
+    /// are as far away as along the steepest normal that counts.
+    /// @param gap, facing integrals of the node's function times Phi(x) - x (area * length), and times the
+    /// unit
+    ///   normals of the other side (area)
+    double gap_along(const Vector3 &normal, const Vector3 &gap, const Vector3 &facing)
+    {
+      const FacingRule rule;
+      const double     size = facing.norm();
+      const double     away = size > 0. ? -(gap * facing) / size : 0.;
+      return away > 0. && std::abs(facing * normal) < rule.least * size ? away / rule.least : gap * normal;
+    }
+
     /// Vertex indices with values; an index may occur several times.
     using Entries = std::vector<std::pair<unsigned int, double>>;
 
@@ -139,6 +161,7 @@ namespace Signorini
         d_rows.assign(non.vertex_node.size(), {});
         m_rows.assign(non.vertex_node.size(), {});
         gaps.assign(non.vertex_node.size(), Vector3());
+        facing = gaps;
         diagonal.assign(non.vertex_node.size(), 0.);
         for (const FaceMoments &m : moments)
           {
@@ -160,7 +183,7 @@ namespace Signorini
                   add_function(m, corners, psi.corner[i], psi.coefficients[i]);
                   is_lost = false;
                 }
-            if (is_lost && is_own && !nodes.turns_away(m))
+            if (is_lost && is_own)
               result.lost_area += m.covered;
           }
       }
@@ -177,6 +200,7 @@ namespace Signorini
             if (j == corner)
               diagonal[v] += value;
             gaps[v] += c[j] * m.gap[j];
+            facing[v] += c[j] * m.facing[j];
           }
         for (const auto &[q, values] : m.coupling)
           m_rows[v].emplace_back(q,
@@ -214,12 +238,13 @@ namespace Signorini
       {
         d_sum.clear();
         m_sum.clear();
-        Vector3 gap;
+        Vector3 gap, normals;
         for (const auto &[v, factor] : combination[k])
           {
             d_sum.add(factor, d_rows[v]);
             m_sum.add(factor, m_rows[v]);
             gap += factor * gaps[v];
+            normals += factor * facing[v];
           }
         // D is diagonal on K up to rounding (more on slivers), and zero at ceded nodes without hanging
         // neighbours: the rest goes to the diagonal, so that the row sums of D and M stay equal.
@@ -251,7 +276,7 @@ namespace Signorini
 
         const Vector3 &normal = non.mesh.vertex_normals[k];
         result.normals.push_back(normal);
-        result.gaps.push_back((prescribed_gap ? gap[0] : gap * normal) / weight);
+        result.gaps.push_back((prescribed_gap ? gap[0] : gap_along(normal, gap, normals)) / weight);
         result.positions.push_back(non.mesh.vertices[k]);
         result.areas.push_back(area);
         result.shares.push_back(nodes.share(k));
@@ -278,7 +303,7 @@ namespace Signorini
       const std::vector<FaceMoments> &moments;
       const bool                      prescribed_gap;
       std::vector<Entries>            d_rows, m_rows, combination;
-      std::vector<Vector3>            gaps;
+      std::vector<Vector3>            gaps, facing;
       /// int psi_v phi_v.
       std::vector<double> diagonal;
       VertexSum           d_sum, m_sum;

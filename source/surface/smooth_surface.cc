@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 namespace Signorini
 {
@@ -56,6 +57,7 @@ namespace Signorini
         const SmoothPieces pieces(topology, is_cut);
         VertexFits         fits(mesh, pieces, rule);
         patches.resize(mesh.triangles.size());
+        std::vector<bool> is_open(mesh.triangles.size(), false);
         for (unsigned int t = 0; t < mesh.triangles.size(); ++t)
           if (wanted[t])
             {
@@ -65,9 +67,17 @@ namespace Signorini
                 continue;
               TriangleFit fit = fits.at_corners(t);
               for (unsigned int i = 0; i < 3; ++i)
-                touch_flat_part(fit.corners[i], pieces.vertices[pieces.of_corner[3 * t + i]]);
+                if (const unsigned int p = pieces.of_corner[3 * t + i];
+                    flat_normals.count(pieces.vertices[p].vertex) > 0)
+                  {
+                    Quadric at_vertex = fits.at_vertex(p);
+                    touch_flat_part(at_vertex, pieces.vertices[p]);
+                    turn_frame(fit.corners[i], at_vertex.normal);
+                  }
               finish(patches[t], t, fit);
+              is_open[t] = fit.is_complete && !patches[t].is_smooth;
             }
+        believe_surroundings(patches, pieces, is_open);
       }
 
     private:
@@ -163,8 +173,39 @@ namespace Signorini
         const bool is_small =
             nearest * quadric.normal >= std::cos(rule.touches_flat * numbers::PI / 180.) &&
             angle * angle * angle * angle <= rule.of_the_turn * std::abs(quadric.along(turn)) * width;
-        if (angle > 0. && (is_small || angle <= rule.of_the_facets * steepest))
+        const bool is_less = angle <= std::sin(rule.largest_touch * numbers::PI / 180.) &&
+                             angle <= rule.of_the_facets * steepest;
+        if (angle > 0. && (is_small || is_less))
           turn_frame(quadric, nearest);
+      }
+
+      /// A triangle among smooth ones is one: a facet beside a patch would be a step of its own height, and
+      /// the other surface, which has its triangles elsewhere, would run into it.
+      void believe_surroundings(std::vector<SmoothSurface::Patch> &patches, const SmoothPieces &pieces,
+                                const std::vector<bool> &is_open) const
+      {
+        std::vector<unsigned int> near, found;
+        for (unsigned int t = 0; t < is_open.size(); ++t)
+          if (is_open[t])
+            {
+              double                 n_smooth = 0., n_all = 0.;
+              std::set<unsigned int> seen;
+              for (unsigned int i = 0; i < 3; ++i)
+                {
+                  pieces.neighbours(near, pieces.of_corner[3 * t + i], 1);
+                  for (const unsigned int p : near)
+                    for (const unsigned int s : pieces.vertices[p].triangles)
+                      if (seen.insert(s).second)
+                        {
+                          n_all += 1.;
+                          n_smooth += patches[s].is_smooth;
+                        }
+                }
+              if (n_smooth >= rule.surroundings * n_all)
+                found.push_back(t);
+            }
+        for (const unsigned int t : found)
+          patches[t].is_smooth = true;
       }
 
       void finish(SmoothSurface::Patch &patch, const unsigned int t, const TriangleFit &fit) const

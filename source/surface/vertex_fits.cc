@@ -31,6 +31,7 @@ namespace Signorini
     , pieces(pieces)
     , rule(rule)
     , quadrics(pieces.vertices.size())
+    , normals(quadrics.size())
     , was_tried(quadrics.size(), false)
     , has_fit(quadrics.size(), false)
     , lenders(mesh.triangles.size(), unknown)
@@ -46,21 +47,41 @@ namespace Signorini
       {
         const unsigned int p = pieces.of_corner[3 * triangle + i];
         result.corners[i]    = taken_at(triangle, i);
+        turn_frame(result.corners[i], normal(p));
         result.is_complete =
             result.is_complete && (lender(triangle) != SurfaceTopology::none || is_fitted(p));
-        Tensor<1, 3> mean;
-        bool         is_own = true;
-        for (const unsigned int t : pieces.vertices[p].triangles)
-          {
-            const unsigned int corner = pieces.corner_of(t, p);
-            const Quadric      taken  = taken_at(t, corner);
-            const double       weight = 1. / (rule.exact + taken.residual);
-            mean += weight * weight * taken.normal;
-            is_own = is_own && lender(t) == SurfaceTopology::none;
-          }
-        if (!is_own)
-          turn_frame(result.corners[i], mean);
       }
+    return result;
+  }
+
+
+
+  Quadric VertexFits::at_vertex(const unsigned int piece_vertex)
+  {
+    Quadric result = own_fit(piece_vertex);
+    turn_frame(result, normal(piece_vertex));
+    return result;
+  }
+
+
+
+  const Tensor<1, 3> &VertexFits::normal(const unsigned int piece_vertex)
+  {
+    Tensor<1, 3> &result = normals[piece_vertex];
+    if (result.norm() > 0.)
+      return result;
+    Tensor<1, 3> mean;
+    bool         is_own = true;
+    for (const unsigned int t : pieces.vertices[piece_vertex].triangles)
+      {
+        const Quadric taken    = taken_at(t, pieces.corner_of(t, piece_vertex));
+        const bool    borrows  = lender(t) != SurfaceTopology::none;
+        const double  residual = borrows || is_fitted(piece_vertex) ? taken.residual : 1.,
+                     weight    = 1. / (rule.exact + residual);
+        mean += weight * weight * taken.normal;
+        is_own = is_own && !borrows;
+      }
+    result = is_own || !(mean.norm() > 0.) ? own_fit(piece_vertex).normal : mean / mean.norm();
     return result;
   }
 

@@ -32,6 +32,9 @@ namespace Signorini
 
     TriangleFit at_corners(const unsigned int triangle);
 
+    /// The fit through a piece vertex alone, with the normal that it has there.
+    Quadric at_vertex(const unsigned int piece_vertex);
+
   private:
     /// The fit through a piece vertex, made when it is first asked for; its mean normal alone if that fails.
     const Quadric &own_fit(const unsigned int piece_vertex);
@@ -45,13 +48,16 @@ namespace Signorini
     bool lies_on(const unsigned int triangle, const unsigned int piece_vertex);
     /// The surface that a triangle takes, at one of its corners.
     Quadric taken_at(const unsigned int triangle, const unsigned int corner);
+    /// The mean of what the triangles around a piece vertex took.
+    const dealii::Tensor<1, 3> &normal(const unsigned int piece_vertex);
 
     const SurfaceMesh   &mesh;
     const SmoothPieces  &pieces;
     const SmoothingRule &rule;
     /// By piece vertex.
-    std::vector<Quadric> quadrics;
-    std::vector<bool>    was_tried, has_fit;
+    std::vector<Quadric>              quadrics;
+    std::vector<dealii::Tensor<1, 3>> normals;
+    std::vector<bool>                 was_tried, has_fit;
     /// By triangle, once it has been asked for.
     std::vector<unsigned int>     lenders;
     static constexpr unsigned int unknown = SurfaceTopology::none - 1;

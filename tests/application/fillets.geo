@@ -1,6 +1,6 @@
 // A block with rounded edges (radius 2) in a pocket with the same rounding, 0.05 away from its walls: with h = 2 fillets have two faces.
 SetFactory("OpenCASCADE");
-h = DefineNumber[2];
+DefineConstant[ h = 2 ];
 c = .05;
 Box(1) = {0, 0, 0, 20, 14, 10};
 Box(2) = {-6, -6, -6, 32, 26, 12};

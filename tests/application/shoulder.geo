@@ -1,6 +1,6 @@
 // A quarter of a hollow bolt whose head is pulled onto a plate, with clearance around the shank: the head has one or two faces between the shank and its rim.
 SetFactory("Built-in");
-h = DefineNumber[2];
+DefineConstant[ h = 2 ];
 Point(1) = {1, 0, -8, h}; Point(2) = {5, 0, -8, h}; Point(3) = {5, 0, 0, h}; Point(4) = {8.5, 0, 0, h}; Point(5) = {8.5, 0, 6, h}; Point(6) = {1, 0, 6, h};
 Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 5}; Line(5) = {5, 6}; Line(6) = {6, 1};
 Curve Loop(1) = {1, 2, 3, 4, 5, 6}; Plane Surface(1) = {1};

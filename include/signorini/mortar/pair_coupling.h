@@ -20,19 +20,18 @@ namespace Signorini
   struct DroppedNode
   {
     /// Why: displacements or the normal are prescribed, another pair needs the node, it lies on a sharp edge
-    /// between faces that are covered, the other side faces across its normal, or the rule drops it.
+    /// between faces that are covered, or the rule drops it.
     enum Reason
     {
       fixed,
       normal_fixed,
       other_pair,
       sharp_edge,
-      turned_away,
       thin_cover,
       large_row
     };
     /// Number of reasons.
-    static constexpr unsigned int n_reasons = 7;
+    static constexpr unsigned int n_reasons = 6;
 
     /// Which node, where (length), and why.
     NodeIndex        node;
@@ -63,12 +62,6 @@ namespace Signorini
     /// smallest_share of their area): their normal is none of the surface, and what slides along one of the
     /// faces presses on the other. Not of tied surfaces, where normals mean nothing.
     bool drops_sharp_edges = true;
-    /// Least cosine between the normal of a node and the mean of the other side's over its function. Across
-    /// its normal every gap is nothing: where a fillet of two faces that stands on a table goes over into the
-    /// upright wall, nodes carried twice the load of the block, two of its radii away from the table.
-    double least_facing = .2;
-    /// Where normals mean nothing.
-    static constexpr double any_facing = 0.;
   };
 
   /// D, M, S = D^-1 M and the weighted gap of one contact pair (doc/algorithm.md, (12) to (17)): the rows of

@@ -19,7 +19,7 @@ namespace Signorini
     double sharp = 40.;
     /// Up to this angle such an edge is the middle of a fillet of two faces, 22.5, 45, 22.5, if the surface
     /// turns on on both sides by between these shares of it. All 45 is an octagon.
-    double largest_chord = 50., least_of_chord = .4, most_of_chord = .75;
+    double largest_chord = 52., least_of_chord = .4, most_of_chord = .75;
     /// At a smaller one edges of facets look the same. But facets turn from edge to edge, and a crease is
     /// alone: within some heights of the triangle beside it the surface turns about it by less than a share
     /// of its own angle; a smaller share says so, a larger one that it may be. On cones and cylinders of

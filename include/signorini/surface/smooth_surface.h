@@ -22,6 +22,10 @@ namespace Signorini
     /// residual is .1 to .3, and the patches are right to a twentieth of the height of the facets.
     double largest_residual     = .3;
     double largest_disagreement = .35;
+    /// What part of the triangles around must be smooth for one that is not sure to be. Of rims with a torus
+    /// of two faces in pockets with the same, a third to two thirds are sure, on either side others: gaps
+    /// were wrong by .15 to .18 of the radius, all from facets beside patches; by .001 to .04 with it.
+    double surroundings = .5;
     /// Residual up to which a fit is the surface itself: vertices of spheres and cylinders from CAD lie on
     /// them to 1e-5 of the heights of coarse facets and better. Such fits hold as far as vertices lie on
     /// them.
@@ -43,8 +47,9 @@ namespace Signorini
     /// beside it up to which it may touch that, as fillets of three faces do (7 at corners); and up to what
     /// part of what the curved part turns by within its first faces. A cone does not turn across.
     double touches_flat = 10., of_the_turn = .5;
-    /// Or up to what part of the angle to the facets there: those of a cone have its normal.
-    double of_the_facets = .5;
+    /// Or up to what part of the angle to the facets there, and how many degrees: those of a cone have its
+    /// normal.
+    double of_the_facets = .5, largest_touch = 25.;
   };
 
   /// The smooth surface that a triangulated one stands for: a curved patch over each triangle, through its
@@ -55,8 +60,9 @@ namespace Signorini
   /// exact on spheres and cylinders (where x - centre = R N, the sum is R (1 - |N|²) and the height R (1 -
   /// |N|)), of fourth order on quadratic surfaces, nothing on flat ones, continuous across edges but at
   /// creases. Normals come from a quadratic surface through each vertex, fitted to two rings of neighbours,
-  /// which is exact on spheres and cylinders, too. Creases, and the borders of flat parts, are borders of the
-  /// smooth pieces and keep a normal on either side.
+  /// which is exact on spheres and cylinders, too; where the curvature jumps, as where a fillet goes over
+  /// into a sphere, to one through a vertex nearby on the same side. Creases, and the borders of flat parts,
+  /// are borders of the smooth pieces and keep a normal on either side.
   class SmoothSurface
   {
   public:
@@ -68,7 +74,8 @@ namespace Signorini
       /// Largest height of the patch over the triangle (length).
       double height = 0.;
       /// By how much the estimates of the height disagree (length): those of the curvatures at either end of
-      /// an edge, found from different neighbourhoods, and that of the normals.
+      /// an edge, found from different neighbourhoods (or from one, that of a vertex nearby, where a surface
+      /// goes over into another one), and that of the normals.
       double doubt = 0.;
       /// Whether the mesh itself shows that it stands for a smooth surface here.
       bool is_smooth = false;
