@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 
 namespace Signorini
 {
@@ -57,7 +56,6 @@ namespace Signorini
         const SmoothPieces pieces(topology, is_cut);
         VertexFits         fits(mesh, pieces, rule);
         patches.resize(mesh.triangles.size());
-        std::vector<bool> is_open(mesh.triangles.size(), false);
         for (unsigned int t = 0; t < mesh.triangles.size(); ++t)
           if (wanted[t])
             {
@@ -75,9 +73,7 @@ namespace Signorini
                     turn_frame(fit.corners[i], at_vertex.normal);
                   }
               finish(patches[t], t, fit);
-              is_open[t] = fit.is_complete && !patches[t].is_smooth;
             }
-        believe_surroundings(patches, pieces, is_open);
       }
 
     private:
@@ -177,35 +173,6 @@ namespace Signorini
                              angle <= rule.of_the_facets * steepest;
         if (angle > 0. && (is_small || is_less))
           turn_frame(quadric, nearest);
-      }
-
-      /// A triangle among smooth ones is one: a facet beside a patch would be a step of its own height, and
-      /// the other surface, which has its triangles elsewhere, would run into it.
-      void believe_surroundings(std::vector<SmoothSurface::Patch> &patches, const SmoothPieces &pieces,
-                                const std::vector<bool> &is_open) const
-      {
-        std::vector<unsigned int> near, found;
-        for (unsigned int t = 0; t < is_open.size(); ++t)
-          if (is_open[t])
-            {
-              double                 n_smooth = 0., n_all = 0.;
-              std::set<unsigned int> seen;
-              for (unsigned int i = 0; i < 3; ++i)
-                {
-                  pieces.neighbours(near, pieces.of_corner[3 * t + i], 1);
-                  for (const unsigned int p : near)
-                    for (const unsigned int s : pieces.vertices[p].triangles)
-                      if (seen.insert(s).second)
-                        {
-                          n_all += 1.;
-                          n_smooth += patches[s].is_smooth;
-                        }
-                }
-              if (n_smooth >= rule.surroundings * n_all)
-                found.push_back(t);
-            }
-        for (const unsigned int t : found)
-          patches[t].is_smooth = true;
       }
 
       void finish(SmoothSurface::Patch &patch, const unsigned int t, const TriangleFit &fit) const

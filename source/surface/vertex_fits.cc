@@ -122,29 +122,19 @@ namespace Signorini
     unsigned int result = SurfaceTopology::none;
     if (own <= rule.exact)
       return result;
-    double                    least = std::numeric_limits<double>::max();
-    std::vector<unsigned int> one, two;
+    double                    least = rule.lends * left_over;
+    std::vector<unsigned int> near_corner;
     for (unsigned int i = 0; i < 3; ++i)
       {
-        const unsigned int p = pieces.of_corner[3 * triangle + i];
-        pieces.neighbours(one, p, 1);
-        pieces.neighbours(two, p, 2);
-        two.push_back(p);
-        for (const unsigned int q : two)
-          {
-            const Quadric &quadric  = own_fit(q);
-            const bool     is_exact = quadric.residual <= rule.exact;
-            const double   part     = is_exact || own < rule.borrows ? rule.far_better : rule.much_better;
-            if (!has_fit[q] || quadric.left_over >= std::min(least, part * left_over))
-              continue;
-            // Fits that are not exact hold where they have seen the triangle.
-            const bool is_near = q == p || std::find(one.begin(), one.end(), q) != one.end();
-            if (quadric.n_checks >= rule.least_checks && (is_exact ? lies_on(triangle, q) : is_near))
-              {
-                least  = quadric.left_over;
-                result = q;
-              }
-          }
+        pieces.neighbours(near_corner, pieces.of_corner[3 * triangle + i], 2);
+        for (const unsigned int q : near_corner)
+          if (const Quadric &quadric = own_fit(q); has_fit[q] && quadric.residual <= rule.exact &&
+                                                   quadric.n_checks >= rule.least_checks &&
+                                                   quadric.left_over < least && lies_on(triangle, q))
+            {
+              least  = quadric.left_over;
+              result = q;
+            }
       }
     return result;
   }

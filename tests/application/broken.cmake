@@ -27,7 +27,8 @@ endfunction()
 
 # The gap counts with the wrong sign.
 signorini_add_broken_program(gap verify_broken mortar/pair_coupling.cc
-  "(prescribed_gap ? gap[0] : gap * normal) / weight" "-(prescribed_gap ? gap[0] : gap * normal) / weight")
+  "(prescribed_gap ? gap[0] : gap_along(normal, gap, normals)) / weight"
+  "-(prescribed_gap ? gap[0] : gap_along(normal, gap, normals)) / weight")
 # Contact forces act on the mortar side in the wrong direction.
 signorini_add_broken_program(coupling verify_broken mortar/pair_coupling.cc
   "m_sum.values[q] / weight" "-m_sum.values[q] / weight")

@@ -18,25 +18,20 @@ namespace Signorini
     /// disagreement of the estimates of a height, relative to the height that the largest curvature there
     /// gives. Both are nothing on spheres and cylinders. With these limits all triangles of spheres and
     /// cylinders of six cells across pass, and less than a quarter where noise is as large as the heights of
-    /// facets (tests/unit/surface/smooth_surface.cc; more with .35). Around tori of two faces over a rim the
-    /// residual is .1 to .3, and the patches are right to a twentieth of the height of the facets.
-    double largest_residual     = .3;
+    /// facets (tests/unit/surface/smooth_surface.cc); on the bones of a knee the residual is 0.11 (median).
+    double largest_residual     = .1;
     double largest_disagreement = .35;
-    /// What part of the triangles around must be smooth for one that is not sure to be. Of rims with a torus
-    /// of two faces in pockets with the same, a third to two thirds are sure, on either side others: gaps
-    /// were wrong by .15 to .18 of the radius, all from facets beside patches; by .001 to .04 with it.
-    double surroundings = .5;
     /// Residual up to which a fit is the surface itself: vertices of spheres and cylinders from CAD lie on
     /// them to 1e-5 of the heights of coarse facets and better. Such fits hold as far as vertices lie on
     /// them.
     double exact = 1e-3;
-    /// A triangle takes the fit of a vertex nearby that leaves over much less than those at its corners: this
-    /// part, or if these are not so bad (their residual) or it is exact, that one. Blocks whose edges and
-    /// corners are rounded with 2 to 11 faces: normals wrong by 28 to 4 degrees at the seams without it, to
-    /// rounding with it. Cylinders with a torus at the rim, 2 to 8 faces around: errors of the surface 6 to
-    /// 25 times smaller; .1 in place of .25 leaves a fifth of the coarse ones out. Fits to a cubic graph stay
-    /// the best there.
-    double borrows = .05, much_better = .25, far_better = .02;
+    /// A triangle takes the exact fit of a vertex nearby that leaves over less than this part of what those
+    /// at its corners do. Blocks whose edges and corners are rounded with 2 to 11 faces: normals wrong by 28
+    /// to 4 degrees at the seams without it, to rounding with it. (Fits that are not exact, but four times
+    /// better, make rims that are tori six times better as well; but teeth of gears, whose curves are none of
+    /// these, ran into each other by .002 to .008 instead of .0007, and a part of a rim that is still not
+    /// sure stays facets: beside patches on the other side worse than facets on both.)
+    double lends = .02;
     /// How many points more than unknowns there must be: at corners of a surface fits with two are exact by
     /// chance.
     unsigned int least_checks = 3;
