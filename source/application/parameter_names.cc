@@ -81,9 +81,19 @@ namespace Signorini
 
     std::string quoted_list(const std::vector<std::string> &names, const std::string &last_word)
     {
-      std::string text;
+      // All parameters of a body are half of that; names of hundreds of bodies help nobody.
+      constexpr std::size_t longest = 1500, longest_name = 100;
+      std::string           text;
       for (std::size_t i = 0; i < names.size(); ++i)
-        text += (i == 0 ? "" : i + 1 < names.size() ? ", " : last_word) + ("\"" + names[i] + "\"");
+        {
+          if (text.size() > longest)
+            return text + " and " + std::to_string(names.size() - i) + " more";
+          const std::string &name = names[i];
+          text += (i == 0                 ? ""
+                   : i + 1 < names.size() ? ", "
+                                          : last_word) +
+                  "\"" + (name.size() > longest_name ? name.substr(0, longest_name) + " ..." : name) + "\"";
+        }
       return text;
     }
 

@@ -31,7 +31,7 @@ namespace Signorini
   namespace
   {
     /// Pure number.
-    struct FacingRule
+    struct CrossNormalRule
     {
       /// Least cosine between the normal of a node and those of the other side, in the mean over its
       /// function, along which gaps are measured.
@@ -47,9 +47,9 @@ namespace Signorini
     ///   normals of the other side (area)
     double gap_along(const Vector3 &normal, const Vector3 &gap, const Vector3 &facing)
     {
-      const FacingRule rule;
-      const double     size = facing.norm();
-      const double     away = size > 0. ? -(gap * facing) / size : 0.;
+      const CrossNormalRule rule;
+      const double          size = facing.norm();
+      const double          away = size > 0. ? -(gap * facing) / size : 0.;
       return away > 0. && std::abs(facing * normal) < rule.least * size ? away / rule.least : gap * normal;
     }
 

@@ -63,6 +63,7 @@ def long_texts(p):
         prm = os.path.join(folder, 'long.prm')
         for text in ('x' * long, 'set Bodies = ' + 'x' * long + '\nset x = 1\n', 'subsection Body a\n' * long, '\0' * long, '(' * long, 'set ' + '=' * long,
                      'set Bodies = a\nsubsection Body a\n  set Lower corner = [List of <[Double' + 'x' * long + '\nend\n',
+                     'set Bodies = ' + ', '.join(f'body {i} ' + 'of many ' * 20 for i in range(300)) + '\nsubsection Ball\nend\n',
                      dirichlet.format('(' * long + '1' + ')' * long), dirichlet.format('^'.join('2' * long)), dirichlet.format('9' * long + '*x')):
             with open(prm, 'w') as f:
                 f.write(text)

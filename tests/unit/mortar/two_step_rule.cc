@@ -352,7 +352,7 @@ TEST(TwoStepRule, SharpEdges)
 // there is no gap whatever the distance.
 TEST(TwoStepRule, FacingAcross)
 {
-  ContactSurface non = make_surface({8, 2, 0., 2.}), mor = make_surface(mortar_grid({7, 3, 0., 2.2}));
+  ContactSurface non = make_surface({4, 1, 0., 2.}), mor = make_surface(mortar_grid({7, 3, 0., 2.2}));
   const auto     overlay = make_overlay(non, mor);
   for (std::size_t v = 0; v < non.mesh.vertices.size(); ++v)
     {
@@ -365,7 +365,7 @@ TEST(TwoStepRule, FacingAcross)
     x = Point<3>(x[0] < 1. ? x[0] : 1. + std::sin(.5 * M_PI * std::min(1., x[0] - 1.)), x[1], .05);
   const auto moments = compute_face_moments(non, mor, overlay, {}, MPI_COMM_SELF);
   const auto pair    = couple(non, mor, moments, {}, false, {});
-  ASSERT_EQ(pair.coupling.n_rows(), 27u);
+  ASSERT_EQ(pair.coupling.n_rows(), 10u);
   EXPECT_EQ(pair.lost_area, 0.);
   for (std::size_t row = 0; row < pair.gaps.size(); ++row)
     EXPECT_GT(pair.gaps[row], pair.positions[row][0] > 1.99 ? 1. : .049) << pair.positions[row];
