@@ -42,9 +42,8 @@ namespace Signorini
     /// none, whatever the distance: where a fillet of two faces that stands on a table goes over into the
     /// upright wall, nodes carried twice the load of the block, two of its radii away from the table. They
     /// are as far away as along the steepest normal that counts.
-    /// @param gap, facing integrals of the node's function times Phi(x) - x (area * length), and times the
-    /// unit
-    ///   normals of the other side (area)
+    /// @param gap integral of the node's function times Phi(x) - x (area * length)
+    /// @param facing integral of the node's function times the unit normals of the other side (area)
     double gap_along(const Vector3 &normal, const Vector3 &gap, const Vector3 &facing)
     {
       const CrossNormalRule rule;

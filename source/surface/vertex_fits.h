@@ -23,8 +23,9 @@ namespace Signorini
 
   /// The quadratic surfaces through the vertices, as the triangles around them see them. Where a cylinder
   /// goes on as a sphere or a torus, a fit through a vertex at the seam is neither: curvature jumps. Then a
-  /// triangle takes the surface through a vertex nearby that lies on one side alone, and the normal at a
-  /// vertex is the mean of what the triangles around it took: both sides of a seam have the same there.
+  /// triangle takes the surface through a vertex nearby that lies on one side alone, if that is exact (a
+  /// cylinder or a sphere), and the normal at a vertex is the mean of what the triangles around it took: both
+  /// sides of a seam have the same there.
   class VertexFits
   {
   public:

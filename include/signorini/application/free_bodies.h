@@ -46,7 +46,8 @@ namespace Signorini
   {
     /// By motion (force, as motions are of the size of 1).
     std::vector<double> work;
-    /// Of the norms of all nodal loads (force).
+    /// Of the components of all nodal loads, with what prescribed displacements do (force): a measure of
+    /// their size.
     double sum = 0.;
   };
 

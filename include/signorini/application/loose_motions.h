@@ -73,8 +73,8 @@ namespace Signorini
 
   /// Collective. What has to be held if a solution slides along what facets oppose by more than a tenth of a
   /// face: that, as far as the surfaces oppose it hardly wherever they touch, and what is undetermined there
-  /// of the same parts; else none. The same if bodies that
-  /// touch only each other may move as one, whatever they slide.
+  /// of the same parts; else none. The same if bodies that touch only each other may move as one, whatever
+  /// they slide.
   /// @param loose of the solution
   /// @param v the solution; its values at contact nodes are relative displacements
   /// @param width of a face (length)

@@ -73,9 +73,10 @@ namespace Signorini
     /// the pressure times the weight.
     InterfaceCoupling coupling;
     /// In the order of the rows: outward unit normal n_p; weighted gap
-    /// g_p = (1/D_pp) int psi_p (Phi(x) - x)·n_p (length); position; int psi_p (area; not D_pp beside nodes
-    /// in R, then a constant gap g gives g_p = g int psi_p / D_pp); covered share of the node's function;
-    /// prescribed components; vertex of the nonmortar surface.
+    /// g_p = (1/D_pp) int psi_p (Phi(x) - x)·n_p (length; where n_p lies across the normals of the other
+    /// side, along those); position; int psi_p (area; not D_pp beside nodes in R, then a constant gap g gives
+    /// g_p = g int psi_p / D_pp); covered share of the node's function; prescribed components; vertex of the
+    /// nonmortar surface.
     std::vector<Vector3>          normals;
     std::vector<double>           gaps;
     std::vector<dealii::Point<3>> positions;
