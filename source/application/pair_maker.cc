@@ -9,6 +9,7 @@
 #include <signorini/mesh/surface_extraction.h>
 #include <signorini/mortar/edge_normals.h>
 #include <signorini/mortar/face_claims.h>
+#include <signorini/mortar/face_seats.h>
 #include <signorini/mortar/face_shares.h>
 #include <signorini/surface/mapping_quality.h>
 
@@ -147,10 +148,24 @@ namespace Signorini
 
     void integrate(ContactPair &pair, const MPI_Comm comm, Journal &journal)
     {
-      const auto time = journal.measure(Phase::mortar);
-      pair.halo       = std::make_shared<const SurfaceHalo>(pair.nonmortar.surface, comm);
-      pair.moments    = pair.halo->add_ghosts(compute_face_moments(
-             pair.nonmortar.surface, pair.mortar.surface, pair.mapping->overlay(), pair.prescribed_gap, comm));
+      const auto time            = journal.measure(Phase::mortar);
+      pair.halo                  = std::make_shared<const SurfaceHalo>(pair.nonmortar.surface, comm);
+      ContactSurface &nonmortar  = pair.nonmortar.surface;
+      const bool      has_gap    = !pair.is_tied && !pair.prescribed_gap;
+      const auto      moments_of = [&](const std::vector<OverlayTriangle> &overlay) {
+        return compute_face_moments(nonmortar, pair.mortar.surface, overlay, pair.prescribed_gap, comm);
+      };
+      if (!has_gap)
+        {
+          pair.moments = pair.halo->add_ghosts(moments_of(pair.mapping->overlay()));
+          return;
+        }
+      const SeatedOverlay seated = without_flanks(nonmortar, pair.mortar.surface, pair.mapping->overlay());
+      std::vector<FaceMoments> moments = moments_of(seated.overlay);
+      for (FaceMoments &m : moments)
+        m.lie = seated.lies[m.face];
+      pair.moments = pair.halo->add_ghosts(std::move(moments));
+      leave_flanks(nonmortar, *pair.halo, pair.moments);
     }
 
     void meet_obstacle(ContactPair &pair, const MPI_Comm comm, Journal &journal)

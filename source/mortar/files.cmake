@@ -8,6 +8,7 @@ signorini_add_layer(mortar
   face_claims.cc
   face_map.cc
   face_moments.cc
+  face_seats.cc
   face_shares.cc
   gap_fit.cc
   geometric_penetration.cc

@@ -28,7 +28,7 @@ namespace Signorini
 
     void pack(std::vector<double> &data, const FaceMoments &m)
     {
-      data.insert(data.end(), {static_cast<double>(m.face), m.covered, m.area});
+      data.insert(data.end(), {static_cast<double>(m.face), m.covered, m.area, m.lie.along, m.lie.away});
       data.insert(data.end(), m.full.begin(), m.full.end());
       data.insert(data.end(), m.mass.begin(), m.mass.end());
       for (const auto *const vectors : {&m.gap, &m.facing})
@@ -48,6 +48,8 @@ namespace Signorini
       m.face          = static_cast<unsigned int>(next());
       m.covered       = next();
       m.area          = next();
+      m.lie.along     = next();
+      m.lie.away      = next();
       std::generate(m.full.begin(), m.full.end(), next);
       std::generate(m.mass.begin(), m.mass.end(), next);
       for (auto *const vectors : {&m.gap, &m.facing})

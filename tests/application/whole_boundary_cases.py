@@ -481,3 +481,41 @@ def ending_side(p):
             check(any('ends over' in note for note in s['notes']) == is_swapped, f'{fine}, {young}: {s["notes"]}')
             check(s['pairs'][0]['nonmortar'] == ('punch' if is_swapped else 'base') + (': bottom' if is_swapped else ': top'), f'nonmortar: {s["pairs"][0]["nonmortar"]}')
             check(s['converged'] and s['certificate']['contact_conditions_hold'], f'{s["certificate"]["objections"]}')
+
+
+SOLE = '''set Bodies        = block, plate
+set Contact pairs = seat
+subsection Body block
+  set Mesh          = sole.msh
+  set Volumes       = block
+  set Young modulus = 200000
+  set Forces        = top: (0, 0, -1000)
+end
+subsection Body plate
+  set Mesh          = sole.msh
+  set Volumes       = plate
+  set Young modulus = 70000
+  set Dirichlet     = base: (0, 0, 0)
+end
+subsection Pair seat
+  set First  = block: sole + block skin
+  set Second = plate: plate skin
+end
+'''
+
+
+def sole_with_edges(p):
+    """A block stands on its sole, whatever runs away from there: with chamfers or fillets named as well, by either side it goes down as with the sole alone."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, 'sole.prm')
+        with open(path, 'w') as f:
+            f.write(SOLE)
+        for rounding in (0, 1):
+            make_mesh(os.path.join(GEOMETRIES, 'sole.geo'), os.path.join(folder, 'sole.msh'), '-setnumber', 'rounding', str(rounding))
+            sole = p.solve(path, 'Pair seat/First=block: sole')['bodies'][0]['largest_displacement']
+            for side in ('first', 'second'):
+                s = p.solve(path, f'Pair seat/Nonmortar={side}')
+                print(f'rounding {rounding}, {side} nonmortar: {s["bodies"][0]["largest_displacement"]} for {sole}, area {s["pairs"][0]["contact_area"]}')
+                check(s['certificate']['contact_conditions_hold'], f'{s["certificate"]["objections"]}')
+                near(s['bodies'][0]['largest_displacement'], sole, .05, f'rounding {rounding}, {side}: displacement')
+                near(s['pairs'][0]['contact_area'], 120, .05, f'rounding {rounding}, {side}: contact area')

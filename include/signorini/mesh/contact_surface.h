@@ -37,8 +37,8 @@ namespace Signorini
       dealii::types::boundary_id boundary = dealii::numbers::invalid_boundary_id;
       /// Of the cell (Bodies::material()).
       dealii::types::material_id material = 0;
-      /// Bit i: at corner i another side of the body is nearer to contact, and the multiplier of the vertex
-      /// does not act on this face (FacingParts::acts()).
+      /// Bit i: at corner i another side of the body is nearer to contact (FacingParts::acts()), or the other
+      /// body runs away over this face (leave_flanks()); the multiplier of the vertex does not act on it.
       unsigned char left_corners = 0;
 
       /// See left_corners.

@@ -15,6 +15,14 @@
 
 namespace Signorini
 {
+  /// How the other side lies over a nonmortar face (SeatedOverlay): nearly all of it along the face up to an
+  /// angle, most of it away by at least an angle (degrees, between the true surfaces).
+  struct FaceLie
+  {
+    /// As above.
+    double along = 0., away = 0.;
+  };
+
   /// Integrals over the covered part F_c of one nonmortar face, with the bilinear functions phi_a of its four
   /// corners (also fixed and hanging ones). Everything that the dual basis needs is a combination of them.
   struct FaceMoments
@@ -36,6 +44,8 @@ namespace Signorini
     /// For each mortar vertex (index of its surface): products of its bilinear function with the corner
     /// functions.
     std::vector<std::pair<unsigned int, std::array<double, 4>>> coupling;
+    /// As above; zero unless the flanks of seats were looked for.
+    FaceLie lie;
   };
 
   /// A gap (length) prescribed at points of the nonmortar surface; empty for the geometric one.

@@ -4,6 +4,7 @@ signorini_add_unit_tests(mortar RANKS "1;2;3;4;8"
   edge_normals.cc
   face_claims.cc
   face_moments.cc
+  face_seats.cc
   interface_parts.cc
   pair_conflicts.cc
   received_bytes.cc

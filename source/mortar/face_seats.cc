@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/mesh/surface_normals.h>
+#include <signorini/mortar/face_seats.h>
+#include <signorini/mortar/surface_values.h>
+#include <signorini/surface/contact_mapping.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace Signorini
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Angles in degrees, between one side and the other one, turned over.
+    struct SeatRule
+    {
+      /// The seat of a face is what of it lies along the other side best, this share; flanks lie away by this
+      /// many times the angle of the seat. Under balls and rollers angles grow with the distance: wherever a
+      /// face lies, none of it is farther away than that. (With a share of .3 a contact of gears was smaller
+      /// by a tenth.)
+      double share = .5, ratio = 4.;
+      /// Angles below are no angles.
+      double rounding = .25;
+      /// Flanks lie away by at least this where their true shape is not known: facets of round surfaces do,
+      /// too.
+      double facets = 20.;
+      /// Of a face as a whole: its cells that count lie along up to the angle of this share of them, away
+      /// from that share on.
+      double along = .9, away = .5;
+      /// Least part of a node's function that is covered without the flanks (as DroppingRule).
+      double least_cover = .15;
+    };
+
+    /// How the two sides lie to each other over one cell of the overlay.
+    struct CellLie
+    {
+      /// Largest angle over the cell (degrees).
+      double angle;
+      /// The same; nothing where facets of a round surface might lie so, too.
+      double away;
+      /// Absolute value.
+      double area;
+      /// Along the normal of the nonmortar facet, at the centre (length).
+      double gap;
+    };
+
+    class CellLies
+    {
+    public:
+      CellLies(const ContactSurface &nonmortar, const ContactSurface &mortar)
+        : nonmortar(nonmortar)
+        , mortar(mortar)
+      {
+      }
+
+      CellLie operator()(const OverlayTriangle &cell) const
+      {
+        constexpr std::array<double, 3> centre = {{1. / 3., 1. / 3., 1. / 3.}};
+        CellLie                         result;
+        result.angle = 0.;
+        for (unsigned int i = 0; i < 3; ++i)
+          result.angle = std::max(result.angle, angle(cell, cell.nonmortar[i], cell.mortar[i]));
+        const auto     at_centre = compose(cell.mortar, centre);
+        const Point<3> x = evaluate(nonmortar.mesh, cell.nonmortar_triangle, compose(cell.nonmortar, centre)),
+                       y = evaluate(mortar.mesh, cell.mortar_triangle, at_centre);
+        result.area      = std::abs(cell.share()) * triangle_area(nonmortar.mesh, cell.nonmortar_triangle);
+        result.gap       = (y - x) * facet_normal(nonmortar, cell.nonmortar_triangle);
+        constexpr double rounding = 1e-6;
+        const bool       is_facet = mortar.offset(cell.mortar_triangle, at_centre).norm_square() <=
+                              rounding * rounding * triangle_area(mortar.mesh, cell.mortar_triangle);
+        result.away = is_facet && result.angle < SeatRule().facets ? 0. : result.angle;
+        return result;
+      }
+
+    private:
+      double angle(const OverlayTriangle &cell, const std::array<double, 3> &at_x,
+                   const std::array<double, 3> &at_image) const
+      {
+        const Vector3 n   = normal(nonmortar, cell.nonmortar_triangle, at_x),
+                      m   = normal(mortar, cell.mortar_triangle, at_image);
+        const double sine = std::min(1., cross_product_3d(n, m).norm());
+        return n * m < 0. ? std::asin(sine) * 180. / numbers::PI : 90.;
+      }
+
+      static Vector3 normal(const ContactSurface &surface, const unsigned int triangle,
+                            const std::array<double, 3> &weights)
+      {
+        Vector3 sum;
+        for (unsigned int i = 0; i < 3; ++i)
+          sum += weights[i] * true_normal(surface, triangle, i);
+        const double norm = sum.norm();
+        return norm > 0. ? sum / norm : sum;
+      }
+
+      const ContactSurface &nonmortar, &mortar;
+    };
+
+    /// The angle up to which a share of the area of cells lies.
+    double quantile(const std::vector<CellLie> &cells, const double share, double CellLie::*const angle_of)
+    {
+      std::vector<std::pair<double, double>> angles;
+      double                                 area = 0.;
+      for (const CellLie &cell : cells)
+        {
+          angles.emplace_back(cell.*angle_of, cell.area);
+          area += cell.area;
+        }
+      std::sort(angles.begin(), angles.end());
+      double sum = 0.;
+      for (const auto &[angle, part] : angles)
+        if (sum += part; sum >= share * area)
+          return angle;
+      return angles.empty() ? 0. : angles.back().first;
+    }
+
+    /// Appends the cells of one face that count.
+    FaceLie add_cells(std::vector<OverlayTriangle> &result, const CellLies &lie_of,
+                      const OverlayTriangle *const begin, const OverlayTriangle *const end)
+    {
+      const SeatRule       rule;
+      std::vector<CellLie> lies, kept;
+      std::transform(begin, end, std::back_inserter(lies), lie_of);
+      const double seat = std::max(rule.rounding, quantile(lies, rule.share, &CellLie::angle));
+      double       area = 0., gap = 0.;
+      for (const CellLie &cell : lies)
+        if (cell.angle <= seat)
+          {
+            area += cell.area;
+            gap += cell.area * cell.gap;
+          }
+      for (std::size_t i = 0; i < lies.size(); ++i)
+        if (!(lies[i].away > rule.ratio * seat && lies[i].gap * area > gap))
+          {
+            result.push_back(begin[i]);
+            kept.push_back(lies[i]);
+          }
+      return {std::max(rule.rounding, quantile(kept, rule.along, &CellLie::angle)),
+              quantile(kept, rule.away, &CellLie::away)};
+    }
+
+    /// What lies over some of the faces around a vertex.
+    struct Cover
+    {
+      /// Integrals of the node's function over the faces, over their covered parts (area), and there times
+      /// the gap along its normal (area * length).
+      double full = 0., covered = 0., gap = 0.;
+
+      void add(const ContactSurface &surface, const FaceMoments &m, const unsigned int corner)
+      {
+        full += m.full[corner];
+        gap += m.gap[corner] * surface.mesh.vertex_normals[surface.faces[m.face].corners[corner]];
+        for (unsigned int b = 0; b < 4; ++b)
+          covered += m.mass[4 * corner + b];
+      }
+    };
+  } // namespace
+
+
+
+  SeatedOverlay without_flanks(const ContactSurface &nonmortar, const ContactSurface &mortar,
+                               const std::vector<OverlayTriangle> &overlay)
+  {
+    SeatedOverlay  result;
+    const CellLies lie_of(nonmortar, mortar);
+    result.lies.resize(nonmortar.faces.size());
+    const auto face_of = [&](const std::size_t cell) {
+      return nonmortar.triangle_face[overlay[cell].nonmortar_triangle];
+    };
+    for (std::size_t first = 0, last = 0; first < overlay.size(); first = last)
+      {
+        while (last < overlay.size() && face_of(last) == face_of(first))
+          ++last;
+        result.lies[face_of(first)] =
+            add_cells(result.overlay, lie_of, overlay.data() + first, overlay.data() + last);
+      }
+    return result;
+  }
+
+
+
+  void leave_flanks(ContactSurface &nonmortar, const SurfaceHalo &halo,
+                    const std::vector<FaceMoments> &moments)
+  {
+    const SeatRule rule;
+    const auto     for_corners = [&](const auto &visit) {
+      for (const FaceMoments &m : moments)
+        if (m.covered > 0.)
+          for (unsigned int a = 0; a < nonmortar.faces[m.face].n_corners; ++a)
+            visit(m, a, nonmortar.faces[m.face].corners[a]);
+    };
+    std::vector<double> along(nonmortar.vertex_node.size(), std::numeric_limits<double>::infinity());
+    for_corners([&](const FaceMoments &m, const unsigned int, const unsigned int v) {
+      along[v] = std::min(along[v], m.lie.along);
+    });
+    halo.update(along);
+    std::vector<Cover> seats(nonmortar.vertex_node.size());
+    for_corners([&](const FaceMoments &m, const unsigned int a, const unsigned int v) {
+      if (m.lie.along < rule.ratio * along[v] && !nonmortar.faces[m.face].leaves(a))
+        seats[v].add(nonmortar, m, a);
+    });
+    halo.update(seats);
+    for_corners([&](const FaceMoments &m, const unsigned int a, const unsigned int v) {
+      if (!(m.lie.away > rule.ratio * along[v]))
+        return;
+      Cover flank;
+      flank.add(nonmortar, m, a);
+      if (seats[v].covered > rule.least_cover * seats[v].full &&
+          flank.gap * seats[v].covered > seats[v].gap * flank.covered)
+        nonmortar.faces[m.face].left_corners |= static_cast<unsigned char>(1u << a);
+    });
+  }
+} // namespace Signorini
