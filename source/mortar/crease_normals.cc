@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Signorini authors
 
 #include "crease_normals.h"
+#include "corner_sight.h"
 
 #include <signorini/mesh/facing_parts.h>
 #include <signorini/mesh/surface_normals.h>
@@ -22,10 +23,6 @@ namespace Signorini
     /// Pure numbers.
     struct CreaseNormalRule
     {
-      /// Cosine between normals of one wall: of what is met along the facets around a vertex.
-      double one_wall = .9;
-      /// What of the way from the centre of a facet to the vertex is looked from.
-      double toward_vertex = .9;
       /// Sines and shares that are rounding.
       double rounding = 1e-12;
     };
@@ -100,7 +97,7 @@ namespace Signorini
     public:
       CreaseNormals(const ContactSurface &surface, const PartnerSight &partner)
         : surface(surface)
-        , partner(partner)
+        , sight(surface, partner)
         , x(surface.mesh.vertices)
         , topology(surface.mesh.triangles, x.size())
       {
@@ -149,31 +146,17 @@ namespace Signorini
         for (unsigned int k = topology.fan_start[v]; k < topology.fan_start[v + 1]; ++k)
           {
             const unsigned int t = topology.fan[k];
-            const auto        &c = topology.triangles[t];
             const Vector3      n = true_normal(surface, t, topology.local_corner(t, v));
             if (!(n.norm() > 0.))
               continue;
             own.push_back(n);
-            const Point<3> centre((Vector3(x[c[0]]) + Vector3(x[c[1]]) + Vector3(x[c[2]])) / 3.);
-            if (MetPartner one; partner(one, centre + CreaseNormalRule().toward_vertex * (x[v] - centre), n,
-                                        std::sqrt(triangle_area(surface.mesh, t))))
-              met.push_back(one.normal);
+            if (const auto seen = sight.look(t, v, n))
+              met.push_back(seen->partner.normal);
           }
-        if (met.empty() || fall_apart(own) || !is_one_wall(met))
+        const Vector3 wall = normal_of_wall(met);
+        if (!(wall.norm() > 0.) || fall_apart(own))
           return {};
-        Vector3 sum;
-        for (const Vector3 &n : met)
-          sum += n;
-        return along_planes(v, NormalCone(std::move(own)).nearest(sum / sum.norm()));
-      }
-
-      static bool is_one_wall(const std::vector<Vector3> &normals)
-      {
-        for (const Vector3 &one : normals)
-          for (const Vector3 &other : normals)
-            if (one * other < CreaseNormalRule().one_wall)
-              return false;
-        return true;
+        return along_planes(v, NormalCone(std::move(own)).nearest(wall));
       }
 
       /// In the symmetry planes in which the vertex and its own normal lie.
@@ -187,7 +170,7 @@ namespace Signorini
       }
 
       const ContactSurface        &surface;
-      const PartnerSight          &partner;
+      const CornerSight            sight;
       const std::vector<Point<3>> &x;
       const SurfaceTopology        topology;
     };

@@ -2,7 +2,9 @@
 // Copyright (C) 2026 by the Signorini authors
 
 #include "body_edges.h"
+#include "corner_sight.h"
 #include "crease_normals.h"
+#include "edge_corner.h"
 
 #include <signorini/mesh/facing_parts.h>
 #include <signorini/mesh/surface_normals.h>
@@ -26,15 +28,8 @@ namespace Signorini
     /// Pure numbers.
     struct EdgeRule
     {
-      /// Of an edge that sticks out no facet sees another one: the sine of the angle at which it would.
-      double groove = .3;
-      /// Normals of one wall.
-      double one_wall = .9;
       /// Of what is seen at all.
       double facing = .5;
-      /// What of the way from the centre of a facet to the vertex is looked from: where two walls meet, too,
-      /// each facet sees its own.
-      double toward_vertex = .9;
       /// By what part of its slope against the other side a face must rise from an edge that presses on that.
       double least_rise = .1;
       /// How much of the first one the turn from own to new normals may change by as these spread: where a
@@ -43,169 +38,8 @@ namespace Signorini
       /// Distances from edges of both sides, in widths of the facet, that differ by what facets do from an
       /// arc: rims of 20 and 24 chords are apart by .03.
       double same_edge = .05;
-      /// Cosine between turns of normals that are one: about edges that lie along each other.
-      double along = .9;
       /// Differences of unit normals that are rounding.
       double rounding = 1e-6;
-    };
-
-    using Facet = ContactSurface::Facet;
-
-    bool have_sharp_edge(const std::vector<Facet> &facets)
-    {
-      std::vector<Vector3> normals;
-      for (const Facet &facet : facets)
-        normals.push_back(facet.normal);
-      return fall_apart(normals);
-    }
-
-    /// Whether no facet sees another one.
-    bool stick_out(const std::vector<Facet> &facets)
-    {
-      for (const Facet &one : facets)
-        for (const Facet &other : facets)
-          if (one.normal * other.way > EdgeRule().groove * other.way.norm())
-            return false;
-      return true;
-    }
-
-    /// Adds what is beyond symmetry planes.
-    void add_mirrored(std::vector<Facet> &facets, const std::vector<Vector3> &planes)
-    {
-      for (const Vector3 &n : planes)
-        for (std::size_t i = 0, size = facets.size(); i < size; ++i)
-          {
-            const auto mirrored = [&n](const Vector3 &v) -> Vector3 { return v - 2. * (v * n) * n; };
-            facets.push_back({mirrored(facets[i].normal), mirrored(facets[i].way)});
-          }
-    }
-
-    /// The normals of those facets that lie in planes across prescribed directions.
-    std::vector<Vector3> symmetry_planes(const std::vector<Facet> &facets, const FixedDirections &fixed)
-    {
-      std::vector<Vector3> planes;
-      for (const Facet &facet : facets)
-        if (fixed.contains(facet.normal) && std::all_of(planes.begin(), planes.end(), [&](const Vector3 &n) {
-              return std::abs(n * facet.normal) < EdgeRule().one_wall;
-            }))
-          planes.push_back(facet.normal);
-      return planes;
-    }
-
-    /// The facets around a vertex, and what they meet.
-    class Corner
-    {
-    public:
-      /// @param facets of the surface
-      /// @param others the rest of the boundary of the body
-      /// @param fixed what is prescribed
-      Corner(std::vector<Facet> facets, std::vector<Facet> others, const FixedDirections &fixed,
-             const Vector3 &vertex_normal)
-      {
-        if (fixed.any() && !fixed.all())
-          {
-            planes = symmetry_planes(others, fixed);
-            others.erase(std::remove_if(others.begin(), others.end(),
-                                        [&](const Facet &facet) { return fixed.contains(facet.normal); }),
-                         others.end());
-            add_mirrored(facets, planes);
-            add_mirrored(others, planes);
-          }
-        if (!have_sharp_edge(facets))
-          own = vertex_normal;
-        facets.insert(facets.end(), others.begin(), others.end());
-        is_on_edge = have_sharp_edge(facets) && stick_out(facets);
-      }
-
-      /// What is met along the normal of a facet.
-      void add(const MetPartner &met, const Vector3 &facet)
-      {
-        std::vector<Facet> images = {{met.normal, Vector3()}};
-        add_mirrored(images, planes);
-        for (const Facet &image : images)
-          normals.push_back(image.normal);
-        ++n_met;
-        edges.push_back(met.beyond_edge);
-        sum_of_distances += met.distance;
-        doubt = std::max(doubt, (facet - own).norm() + met.doubt);
-      }
-
-      /// Whether it is on an edge of the body that sticks out.
-      bool is_edge() const
-      {
-        return is_on_edge;
-      }
-
-      bool meets_anything() const
-      {
-        return !normals.empty();
-      }
-
-      /// Mean along the facets (length).
-      double distance() const
-      {
-        return sum_of_distances / n_met;
-      }
-
-      /// Whether its normal is that of a face beside it, or it is on an edge that sticks out: not in a
-      /// groove.
-      bool may_turn() const
-      {
-        return own.norm() > 0. || is_on_edge;
-      }
-
-      /// The normal of what is met; zero if that is not one wall.
-      Vector3 met_normal() const
-      {
-        Vector3 sum;
-        for (const Vector3 &one : normals)
-          {
-            sum += one;
-            for (const Vector3 &other : normals)
-              if (one * other < EdgeRule().one_wall)
-                return Vector3();
-          }
-        return normals.empty() ? sum : sum / sum.norm();
-      }
-
-      /// Whether it is an edge that meets an edge along it: the normals of the other one, from that of the
-      /// face that is met to that beyond, go through the one between both faces.
-      bool meets_edge() const
-      {
-        const Vector3 met = met_normal();
-        if (!is_on_edge || !(own.norm() > 0.) || !(met.norm() > 0.))
-          return false;
-        const Vector3 turn = .5 * (met - own);
-        return std::all_of(edges.begin(), edges.end(), [&](const Vector3 &beyond) {
-          const Vector3 toward = beyond - (beyond * met) * met;
-          return turn * toward >= EdgeRule().along * turn.norm() * toward.norm() && toward.norm() > 0.;
-        });
-      }
-
-      /// The normal of what is met where it is not the one that the vertex has already, between these where
-      /// edges meet; else zero.
-      Vector3 normal() const
-      {
-        const Vector3 met         = met_normal();
-        const bool    is_the_same = own.norm() > 0. && (met - own).norm() <= doubt + EdgeRule().rounding;
-        if (!may_turn() || is_the_same)
-          return Vector3();
-        const Vector3 between = met + own;
-        return meets_edge() ? Vector3(between / between.norm()) : met;
-      }
-
-      /// From the own normal; from nothing where there is none.
-      Vector3 turn() const
-      {
-        return own.norm() > 0. ? Vector3(met_normal() - own) : Vector3();
-      }
-
-    private:
-      /// Zero where it is that of no face.
-      Vector3              own;
-      bool                 is_on_edge = false;
-      std::vector<Vector3> planes, normals, edges;
-      double               sum_of_distances = 0., n_met = 0., doubt = 0.;
     };
 
     class EdgeNormals
@@ -213,7 +47,7 @@ namespace Signorini
     public:
       EdgeNormals(const ContactSurface &surface, const PartnerSight &partner)
         : surface(surface)
-        , partner(partner)
+        , sight(surface, partner)
         , x(surface.mesh.vertices)
         , topology(surface.mesh.triangles, x.size())
       {
@@ -273,15 +107,15 @@ namespace Signorini
                 if (!corner(w).meets_anything() && corner(w).may_turn())
                   sums[w] += n;
           });
-        for (const auto &[w, sum] : sums)
-          if (sum.norm() > 0.)
-            normals.emplace(w, sum / sum.norm());
+        for (const auto &[w, normal] : sums)
+          if (normal.norm() > 0.)
+            normals.emplace(w, normal / normal.norm());
       }
 
       /// Whether a vertex is on an edge with something before it, and all facets rise from there.
       bool presses(const unsigned int v)
       {
-        const Corner &here = corner(v);
+        const EdgeCorner &here = corner(v);
         if (!here.is_edge() || !(here.normal().norm() > 0.))
           return false;
         bool all_rise = true, any = false;
@@ -289,7 +123,7 @@ namespace Signorini
           Vector3 middle;
           double  distance = 0., n = 0.;
           for (const unsigned int w : {a, b})
-            if (const Corner &there = corner(w); there.meets_anything())
+            if (const EdgeCorner &there = corner(w); there.meets_anything())
               {
                 middle += x[w] - x[v];
                 distance += there.distance();
@@ -313,7 +147,7 @@ namespace Signorini
       bool rises_across_edge(const unsigned int v, const unsigned int a, const unsigned int b,
                              const unsigned int triangle)
       {
-        const Corner &here = corner(v);
+        const EdgeCorner &here = corner(v);
         for (const unsigned int w : {a, b})
           if (!corner(w).meets_anything())
             return false;
@@ -344,9 +178,9 @@ namespace Signorini
       /// by as much; nor beside that along the edge, where the other side comes nearer in this direction.
       bool is_by_an_edge(const unsigned int v, const unsigned int w)
       {
-        const Corner &here = corner(v), &there = corner(w);
-        const double  turn = here.turn().norm(), way = x[v].distance(x[w]);
-        const Vector3 met = there.met_normal();
+        const EdgeCorner &here = corner(v), &there = corner(w);
+        const double      turn = here.turn().norm(), way = x[v].distance(x[w]);
+        const Vector3     met = there.met_normal();
         return turn == 0. || (here.distance() - there.distance() <=
                                   (EdgeRule().change * turn + EdgeRule().rounding) * way &&
                               (met.norm() == 0. || (met - here.met_normal()).norm() < turn));
@@ -370,35 +204,35 @@ namespace Signorini
       }
 
       /// Looks when it is first needed: few are.
-      const Corner &corner(const unsigned int v)
+      const EdgeCorner &corner(const unsigned int v)
       {
         const auto known = corners.find(v);
         return known != corners.end() ? known->second : corners.emplace(v, look_from(v)).first->second;
       }
 
-      Corner look_from(const unsigned int v) const
+      EdgeCorner look_from(const unsigned int v) const
       {
-        std::vector<Facet>                          facets;
+        std::vector<ContactSurface::Facet>          facets;
         std::vector<std::pair<MetPartner, Vector3>> met;
         for_facets(v, [&](const unsigned int a, const unsigned int b, const unsigned int t) {
           const Vector3 n = facet_normal(surface, t);
           if (!(n.norm() > 0.))
             return;
-          const Point<3> centre((Vector3(x[v]) + Vector3(x[a]) + Vector3(x[b])) / 3.);
-          facets.push_back({n, centre - x[v]});
-          const Point<3> place(centre + EdgeRule().toward_vertex * (x[v] - centre));
-          const double   width = std::sqrt(triangle_area(surface.mesh, t));
-          if (MetPartner one; partner(one, place, n, width))
+          facets.push_back({n, (x[a] - x[v] + (x[b] - x[v])) / 3.});
+          if (const auto seen = sight.look(t, v, n))
             {
-              if (one.beyond_edge.norm() > 0. && std::abs(edges().find(t, place, width).distance -
-                                                          one.edge_distance) > EdgeRule().same_edge * width)
+              MetPartner one = seen->partner;
+              if (one.beyond_edge.norm() > 0. &&
+                  std::abs(edges().find(t, seen->place, seen->width).distance - one.edge_distance) >
+                      EdgeRule().same_edge * seen->width)
                 one.beyond_edge = Vector3();
               met.emplace_back(one, n);
             }
         });
         const auto beyond = surface.beyond.find(v);
-        Corner     result(std::move(facets),
-                      beyond != surface.beyond.end() ? beyond->second : std::vector<Facet>(),
+        EdgeCorner result(std::move(facets),
+                          beyond != surface.beyond.end() ? beyond->second
+                                                         : std::vector<ContactSurface::Facet>(),
                           surface.vertex_fixed[v], surface.mesh.vertex_normals[v]);
         for (const auto &[one, normal] : met)
           result.add(one, normal);
@@ -413,13 +247,13 @@ namespace Signorini
         return *body_edges;
       }
 
-      const ContactSurface            &surface;
-      mutable std::optional<BodyEdges> body_edges;
-      const PartnerSight              &partner;
-      const std::vector<Point<3>>     &x;
-      const SurfaceTopology            topology;
-      std::map<unsigned int, Corner>   corners;
-      std::deque<Turned>               front;
+      const ContactSurface              &surface;
+      mutable std::optional<BodyEdges>   body_edges;
+      const CornerSight                  sight;
+      const std::vector<Point<3>>       &x;
+      const SurfaceTopology              topology;
+      std::map<unsigned int, EdgeCorner> corners;
+      std::deque<Turned>                 front;
     };
   } // namespace
 

@@ -2,8 +2,10 @@ signorini_add_layer(mortar
   body_edges.cc
   contact_forces.cc
   contact_indicator.cc
+  corner_sight.cc
   crease_normals.cc
   dual_basis.cc
+  edge_corner.cc
   edge_normals.cc
   face_claims.cc
   face_map.cc
