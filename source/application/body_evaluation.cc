@@ -2,13 +2,16 @@
 // Copyright (C) 2026 by the Signorini authors
 
 #include <signorini/algebra/collectives.h>
+#include <signorini/algebra/gathered_lists.h>
 #include <signorini/application/body_evaluation.h>
 #include <signorini/application/nodal_sums.h>
 #include <signorini/application/pair_fields.h>
 #include <signorini/discretization/elasticity.h>
 #include <signorini/discretization/element.h>
 #include <signorini/discretization/nodal_stress.h>
+#include <signorini/mesh/facing_parts.h>
 #include <signorini/mesh/surface_extraction.h>
+#include <signorini/mesh/surface_normals.h>
 #include <signorini/mortar/surface_values.h>
 
 namespace Signorini
@@ -226,29 +229,56 @@ namespace Signorini
 
   namespace
   {
-    /// Displacements of the nonmortar vertices relative to their images, where the mapping of this rank
-    /// reaches them.
-    std::vector<std::pair<unsigned int, Vector3>>
-    relative_displacements(const ContactPair &pair, const std::vector<Vector3> &nonmortar,
-                           const std::vector<Vector3> &mortar)
+    /// A nonmortar vertex and its displacement relative to its image.
+    struct VertexJump
     {
-      const ContactSurface                         &non = pair.nonmortar.surface;
-      std::vector<std::pair<unsigned int, Vector3>> result;
+      unsigned int vertex;
+      Vector3      value;
+      /// Of the other side at the image, outward: linear on its triangles, and of the facet. Zero where it is
+      /// not known.
+      Vector3 normal, facet_normal;
+    };
+
+    std::vector<VertexJump> jumps_on_obstacle(const ContactPair &pair, const std::vector<Vector3> &moved)
+    {
+      const ContactSurface   &non  = pair.nonmortar.surface;
+      const double            size = non.extent();
+      std::vector<VertexJump> result;
+      for (unsigned int v = 0; v < moved.size(); ++v)
+        if (pair.halo->owns(v))
+          {
+            Vector3 normal;
+            double  distance;
+            if (!pair.obstacle->contact_normal(normal, distance, non.mesh.vertices[v],
+                                               non.mesh.vertex_normals[v], size))
+              normal = Vector3();
+            result.push_back({v, moved[v], -normal, -normal});
+          }
+      return result;
+    }
+
+    /// Where the mapping of this rank reaches them; a vertex may be there several times.
+    std::vector<VertexJump> relative_displacements(const ContactPair          &pair,
+                                                   const std::vector<Vector3> &nonmortar,
+                                                   const std::vector<Vector3> &mortar)
+    {
       if (pair.obstacle)
-        for (unsigned int v = 0; v < nonmortar.size(); ++v)
-          if (pair.halo->owns(v))
-            result.emplace_back(v, nonmortar[v]);
+        return jumps_on_obstacle(pair, nonmortar);
+      std::vector<VertexJump> result;
       if (!pair.mapping)
         return result;
-      const SurfaceValues on_mortar(pair.mortar.surface);
+      const ContactSurface &other = pair.mortar.surface;
+      const SurfaceValues   on_mortar(other, vertices_on_sharp_edges(other, all_faces));
       for (const OverlayTriangle &cell : covered_overlay(pair))
         for (unsigned int c = 0; c < 3; ++c)
           for (unsigned int i = 0; i < 3; ++i)
             if (cell.nonmortar[c][i] == 1.)
               {
-                const unsigned int v = non.mesh.triangles[cell.nonmortar_triangle][i];
-                const Point<3>     x = on_mortar.point(cell.mortar_triangle, cell.mortar[c]);
-                result.emplace_back(v, nonmortar[v] - on_mortar.value(mortar, cell.mortar_triangle, x));
+                const unsigned int v = pair.nonmortar.surface.mesh.triangles[cell.nonmortar_triangle][i];
+                const unsigned int t = cell.mortar_triangle;
+                const Point<3>     x = on_mortar.point(t, cell.mortar[c]);
+                result.push_back({v, nonmortar[v] - on_mortar.value(mortar, t, x),
+                                  on_mortar.normal(t, cell.mortar[c]), facet_normal(other, t)});
               }
       return result;
     }
@@ -287,8 +317,7 @@ namespace Signorini
     /// could have, but not if they are lifted off each other.
     /// @param jumps relative displacements at vertices
     std::vector<unsigned char> where_slip_counts(const Discretization &d, const ContactSolution &solution,
-                                                 const unsigned int                                   p,
-                                                 const std::vector<std::pair<unsigned int, Vector3>> &jumps)
+                                                 const unsigned int p, const std::vector<VertexJump> &jumps)
     {
       const MPI_Comm             comm     = d.nodal().communicator();
       const ContactPair         &pair     = d.pairs[p];
@@ -303,7 +332,7 @@ namespace Signorini
           spread_rows(coupling, *pair.halo, std::vector<unsigned char>(coupling.vertices.size(), 1));
       const auto opening = spread_rows(coupling, *pair.halo, stress.opening);
       double     lifted = 0., slid = 0.;
-      for (const auto &[v, jump] : jumps)
+      for (const auto &[v, jump, normal, facet] : jumps)
         if (is_row[v] != 0)
           {
             const Vector3 &n    = pair.nonmortar.surface.mesh.vertex_normals[v];
@@ -321,6 +350,72 @@ namespace Signorini
 
 
 
+  namespace
+  {
+    /// Where surfaces are pressed by their slip alone. Pure numbers.
+    struct PressingSlipRule
+    {
+      /// Angle (radians) between the normals of both sides: below it is what meshes make of one surface.
+      double turn = .1;
+      /// What the normals of the other side leave out of the approach, as a part of that.
+      double of_approach = .5;
+    };
+
+    /// Whether a node approaches the other side along its own normal, but not along that of the other side,
+    /// as where one slides along the other and the nodes on its rounded end have the normals that they have
+    /// there.
+    bool is_pressed_by_slip(const VertexJump &jump, const Vector3 &own)
+    {
+      const auto is = [&](const Vector3 &other) {
+        const Vector3 turn = own + other;
+        return other.norm() > 0. && turn.norm() > PressingSlipRule().turn &&
+               jump.value * turn > PressingSlipRule().of_approach * std::abs(jump.value * own);
+      };
+      // Across a crease of the other side only one of its normals is what is touched.
+      return is(jump.normal) && is(jump.facet_normal);
+    }
+
+    /// Collective. The part of the force of a pair that nodes carry of which that holds.
+    double pressed_by_slip(const Discretization &d, const ContactSolution &solution, const unsigned int p,
+                           const std::vector<VertexJump> &jumps)
+    {
+      const ContactSurface &non    = d.pairs[p].nonmortar.surface;
+      const MPI_Comm        comm   = d.nodal().communicator();
+      const auto            of_all = [comm](const std::set<NodeIndex> &nodes) {
+        return gather_lists(std::vector<NodeIndex>(nodes.begin(), nodes.end()), comm, Receivers::all);
+      };
+      std::set<NodeIndex> mine, others;
+      for (const VertexJump &jump : jumps)
+        if (is_pressed_by_slip(jump, non.mesh.vertex_normals[jump.vertex]))
+          mine.insert(non.vertex_node[jump.vertex]);
+      const std::vector<NodeIndex> list = of_all(mine);
+      std::set<NodeIndex>          pressed(list.begin(), list.end());
+      if (pressed.empty())
+        return 0.;
+      // What any facet of the other side explains.
+      for (const VertexJump &jump : jumps)
+        if (const NodeIndex node = non.vertex_node[jump.vertex];
+            pressed.count(node) > 0 && !is_pressed_by_slip(jump, non.mesh.vertex_normals[jump.vertex]))
+          others.insert(node);
+      for (const NodeIndex node : of_all(others))
+        pressed.erase(node);
+      const ContactStress      stress = stress_of_pair(d, solution.stress, p);
+      const InterfaceCoupling &rows   = d.couplings[p].coupling;
+      double                   force = 0., whole = 0.;
+      for (std::size_t row = 0; row < rows.n_rows(); ++row)
+        if (stress.active[row] != 0)
+          {
+            const double one = stress.pressure[row] * rows.weight[row];
+            whole += one;
+            force += pressed.count(rows.rows[row]) > 0 ? one : 0.;
+          }
+      whole = Utilities::MPI::sum(whole, comm);
+      return whole > 0. ? Utilities::MPI::sum(force, comm) / whole : 0.;
+    }
+  } // namespace
+
+
+
   Slip largest_slip(const Discretization &d, const ContactSolution &solution, const unsigned int p)
   {
     const ContactPair    &pair   = d.pairs[p];
@@ -333,7 +428,7 @@ namespace Signorini
     const auto            counts = where_slip_counts(d, solution, p, jumps);
     std::vector<Vector3>  slip(non.mesh.vertices.size());
     Slip                  result;
-    for (const auto &[v, jump] : jumps)
+    for (const auto &[v, jump, normal, facet] : jumps)
       if (counts[v] != 0)
         {
           const Vector3 &n = non.mesh.vertex_normals[v];
@@ -343,6 +438,7 @@ namespace Signorini
     for (const double in_faces : slips_in_faces(non, slip))
       result.in_faces = std::max(result.in_faces, in_faces);
     const MPI_Comm comm = d.nodal().communicator();
-    return {Utilities::MPI::max(result.length, comm), Utilities::MPI::max(result.in_faces, comm)};
+    return {Utilities::MPI::max(result.length, comm), Utilities::MPI::max(result.in_faces, comm),
+            pressed_by_slip(d, solution, p, jumps)};
   }
 } // namespace Signorini

@@ -210,9 +210,10 @@ namespace Signorini
       results.bodies                = evaluate_bodies(model, d, nested.solution.displacement, results);
       for (unsigned int p = 0; p < results.pairs.size(); ++p)
         {
-          const Slip slip                = largest_slip(d, nested.solution, p);
-          results.pairs[p].slip          = slip.length;
-          results.pairs[p].slip_in_faces = slip.in_faces;
+          const Slip slip                  = largest_slip(d, nested.solution, p);
+          results.pairs[p].slip            = slip.length;
+          results.pairs[p].slip_in_faces   = slip.in_faces;
+          results.pairs[p].pressed_by_slip = slip.pressed;
         }
       for (const auto &lines : {large_displacements(results), coarse_meshes(results)})
         for (const std::string &line : lines)

@@ -217,6 +217,16 @@ namespace Signorini
                   "beginning.";
           lines.push_back(line.str());
         }
+      else if (pair.pressed_by_slip > rule.pressed_by_slip)
+        {
+          std::ostringstream line;
+          line << "pair " << pair.name << ": " << percent_text(pair.pressed_by_slip, 3)
+               << " of the force is on nodes that slide into the other side by the normals that they have at "
+                  "the beginning, and pass by it by those of the other side: the surfaces slide by "
+               << std::setprecision(2) << pair.slip
+               << ", far for their curvature, and where they end up others may touch, or none.";
+          lines.push_back(line.str());
+        }
     return lines;
   }
 

@@ -1,5 +1,6 @@
 """What the certificate sees, and how far bodies move that little holds: problems of users that went wrong with the verdict yes."""
 import os
+import re
 import tempfile
 
 from free_body_cases import RING_ON_CONE, make_mesh
@@ -218,6 +219,59 @@ subsection Refinement
   set Initial global levels = 0
 end
 '''
+
+
+# A tube held at its bore, above a plate.
+TUBE = '''set Bodies        = tube, plate
+set Contact pairs = c
+subsection Body tube
+  set Mesh            = tube
+  set Inner radius    = 0.2
+  set Radius          = 0.5
+  set Height          = 0.5
+  set Round divisions = 2, 9, 1
+  set Rotation axis   = 1, 0, 0
+  set Rotation angle  = 90
+  set Translation     = 0, 0.5, 0.52
+  set Young modulus   = 2e5
+end
+subsection Body plate
+  set Lower corner    = -2, -0.5, -1
+  set Upper corner    = 2, 1, 0
+  set Divisions       = 16, 3, 3
+  set Young modulus   = 2e5
+  set Dirichlet       = bottom: (0, 0, 0)
+end
+subsection Pair c
+  set First     = tube: outer
+  set Second    = plate: top
+  set Nonmortar = first
+end
+subsection Refinement
+  set Initial global levels = 0
+end
+'''
+
+
+def slides_beside(p):
+    """A tube above a plate that is moved sideways by less than half of its radius, less than a face: nodes beside the lowest ones have normals that lean that way, and press. Not one that is moved down."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, 'tube.prm')
+        with open(path, 'w') as f:
+            f.write(TUBE)
+        for moved, is_small in (('0.2, 0, 0', False), ('0, 0, -0.03', True), ('0.005, 0, -0.03', True)):
+            s = p.solve(path, f'Body tube/Dirichlet=inner: ({moved})', codes=(0, 3))
+            pair = s['pairs'][0]
+            told = [note for note in s['notes'] if 'slide into the other side by the normals' in note]
+            print(moved, pair['load'], pair['slip'], pair['slip_in_faces'], s['displacements_are_small'], told)
+            check(pair['load'] > 0 and pair['slip_in_faces'] < 1, f'moved by {moved}: {pair}')
+            check(s['displacements_are_small'] == is_small and (not told) == is_small, f'moved by {moved}: {s["notes"]}')
+        # With the plane itself instead of the plate nothing presses, and nothing is told.
+        with open(path, 'w') as f:
+            f.write(re.sub('subsection Body plate.*?end\n', '', TUBE, flags=re.S).replace('tube, plate', 'tube').replace('Second    = plate: top', 'Obstacle  = plane: (0, 0, 0), (0, 0, 1)')
+                    .replace('  set Nonmortar = first\n', ''))
+        s = p.solve(path, 'Body tube/Dirichlet=inner: (0.2, 0, 0)', codes=(0, 3))
+        check(s['pairs'][0]['load'] == 0 and not any('by the normals' in note for note in s['notes']), f'above an obstacle: {s["pairs"]}, {s["notes"]}')
 
 
 def moved_by_loads(p):

@@ -39,6 +39,9 @@ namespace Signorini
   {
     /// Along the surface; in multiples of the width of faces (1).
     double length = 0., in_faces = 0.;
+    /// The part of the contact force on nodes that slide toward the other side only because their normals
+    /// are not those of the other side: with the bodies where they end up, others would touch.
+    double pressed = 0.;
   };
 
   /// Collective. The largest of a pair.

@@ -20,6 +20,8 @@ namespace Signorini
     /// The gap is that of the points that face each other before the bodies move: a shift by a face is an
     /// error of the order of the mesh.
     double slip_in_faces = 1.;
+    /// Part of the force on nodes that only their slip presses.
+    double pressed_by_slip = .25;
     /// Strains whose squares count: 0.25 % in strain.
     double strain = .05;
   };

@@ -113,6 +113,9 @@ namespace Signorini
     /// How far the surfaces slide on each other where they touch, or end up apart by less than that (length),
     /// and in multiples of the width of the faces there.
     double slip = 0., slip_in_faces = 0.;
+    /// The part of the force on nodes that only their slip presses: along their normals they come nearer,
+    /// along those of the other side they do not.
+    double pressed_by_slip = 0.;
   };
 
   /// What happens to a body, after the last solve.
