@@ -191,7 +191,8 @@ namespace Signorini
            << (load.moment == 0. ? "force of " : "moment of ") << load.force + load.moment;
       if (load.moment == 0. && load.force < FreedomRule().nearly_balanced * loads.sum)
         text << ", " << load.force / loads.sum
-             << " of the loads: if they should balance, integrals over different meshes may be the reason. "
+             << " of the loads and what prescribed displacements do: if the loads should balance, integrals "
+                "over different meshes may be the reason. "
                 "Give Forces instead of tractions and pressures, or hold one of these bodies.";
       else
         text << ".";

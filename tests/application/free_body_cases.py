@@ -249,7 +249,7 @@ def turning_ball(p):
         assembly = os.path.join(folder, 'pile.prm')
         with open(assembly, 'w') as f:
             f.write(PILE)
-        for rest, told in (('1e-4', 'a net force of 0.0001, 5e-05 of the loads: if they should balance'), ('0.5', 'a net force of 0.5. Prescribe')):
+        for rest, told in (('1e-4', 'a net force of 0.0001, 5e-05 of the loads and what prescribed displacements do: if the loads should balance'), ('0.5', 'a net force of 0.5. Prescribe')):
             text = refused(p, assembly, f'Body low/Forces=bottom: (0, 0, 1 + {rest})')
             check('body low, body between and body up, translation (0, 0, 1), would fly away with ' + told in text, text)
         s = p.solve(assembly, 'Body low/Forces=bottom: (0, 0, 1)')
