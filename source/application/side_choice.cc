@@ -45,6 +45,17 @@ namespace Signorini
              FacingParts(pair.mortar.surface).n_parts() > 1;
     }
 
+    /// Collective. Whether rows have columns of nodes of rigid faces, which are refused: mortar nodes, or
+    /// nodes of the nonmortar side that are held there.
+    bool has_rigid_columns(const PairCoupling &coupling, const RigidFaces *const rigid, const MPI_Comm comm)
+    {
+      const auto &entries = coupling.coupling.entries;
+      const bool  mine    = rigid != nullptr &&
+                        std::any_of(entries.begin(), entries.end(),
+                                    [&](const auto &entry) { return rigid->find(entry.node) != nullptr; });
+      return Utilities::MPI::max(static_cast<int>(mine), comm) > 0;
+    }
+
     /// Pure numbers.
     struct SideRule
     {
@@ -95,6 +106,7 @@ namespace Signorini
   SideChoice::SideChoice(const ContactModel &model, const ConstrainedSpace &constrained,
                          const std::vector<NonmortarSide> &before, Journal &journal)
     : model(model)
+    , constrained(constrained)
     , maker(model, constrained, journal)
     , journal(journal)
     , is_first(before.empty())
@@ -176,7 +188,12 @@ namespace Signorini
   {
     std::vector<LossOfChoice> result;
     for (unsigned int p = 0; p < pairs.size(); ++p)
-      result.push_back(loss_of_choice(pairs[p], couplings[p], model.communicator()));
+      {
+        result.push_back(loss_of_choice(pairs[p], couplings[p], model.communicator()));
+        if (has_rigid_columns(couplings[p], constrained.dirichlet.rigid.get(), model.communicator()))
+          result.back() = {1., 1.,
+                           "nodes that it has in common with a rigid face would take part in contact"};
+      }
     return result;
   }
 

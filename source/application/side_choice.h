@@ -16,7 +16,7 @@ namespace Signorini
 {
   /// All pairs on a mesh with their couplings, and which sides are the nonmortar ones where a user leaves
   /// that open: a side that could carry no contact stress, because it is that of other pairs, too, or held,
-  /// is turned round if less is lost then.
+  /// is turned round if less is lost then, and so is one by which nodes of rigid faces would take part.
   class SideChoice
   {
   public:
@@ -58,10 +58,11 @@ namespace Signorini
     /// The one with the least loss, or the present choice if that is not clearly less. Leaves any of them.
     std::vector<bool> best_neighbour(const std::vector<LossOfChoice> &now);
 
-    const ContactModel &model;
-    PairMaker           maker;
-    Journal            &journal;
-    const bool          is_first;
+    const ContactModel     &model;
+    const ConstrainedSpace &constrained;
+    PairMaker               maker;
+    Journal                &journal;
+    const bool              is_first;
     /// By pair: whether the second side is the nonmortar one unless it is turned, and whether it is.
     std::vector<bool> prefers_second, turned;
     /// By pair: whether it was turned because of its mapping, on this mesh.

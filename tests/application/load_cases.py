@@ -101,6 +101,46 @@ def pressure_moment(s, about):
     return [m[i] - about[i - 2] * f[i - 1] + about[i - 1] * f[i - 2] for i in range(3)]
 
 
+# A ball with a rigid top, whose contact surface ends at that, on a plate.
+RIGID_TOP = '''set Bodies        = ball, plate
+set Contact pairs = floor
+subsection Body ball
+  set Mesh          = quarter of half ball
+  set Radius        = 10
+  set Young modulus = 1e5
+  set Dirichlet     = symmetry x: (0, *, *); symmetry y: (*, 0, *)
+  set Rigid         = top: displacement (0, 0, -0.01), rotation (0, 0, 0)
+end
+subsection Body plate
+  set Lower corner  = 0, 0, -14
+  set Upper corner  = 8, 8, -10
+  set Divisions     = 6, 6, 3
+  set Young modulus = 2e5
+  set Dirichlet     = left: (0, *, *); front: (*, 0, *); bottom: (*, *, 0)
+end
+subsection Pair floor
+  set First  = ball: sphere
+  set Second = plate: top
+end
+subsection Refinement
+  set Initial global levels = 0
+end
+'''
+
+
+def beside_rigid_face(p):
+    """The softer side is the nonmortar one, but not if nodes of a rigid face would take part, and the other side does without them."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, 'top.prm')
+        with open(path, 'w') as f:
+            f.write(RIGID_TOP)
+        run = p.call(path, '--output', os.path.join(folder, 'out'), '--set', 'Pair floor/Nonmortar=first')
+        check(run.returncode == 1 and 'in common with a rigid face' in run.stderr, f'the ball as nonmortar side: {run.stdout}{run.stderr}')
+        chosen, swapped = (p.solve(path, f'Pair floor/Nonmortar={side}') for side in ('second', 'automatic'))
+        check(any('its sides are swapped, because nodes that it has in common with a rigid face' in note for note in swapped['notes']), f'sides: {swapped["notes"]}')
+        near(swapped['pairs'][0]['load'], chosen['pairs'][0]['load'], 1e-10, 'load')
+
+
 def rigid_faces(p):
     """A stamp by force and moment does what one by displacement and rotation does; alone, with symmetry planes, guided."""
     few = p.command[0] == 'mpirun'

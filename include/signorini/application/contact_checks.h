@@ -25,7 +25,8 @@ namespace Signorini
     /// Of what the pair covers, the share whose nodes carry no contact stress, or only toward the body of
     /// another pair, for a reason that the other choice may not have; zero if there is none.
     double share = 0.;
-    /// The share that other pairs take away where that is so much that the pair is refused; else zero.
+    /// The share that other pairs take away where that is so much that the pair is refused, all of it where
+    /// it is refused for another reason; else zero.
     double refused = 0.;
     /// Why something is lost, in words.
     std::string reason;
