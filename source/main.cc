@@ -5,6 +5,7 @@
 #include <signorini/application/problem_description.h>
 #include <signorini/application/problem_identity.h>
 #include <signorini/application/run_problem.h>
+#include <signorini/application/turning_faces.h>
 #include <signorini/application/write_results.h>
 #include <signorini/output/termination.h>
 #include <signorini/verification/verify_command.h>
@@ -130,6 +131,7 @@ namespace
     if (line.check)
       {
         const auto space = std::make_shared<const ConstrainedSpace>(model);
+        note_turning_faces(model, *space, journal);
         check_probes(model, space->nodal(), parameters.probes);
         std::ostream nowhere(nullptr);
         describe(is_root ? std::cout : nowhere, model, *discretize(model, space, {}, 0, journal));

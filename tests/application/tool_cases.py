@@ -398,5 +398,7 @@ def check_says(p):
         check(line in found, f'--check does not say "{line}": {found}')
     run = p.call('--check', PATCH_TEST, '--set', 'Body upper/Probes=far: (9, 9, 9)')
     check(run.returncode == 1 and 'outside of the body' in run.stderr, f'--check, a probe: {run.stdout}{run.stderr}')
+    run = p.call('--check', os.path.join(TOP, 'prm', 'ball/ball.prm'), '--set', 'Body ball/Rigid=top: force (0, 0, -1000)')
+    check(run.returncode == 0 and 'ends at a plane across' in run.stdout, f'--check, half a stamp: {run.stdout}{run.stderr}')
     run = p.call('--check', PATCH_TEST, '--set', 'Body upper/Dirichlet=')
     check('body upper: the constraints leave 6 rigid motion(s) free' in run.stdout, f'--check: {run.stdout}')
