@@ -177,8 +177,9 @@ namespace Signorini
             for (const JoinedSet &joined : join_held_sets(body, held_sets))
               {
                 between.emplace_back();
-                between.back().boundary = add_node_set(body, joined.name, joined.vertices);
-                between.back().frame    = axes_of(joined.frame);
+                between.back().is_between_sets = true;
+                between.back().boundary        = add_node_set(body, joined.name, joined.vertices);
+                between.back().frame           = axes_of(joined.frame);
                 between.back().components[joined.component] = joined.value;
               }
             auto &all = body.loads.displacements;

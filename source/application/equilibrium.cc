@@ -99,6 +99,7 @@ namespace Signorini
       RestOfForces(const Discretization &d, const Vector &residual, const std::size_t n_conditions)
         : reactions(n_conditions)
         , rest(d.partition().n_owned())
+        , n_held(n_conditions, 0)
       {
         const RigidFaces *const rigid = d.dirichlet().rigid.get();
         if (rigid != nullptr)
@@ -117,9 +118,11 @@ namespace Signorini
                                                             rigid->faces()[dependence->face].centre);
                 continue;
               }
-            rest[i] = d.dirichlet().split_reaction(
-                d.nodal().relevant().index_within_set(node), force,
-                [&](const std::size_t condition, const Vector3 &part) { reactions[condition] += part; });
+            rest[i] = d.dirichlet().split_reaction(d.nodal().relevant().index_within_set(node), force,
+                                                   [&](const std::size_t condition, const Vector3 &part) {
+                                                     reactions[condition] += part;
+                                                     ++n_held[condition];
+                                                   });
             square += rest[i].norm_square();
           }
       }
@@ -151,7 +154,9 @@ namespace Signorini
       };
 
       std::vector<Vector3> reactions, rest;
-      double               square = 0., rigid_square = 0.;
+      /// By condition, directions of nodes of this rank.
+      std::vector<std::size_t> n_held;
+      double                   square = 0., rigid_square = 0.;
       /// By rigid face.
       std::vector<ForceAndMoment> rigid_sums;
     };
@@ -240,13 +245,27 @@ namespace Signorini
         const DirichletCondition &condition = model.loads().dirichlet[i];
         result.reactions.push_back(
             {model.bodies().body_name(condition.body), condition.boundary, sum(forces.reactions[i], comm)});
+        result.is_told.push_back(!condition.is_between_sets ||
+                                 Utilities::MPI::sum(forces.n_held[i], comm) > 0);
       }
     for (std::size_t f = 0; f < forces.rigid_sums.size(); ++f)
       {
         const RigidFaceCondition &face = model.loads().rigid_faces[f];
         result.reactions.push_back(
             {model.bodies().body_name(face.body), face.boundary, forces.rigid_sums[f].force});
+        result.is_told.push_back(true);
       }
+    return result;
+  }
+
+
+
+  std::vector<BoundaryResult> Equilibrium::told_reactions() const
+  {
+    std::vector<BoundaryResult> result;
+    for (std::size_t i = 0; i < reactions.size(); ++i)
+      if (is_told[i])
+        result.push_back(reactions[i]);
     return result;
   }
 } // namespace Signorini

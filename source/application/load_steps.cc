@@ -60,7 +60,7 @@ namespace Signorini
       result.report                      = solution.report;
       result.active_nodes                = solution.n_active;
       result.pairs                       = evaluation.pairs;
-      result.boundaries                  = evaluation.equilibrium.reactions;
+      result.boundaries                  = evaluation.equilibrium.told_reactions();
       result.probes                      = evaluate_probes(model, d, solution, probes);
       result.pretensions                 = solution.pretensions;
       return result;

@@ -435,7 +435,7 @@ namespace Signorini
             journal.note(describe_unseen(model, one));
         for (const std::string &remark : check_point_holds(model, d, last.solution))
           journal.note(remark);
-        results.boundaries          = std::move(evaluation.equilibrium.reactions);
+        results.boundaries          = evaluation.equilibrium.told_reactions();
         results.largest_nodal_force = evaluation.equilibrium.largest_nodal_force;
         results.pairs               = std::move(evaluation.pairs);
         results.pretensions         = last.solution.pretensions;

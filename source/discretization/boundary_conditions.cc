@@ -49,7 +49,8 @@ namespace Signorini
                              condition.frame,
                              {},
                              node_set,
-                             StartNodes::none});
+                             StartNodes::none,
+                             condition.is_between_sets});
         if (condition.frame.needs_normal())
           dirichlet.back().shapes = bodies.true_shapes(body, ids, false);
       }

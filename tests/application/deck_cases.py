@@ -277,6 +277,11 @@ def deck_sets_between(d):
     # Each set carries what it holds.
     s, _ = d.solve(in_halves)
     near(sum(b['reaction'][2] for b in s['boundaries'] if b['name'] in ('LEFT', 'RIGHT')), 5., 1e-8, 'reaction of both halves')
+    check(not any(' and ' in b['name'] for b in s['boundaries']), f'there are no nodes between the halves: {s["boundaries"]}')
+    s, _ = d.solve(in_halves, '--set', 'Refinement/Initial global levels=1')
+    between = [b['reaction'][2] for b in s['boundaries'] if ' and ' in b['name']]
+    check(len(between) == 1 and between[0] > 0, f'nodes between the halves: {s["boundaries"]}')
+    near(between[0] + sum(b['reaction'][2] for b in s['boundaries'] if b['name'] in ('LEFT', 'RIGHT')), 5., 1e-8, 'reaction of halves and what is between')
     text, upper, lower = two_blocks('C3D8', (2, 2, 1), (2, 2, 1))
     layer = text.replace('*BOUNDARY', nset('FOOT', upper.plane(2, 0)) + '*BOUNDARY\nTOP, 1, 1\nFOOT, 1, 1\n*BOUNDARY', 1)
     one = [n for n in upper.plane(0, 1) if upper.nodes[n][0][1] <= .5]

@@ -26,8 +26,12 @@ namespace Signorini
   /// The whole equilibrium of a solution.
   struct Equilibrium
   {
-    /// Per Loads::dirichlet.
+    /// Per Loads::dirichlet, then per rigid face.
     std::vector<BoundaryResult> reactions;
+    /// Whether they are told: not those of conditions between sets that hold no node on this mesh.
+    std::vector<bool> is_told;
+    /// Those.
+    std::vector<BoundaryResult> told_reactions() const;
     /// Norm of the nodal forces before reactions and contact forces are taken off (force).
     double largest_nodal_force = 0.;
     /// Certificate::equilibrium, Certificate::body_force_balance, Certificate::body_moment_balance.

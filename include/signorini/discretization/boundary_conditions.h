@@ -39,6 +39,8 @@ namespace Signorini
     unsigned int node_set = StartNodes::none;
     /// The single node (NodalSpace::start_vertices()) that it holds instead.
     unsigned int start_vertex = StartNodes::none;
+    /// LoadDefinition::Displacement::is_between_sets.
+    bool is_between_sets = false;
   };
 
   /// Forces on a boundary, as LoadDefinition::SurfaceForce has them.

@@ -28,6 +28,8 @@ namespace Signorini
       /// In the directions of the frame; free components are empty.
       std::array<ScalarField, 3> components;
       ConditionFrame             frame = ConditionFrame();
+      /// Whether it is there for nodes of finer meshes alone, between sets that others hold.
+      bool is_between_sets = false;
     };
 
     /// Acts on a boundary.
