@@ -92,11 +92,13 @@ namespace Signorini
         }
       for (double *const value : {&largest, &tension, &penetration, &product})
         *value = Utilities::MPI::max(*value, d.nodal().communicator());
-      // Where nothing touches: the stress of such displacements over such a length.
-      const double u = scales.displacement, scale = largest > 0. ? largest : scales.stress;
-      c.penetration     = u > 0. ? penetration / u : 0.;
-      c.tension         = scale > 0. ? tension / scale : 0.;
-      c.complementarity = u > 0. && scale > 0. ? product / (scale * u) : 0.;
+      // Where nothing touches, or only with pressures that are rounding: the stress of such displacements
+      // over such a length.
+      const double u     = scales.displacement,
+                   scale = largest > CertificateRule().rounding * scales.stress ? largest : scales.stress;
+      c.penetration      = u > 0. ? penetration / u : 0.;
+      c.tension          = scale > 0. ? tension / scale : 0.;
+      c.complementarity  = u > 0. && scale > 0. ? product / (scale * u) : 0.;
     }
 
     void add_pair(Certificate &c, const PairResult &pair, const bool has_obstacle, const Scales &scales)

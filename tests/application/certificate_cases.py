@@ -221,6 +221,60 @@ end
 '''
 
 
+# A block that nothing holds between two that come nearer to each other.
+BETWEEN = '''set Bodies = a, b, c
+set Contact pairs = p, q
+subsection Body a
+  set Upper corner  = 4, 4, 1
+  set Divisions     = 5, 5, 1
+  set Young modulus = 1000
+  set Poisson ratio = 0.3
+  set Dirichlet     = bottom: (0, 0, 0)
+end
+subsection Body b
+  set Lower corner  = 0.3, 0.3, 1
+  set Upper corner  = 3.4, 3.6, 2
+  set Divisions     = 4, 3, 1
+  set Young modulus = 2000
+  set Poisson ratio = 0.3
+end
+subsection Body c
+  set Lower corner  = 0, 0, 2
+  set Upper corner  = 4, 4, 3
+  set Divisions     = 3, 4, 1
+  set Young modulus = 1500
+  set Poisson ratio = 0.3
+  set Dirichlet     = top: (1e-10, -5e-11, -5e-10)
+end
+subsection Pair p
+  set First         = b: bottom
+  set Second        = a: top
+  set Initial gap   = {gap}
+end
+subsection Pair q
+  set First         = c: bottom
+  set Second        = b: top
+  set Initial gap   = {gap}
+end
+subsection Refinement
+  set Initial global levels = 0
+end
+'''
+
+
+def rounding_pressures(p):
+    """A block between two that leave it room: the only pressures are rounding, which is no scale of what the solver leaves."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, 'between.prm')
+        for room in ('3e-10', '2.6e-10'):
+            with open(path, 'w') as f:
+                f.write(BETWEEN.format(gap=room + ' + 2e-10*((x - 0.1)^2 + 0.5*(y + 0.05)^2)'))
+            s = p.solve(path, codes=(0, 3))
+            print(room, [pair['load'] for pair in s['pairs']], s['certificate'])
+            check(all(pair['load'] <= 1e-18 for pair in s['pairs']), f'{room}: {s["pairs"]}')
+            check(s['certificate']['contact_conditions_hold'], f'{room}: {s["certificate"]["objections"]}')
+
+
 # A tube held at its bore, above a plate.
 TUBE = '''set Bodies        = tube, plate
 set Contact pairs = c
