@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <unordered_map>
 
 namespace Signorini
 {
@@ -49,12 +50,42 @@ namespace Signorini
       double gap;
     };
 
+    /// Normals of the true surface, linear on triangles. Those of a triangle are worked out once.
+    class TrueNormals
+    {
+    public:
+      explicit TrueNormals(const ContactSurface &surface)
+        : surface(surface)
+      {
+      }
+
+      Vector3 operator()(const unsigned int triangle, const std::array<double, 3> &weights)
+      {
+        const auto [entry, is_new] = known.try_emplace(triangle);
+        Vector3 sum;
+        for (unsigned int i = 0; i < 3; ++i)
+          {
+            if (is_new)
+              entry->second[i] = true_normal(surface, triangle, i);
+            sum += weights[i] * entry->second[i];
+          }
+        const double norm = sum.norm();
+        return norm > 0. ? sum / norm : sum;
+      }
+
+    private:
+      const ContactSurface                                    &surface;
+      std::unordered_map<unsigned int, std::array<Vector3, 3>> known;
+    };
+
     class CellLies
     {
     public:
       CellLies(const ContactSurface &nonmortar, const ContactSurface &mortar)
         : nonmortar(nonmortar)
         , mortar(mortar)
+        , nonmortar_normals(nonmortar)
+        , mortar_normals(mortar)
       {
       }
 
@@ -81,23 +112,14 @@ namespace Signorini
       double angle(const OverlayTriangle &cell, const std::array<double, 3> &at_x,
                    const std::array<double, 3> &at_image) const
       {
-        const Vector3 n   = normal(nonmortar, cell.nonmortar_triangle, at_x),
-                      m   = normal(mortar, cell.mortar_triangle, at_image);
+        const Vector3 n   = nonmortar_normals(cell.nonmortar_triangle, at_x),
+                      m   = mortar_normals(cell.mortar_triangle, at_image);
         const double sine = std::min(1., cross_product_3d(n, m).norm());
         return n * m < 0. ? std::asin(sine) * 180. / numbers::PI : 90.;
       }
 
-      static Vector3 normal(const ContactSurface &surface, const unsigned int triangle,
-                            const std::array<double, 3> &weights)
-      {
-        Vector3 sum;
-        for (unsigned int i = 0; i < 3; ++i)
-          sum += weights[i] * true_normal(surface, triangle, i);
-        const double norm = sum.norm();
-        return norm > 0. ? sum / norm : sum;
-      }
-
       const ContactSurface &nonmortar, &mortar;
+      mutable TrueNormals   nonmortar_normals, mortar_normals;
     };
 
     /// The angle up to which a share of the area of cells lies.
