@@ -59,7 +59,7 @@ namespace Signorini
 
       bool has_sharp_edges() const
       {
-        return std::any_of(parts.begin(), parts.end(), [](const FacingParts &p) { return p.n_parts() > 1; });
+        return std::any_of(parts.begin(), parts.end(), [](const FacingParts &p) { return p.n_pieces() > 1; });
       }
 
       bool shares_body(const PairSight &other) const

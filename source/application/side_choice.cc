@@ -41,8 +41,8 @@ namespace Signorini
 
     bool has_sharp_edges(const ContactPair &pair)
     {
-      return FacingParts(pair.nonmortar.surface).n_parts() > 1 ||
-             FacingParts(pair.mortar.surface).n_parts() > 1;
+      return FacingParts(pair.nonmortar.surface).n_pieces() > 1 ||
+             FacingParts(pair.mortar.surface).n_pieces() > 1;
     }
 
     /// Collective. Whether rows have columns of nodes of rigid faces, which are refused: mortar nodes, or

@@ -8,6 +8,7 @@
 #include <signorini/mesh/surface_sight.h>
 #include <signorini/mesh/symmetry_planes.h>
 #include <signorini/mesh/way_out.h>
+#include <signorini/surface/crease_edges.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -28,6 +29,8 @@ namespace Signorini
       /// Normals of neighbours: sharp edges are those of more than 60 degrees. Six facets around a pin are
       /// none, up to rounding, chamfers neither.
       double sharp_cosine = .5 - 1e-6;
+      /// Of true normals at creases that are none of the true surface (a circle of eight edges).
+      double smooth_cosine = .99;
       /// What of the way from the centre of a face to its corners is looked from.
       double toward_corners = .9;
       /// Distances that differ by less, in widths of the face, are one place: an edge between two triangles.
@@ -64,6 +67,28 @@ namespace Signorini
       return centre;
     }
 
+    /// By member: its set, in the order of the first ones.
+    std::vector<unsigned int> number_sets(DisjointSets &sets, const std::size_t size)
+    {
+      std::vector<unsigned int> number(size);
+      unsigned int              next = 0;
+      for (std::size_t i = 0; i < size; ++i)
+        number[i] = sets.find(i) == i ? next++ : number[sets.find(i)];
+      return number;
+    }
+
+    /// Whether the true surface goes on from a triangle to the next one without an edge.
+    bool is_smooth(const ContactSurface &surface, const unsigned int one, const unsigned int other)
+    {
+      const auto &t = surface.mesh.triangles;
+      for (unsigned int i = 0; i < 3; ++i)
+        for (unsigned int j = 0; j < 3; ++j)
+          if (t[one][i] == t[other][j] &&
+              true_normal(surface, one, i) * true_normal(surface, other, j) >= FacingRule().smooth_cosine)
+            return true;
+      return false;
+    }
+
     /// Whether some of the faces around a vertex face others of them, of another part.
     bool is_groove(const ContactSurface &surface, const std::vector<unsigned int> &part_of,
                    const std::vector<unsigned int> &faces, const unsigned int vertex)
@@ -87,27 +112,31 @@ namespace Signorini
   FacingParts::FacingParts(const ContactSurface &surface, const SurfaceMesh &boundary)
     : surface(surface)
     , boundary(boundary)
-    , part_of(surface.faces.size())
     , seen(surface.faces.size(), infinite)
   {
     const std::vector<Vector3> normals = face_normals(surface);
     const SurfaceTopology      topology(surface.mesh.triangles, surface.mesh.vertices.size());
-    DisjointSets               sets(surface.faces.size());
-    for (const auto &[one, other] : topology.edge_triangles)
-      if (one != SurfaceTopology::none && other != SurfaceTopology::none)
+    const std::vector<bool>    is_crease = find_creases(surface.mesh, topology);
+    DisjointSets               part_sets(surface.faces.size()), piece_sets(surface.faces.size());
+    for (std::size_t e = 0; e < topology.edge_triangles.size(); ++e)
+      if (const auto &[one, other] = topology.edge_triangles[e];
+          one != SurfaceTopology::none && other != SurfaceTopology::none)
         {
           const unsigned int f = surface.triangle_face[one], g = surface.triangle_face[other];
-          if (normals[f] * normals[g] >= FacingRule().sharp_cosine)
-            sets.unite(f, g);
+          if (normals[f] * normals[g] < FacingRule().sharp_cosine)
+            continue;
+          part_sets.unite(f, g);
+          if (!is_crease[e] || is_smooth(surface, one, other))
+            piece_sets.unite(f, g);
         }
-    for (unsigned int f = 0; f < part_of.size(); ++f)
-      if (sets.find(f) == f)
-        {
-          part_of[f] = static_cast<unsigned int>(parts.size());
-          parts.emplace_back();
-        }
-      else
-        part_of[f] = part_of[sets.find(f)];
+    part_of  = number_sets(part_sets, surface.faces.size());
+    piece_of = number_sets(piece_sets, surface.faces.size());
+    // Surfaces may be empty on a rank.
+    const auto n_sets = [](const std::vector<unsigned int> &number) {
+      return number.empty() ? 0 : 1 + *std::max_element(number.begin(), number.end());
+    };
+    parts.resize(n_sets(part_of));
+    is_blind.assign(n_sets(piece_of), true);
   }
 
 
@@ -169,10 +198,15 @@ namespace Signorini
         Part &part    = parts[part_of[f]];
         part.distance = std::min(part.distance, seen[f]);
         part.widths   = std::min(part.widths, seen[f] / width_of(surface, f));
+        if (seen[f] < infinite)
+          is_blind[piece_of[f]] = false;
       }
     if (std::none_of(parts.begin(), parts.end(), [](const Part &part) { return part.distance < infinite; }))
-      for (Part &part : parts)
-        part = {0., 0.};
+      {
+        for (Part &part : parts)
+          part = {0., 0.};
+        is_blind.assign(is_blind.size(), false);
+      }
     find_nearest();
   }
 
@@ -272,7 +306,7 @@ namespace Signorini
   bool FacingParts::counts(const unsigned int face, const unsigned int vertex) const
   {
     const Part &part = parts[part_of[face]];
-    return part.distance < infinite &&
+    return is_kept(face) &&
            (part.widths <= 1. || part.distance <= nearest[vertex] || far_in_grooves.count(vertex) > 0);
   }
 
@@ -289,14 +323,8 @@ namespace Signorini
 
   std::size_t FacingParts::n_blind() const
   {
-    std::vector<bool> is_blind(parts.size(), true);
-    for (unsigned int f = 0; f < part_of.size(); ++f)
-      if (seen[f] < infinite)
-        is_blind[part_of[f]] = false;
-    std::size_t n = 0;
-    for (const unsigned int part : part_of)
-      n += is_blind[part] && !(parts[part].distance < infinite);
-    return n;
+    return static_cast<std::size_t>(
+        std::count_if(piece_of.begin(), piece_of.end(), [&](const unsigned int p) { return is_blind[p]; }));
   }
 
 

@@ -18,7 +18,9 @@ namespace Signorini
 {
   /// The parts of a whole contact surface between sharp edges (of more than 60 degrees), and how far each is
   /// from what it faces of the other side. Boundaries are often given with more than what may touch: a block
-  /// with its walls, a plate with a slot. At such an edge the mean of the normals points nowhere.
+  /// with its walls, a plate with a slot. At such an edge the mean of the normals points nowhere. Pieces of
+  /// parts between creases (find_creases()) are left out if they face nothing: beside the bore of a fork with
+  /// a chamfer at its mouth the outer faces see nothing of the pin.
   class FacingParts
   {
   public:
@@ -37,10 +39,10 @@ namespace Signorini
       return boundary;
     }
 
-    /// How many there are.
-    std::size_t n_parts() const
+    /// How many pieces there are.
+    std::size_t n_pieces() const
     {
-      return parts.size();
+      return is_blind.size();
     }
 
     /// A face faces something at a distance along its normal (length, no sign).
@@ -65,16 +67,16 @@ namespace Signorini
     /// would be left. Returns how many faces that are.
     std::size_t leave(const std::vector<bool> &some);
 
-    /// How many faces belong to parts that face nothing; none where nothing is seen by any part.
+    /// How many faces belong to pieces that face nothing; none where nothing is seen by any.
     std::size_t n_blind() const;
 
-    /// Whether a part faces nothing, or a normal does not count at some vertex.
+    /// Whether a piece faces nothing, or a normal does not count at some vertex.
     bool leaves_out_anything() const;
 
-    /// Whether a face belongs to a part that faces something.
+    /// Whether a face belongs to a piece that faces something, and to a part that stays.
     bool is_kept(const unsigned int face) const
     {
-      return parts[part_of[face]].distance < infinite;
+      return parts[part_of[face]].distance < infinite && !is_blind[piece_of[face]];
     }
 
     /// Whether the normal of a face counts for the mapping at one of its vertices: not if its part is farther
@@ -97,10 +99,13 @@ namespace Signorini
     void find_nearest();
     void find_far_in_grooves();
 
-    const ContactSurface     &surface;
-    const SurfaceMesh        &boundary;
-    std::vector<unsigned int> part_of;
+    const ContactSurface &surface;
+    const SurfaceMesh    &boundary;
+    /// By face: its part, its piece.
+    std::vector<unsigned int> part_of, piece_of;
     std::vector<Part>         parts;
+    /// By piece, whether it faces nothing.
+    std::vector<bool> is_blind;
     /// By face: the least distance of what it faces.
     std::vector<double> seen;
     /// By vertex: the least distance of a part there.

@@ -117,8 +117,8 @@ TEST(FacingParts, WallsThatFaceNothingAreLeftOut)
   Quads floor;
   floor.add(Point<3>(-1., -1., 0.), vector(3., 0., 0.), vector(0., 3., 0.), 7);
   const Pair pair(foot_and_wall(.1), floor.finish());
-  EXPECT_EQ(pair.first_parts.n_parts(), 2u);
-  EXPECT_EQ(pair.second_parts.n_parts(), 1u);
+  EXPECT_EQ(pair.first_parts.n_pieces(), 2u);
+  EXPECT_EQ(pair.second_parts.n_pieces(), 1u);
   EXPECT_TRUE(pair.first_parts.leaves_out_anything());
   EXPECT_FALSE(pair.second_parts.leaves_out_anything());
   EXPECT_GT((normal_at(pair.first, Point<3>(1., .5, .1)) - vector(0., 0., -1.)).norm(), .5);
