@@ -26,9 +26,12 @@ namespace Signorini
     /// Pure numbers.
     struct FacingRule
     {
-      /// Normals of neighbours: sharp edges are those of more than 60 degrees. Six facets around a pin are
-      /// none, up to rounding, chamfers neither.
-      double sharp_cosine = .5 - 1e-6;
+      /// Normals of neighbours where parts end.
+      double sharp_cosine = cosine_of_sharp_edges;
+      /// Where a vertex has no normal of its own: from 40 degrees on. A hexagonal bar that lies in the corner
+      /// of its hole presses on both flats with 1231 (statics); with nodes at the corners, which act along
+      /// the mean of two walls, with 1181. An octagonal one with 1166, and 1146.
+      double own_normal_cosine = .766;
       /// Of true normals at creases that are none of the true surface (a circle of eight edges).
       double smooth_cosine = .99;
       /// What of the way from the centre of a face to its corners is looked from.
@@ -141,9 +144,9 @@ namespace Signorini
 
 
 
-  bool fall_apart(const std::vector<Vector3> &normals)
+  bool fall_apart(const std::vector<Vector3> &normals, const double least_cosine)
   {
-    DisjointSets sets = linked_normals(normals, FacingRule().sharp_cosine);
+    DisjointSets sets = linked_normals(normals, least_cosine);
     for (unsigned int i = 1; i < normals.size(); ++i)
       if (sets.find(i) != sets.find(0))
         return true;
@@ -167,7 +170,7 @@ namespace Signorini
       const Vector3 n = facet_normal(surface, t);
       if (first[v].norm() == 0.)
         first[v] = n;
-      else if (n.norm() > 0. && n * first[v] < FacingRule().sharp_cosine)
+      else if (n.norm() > 0. && n * first[v] < FacingRule().own_normal_cosine)
         suspects[v];
     });
     for_corners([&](const unsigned int v, const unsigned int t, const unsigned int i) {
@@ -177,7 +180,7 @@ namespace Signorini
     });
     std::vector<bool> result(first.size(), false);
     for (const auto &[v, around] : suspects)
-      result[v] = fall_apart(around);
+      result[v] = fall_apart(around, FacingRule().own_normal_cosine);
     return result;
   }
 

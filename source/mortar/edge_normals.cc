@@ -301,8 +301,8 @@ namespace Signorini
           }
     };
     turn(normals);
-    surface.has_partner_normal = is_turned;
     turn(on_creases);
+    surface.has_partner_normal = is_turned;
     turn_hanging(surface, is_turned);
   }
 

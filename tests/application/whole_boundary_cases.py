@@ -576,3 +576,44 @@ def chamfered_clevis(p):
             near(abs(pair['force'][2]), load, .03, f'{pair["name"]}: force')
             near(pair['load'], load, .05, f'{pair["name"]}: load')
         check(s['displacements_are_small'] and not any(m['errors'] for m in s['mappings']), f'{s["mappings"]}')
+
+
+POLYGON_IN_HOLE = '''set Bodies        = bar, hub
+set Contact pairs = fit
+subsection Body bar
+  set Mesh          = polygon.msh
+  set Volumes       = bar
+  set Young modulus = 200000
+  set Volume force  = ({x}, 0, {z})
+  set Dirichlet     = ends: (*, 0, *)
+end
+subsection Body hub
+  set Mesh          = polygon.msh
+  set Volumes       = hub
+  set Young modulus = 70000
+  set Dirichlet     = base: (0, 0, 0)
+end
+subsection Pair fit
+  set First  = bar: flats
+  set Second = hub: inner
+end
+'''
+
+
+def polygon_in_hole(p):
+    """A bar is pressed into a corner of its hole, and lies on two flats there: what these carry is known from statics. Nodes in the corners would press on both."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, 'polygon.prm')
+        for n in (6, 8):
+            angle  = 2. * math.pi / n
+            volume = n * 25. * math.tan(math.pi / n) * 12.
+            with open(path, 'w') as f:
+                f.write(POLYGON_IN_HOLE.format(x=-400. / volume, z=-1000. / volume))
+            make_mesh(os.path.join(GEOMETRIES, 'polygon_in_hole.geo'), os.path.join(folder, 'polygon.msh'), '-setnumber', 'n', str(n))
+            second = 400. / math.sin(angle)
+            for side in ('first', 'second'):
+                s = p.solve(path, f'Pair fit/Nonmortar={side}')
+                load = s['pairs'][0]['load']
+                print(f'{n}, {side}: load {load}, by statics {1000. + second * (1. - math.cos(angle))}')
+                near(load, 1000. + second * (1. - math.cos(angle)), 1e-4, f'{n}, {side}: load')
+                check(s['certificate']['contact_conditions_hold'], f'{s["certificate"]["objections"]}')

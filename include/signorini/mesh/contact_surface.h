@@ -68,7 +68,8 @@ namespace Signorini
     std::vector<unsigned int> triangle_face;
     /// Global node number of each vertex of mesh.
     std::vector<NodeIndex> vertex_node;
-    /// By vertex, whether its normal is that of the other side of the pair; empty before turn_edges().
+    /// By vertex, whether its normal is that of the other side of the pair, or the nearest to it on a crease;
+    /// empty before turn_edges().
     std::vector<bool> has_partner_normal;
     /// A facet at a vertex: its outward unit normal, and the way from the vertex to its centre (length).
     struct Facet

@@ -115,8 +115,12 @@ namespace Signorini
     std::map<unsigned int, std::set<unsigned int>> far_in_grooves;
   };
 
-  /// Whether some of unit normals are not linked with the others by steps that are no sharp edges.
-  bool fall_apart(const std::vector<Vector3> &normals);
+  /// Of the normals beside a sharp edge: more than 60 degrees. Six facets around a pin are none, up to
+  /// rounding, chamfers neither.
+  constexpr double cosine_of_sharp_edges = .5 - 1e-6;
+
+  /// Whether some of unit normals are not linked with the others by steps of at least a cosine.
+  bool fall_apart(const std::vector<Vector3> &normals, const double least_cosine = cosine_of_sharp_edges);
 
   /// Which faces are looked at, at which of their vertices.
   using FaceFilter = std::function<bool(unsigned int face, unsigned int vertex)>;
@@ -128,8 +132,8 @@ namespace Signorini
   }
 
   /// Per vertex, whether not all triangles around it hang together without a sharp edge of the true surface
-  /// (of more than 60 degrees): the vertex normal is that of none of them then. Those of a piece count if
-  /// they are there.
+  /// (here of more than 40 degrees): the vertex normal is that of none of them then. Those of a piece count
+  /// if they are there.
   std::vector<bool> vertices_on_sharp_edges(const ContactSurface &surface, const FaceFilter &counts);
 
   /// The distance along a unit normal from a point of a surface to what it faces there (length, negative if
