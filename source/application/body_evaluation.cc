@@ -375,6 +375,22 @@ namespace Signorini
       return is(jump.normal) && is(jump.facet_normal);
     }
 
+    /// Collective. By vertex at faces that this rank knows: the unit normal of the other side in the mean
+    /// over what its multiplier acts on, zero for nothing.
+    std::vector<Vector3> normals_met(const ContactPair &pair)
+    {
+      const ContactSurface &surface = pair.nonmortar.surface;
+      std::vector<Vector3>  result(surface.mesh.vertices.size());
+      for (const FaceMoments &m : pair.moments)
+        for (unsigned int a = 0; a < surface.faces[m.face].n_corners; ++a)
+          if (!surface.faces[m.face].leaves(a))
+            result[surface.faces[m.face].corners[a]] += m.facing[a];
+      pair.halo->update(result);
+      for (Vector3 &normal : result)
+        normal = normal.norm() > 0. ? normal / normal.norm() : normal;
+      return result;
+    }
+
     /// Collective. The part of the force of a pair that nodes carry of which that holds.
     double pressed_by_slip(const Discretization &d, const ContactSolution &solution, const unsigned int p,
                            const std::vector<VertexJump> &jumps)
@@ -392,11 +408,16 @@ namespace Signorini
       std::set<NodeIndex>          pressed(list.begin(), list.end());
       if (pressed.empty())
         return 0.;
-      // What any facet of the other side explains.
+      // What any facet of the other side explains, or what it is on the whole where the node acts.
+      const std::vector<Vector3> means = normals_met(d.pairs[p]);
       for (const VertexJump &jump : jumps)
-        if (const NodeIndex node = non.vertex_node[jump.vertex];
-            pressed.count(node) > 0 && !is_pressed_by_slip(jump, non.mesh.vertex_normals[jump.vertex]))
-          others.insert(node);
+        if (const NodeIndex node = non.vertex_node[jump.vertex]; pressed.count(node) > 0)
+          {
+            const Vector3   &own = non.mesh.vertex_normals[jump.vertex], &mean = means[jump.vertex];
+            const VertexJump whole = {jump.vertex, jump.value, mean, mean};
+            if (!is_pressed_by_slip(jump, own) || (mean.norm() > 0. && !is_pressed_by_slip(whole, own)))
+              others.insert(node);
+          }
       for (const NodeIndex node : of_all(others))
         pressed.erase(node);
       const ContactStress      stress = stress_of_pair(d, solution.stress, p);

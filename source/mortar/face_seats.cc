@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/algebra/disjoint_sets.h>
 #include <signorini/mesh/surface_normals.h>
 #include <signorini/mortar/face_seats.h>
 #include <signorini/mortar/surface_values.h>
 #include <signorini/surface/contact_mapping.h>
+#include <signorini/surface/crease_edges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <unordered_map>
 
 namespace Signorini
@@ -50,6 +53,78 @@ namespace Signorini
       double gap;
     };
 
+    /// By triangle, whether a surface is known to be a plane there, or to end at one.
+    class KnownPlanes
+    {
+    public:
+      explicit KnownPlanes(const ContactSurface &surface)
+        : surface(surface)
+        , topology(surface.mesh.triangles, surface.mesh.vertices.size())
+        , known(topology.triangles.size(), false)
+      {
+        for (unsigned int t = 0; t < topology.triangles.size(); ++t)
+          normals.push_back(facet_normal(surface, t));
+        add_triangles_around_flat_vertices();
+        add_flat_pieces();
+      }
+
+      bool has(const unsigned int triangle) const
+      {
+        return known[triangle];
+      }
+
+    private:
+      bool are_parallel(const unsigned int one, const unsigned int other) const
+      {
+        constexpr double rounding = 1e-6;
+        return (normals[one] - normals[other]).norm() <= rounding;
+      }
+
+      /// All triangles around one of their vertices lie in a plane, or around one of a neighbour's. Strips of
+      /// facets around a roller have no such vertex.
+      void add_triangles_around_flat_vertices()
+      {
+        std::vector<bool> is_flat(surface.mesh.vertices.size(), true);
+        for (unsigned int e = 0; e < topology.edges.size(); ++e)
+          if (topology.is_border(e) ||
+              !are_parallel(topology.edge_triangles[e][0], topology.edge_triangles[e][1]))
+            for (const unsigned int v : topology.edges[e])
+              is_flat[v] = false;
+        std::vector<bool> at_flat;
+        for (const auto &corners : topology.triangles)
+          at_flat.push_back(
+              std::any_of(corners.begin(), corners.end(), [&](const unsigned int v) { return is_flat[v]; }));
+        known = at_flat;
+        for (const auto &[one, other] : topology.edge_triangles)
+          if (one != SurfaceTopology::none && other != SurfaceTopology::none)
+            {
+              known[one]   = known[one] || at_flat[other];
+              known[other] = known[other] || at_flat[one];
+            }
+      }
+
+      /// Pieces between creases.
+      void add_flat_pieces()
+      {
+        const std::vector<bool> is_crease = find_creases(surface.mesh, topology);
+        DisjointSets            pieces(known.size());
+        for (unsigned int e = 0; e < topology.edges.size(); ++e)
+          if (!topology.is_border(e) && !is_crease[e])
+            pieces.unite(topology.edge_triangles[e][0], topology.edge_triangles[e][1]);
+        std::vector<bool> is_flat(known.size(), true);
+        for (unsigned int t = 0; t < known.size(); ++t)
+          if (const auto first = static_cast<unsigned int>(pieces.find(t)); !are_parallel(first, t))
+            is_flat[first] = false;
+        for (unsigned int t = 0; t < known.size(); ++t)
+          known[t] = known[t] || is_flat[pieces.find(t)];
+      }
+
+      const ContactSurface &surface;
+      const SurfaceTopology topology;
+      std::vector<Vector3>  normals;
+      std::vector<bool>     known;
+    };
+
     /// Normals of the true surface, linear on triangles. Those of a triangle are worked out once.
     class TrueNormals
     {
@@ -57,6 +132,19 @@ namespace Signorini
       explicit TrueNormals(const ContactSurface &surface)
         : surface(surface)
       {
+      }
+
+      /// Whether they are more than those of a facet of an unknown surface.
+      bool is_known(const unsigned int triangle)
+      {
+        constexpr std::array<double, 3> centre   = {{1. / 3., 1. / 3., 1. / 3.}};
+        constexpr double                rounding = 1e-6;
+        if (surface.offset(triangle, centre).norm_square() >
+            rounding * rounding * triangle_area(surface.mesh, triangle))
+          return true;
+        if (!planes)
+          planes.emplace(surface);
+        return planes->has(triangle);
       }
 
       Vector3 operator()(const unsigned int triangle, const std::array<double, 3> &weights)
@@ -74,7 +162,9 @@ namespace Signorini
       }
 
     private:
-      const ContactSurface                                    &surface;
+      const ContactSurface &surface;
+      /// Made when first asked for.
+      std::optional<const KnownPlanes>                         planes;
       std::unordered_map<unsigned int, std::array<Vector3, 3>> known;
     };
 
@@ -101,10 +191,11 @@ namespace Signorini
                        y = evaluate(mortar.mesh, cell.mortar_triangle, at_centre);
         result.area      = std::abs(cell.share()) * triangle_area(nonmortar.mesh, cell.nonmortar_triangle);
         result.gap       = (y - x) * facet_normal(nonmortar, cell.nonmortar_triangle);
-        constexpr double rounding = 1e-6;
-        const bool       is_facet = mortar.offset(cell.mortar_triangle, at_centre).norm_square() <=
-                              rounding * rounding * triangle_area(mortar.mesh, cell.mortar_triangle);
-        result.away = is_facet && result.angle < SeatRule().facets ? 0. : result.angle;
+        const bool is_known =
+            result.angle > SeatRule().facets ||
+            (result.angle > SeatRule().rounding && nonmortar_normals.is_known(cell.nonmortar_triangle) &&
+             mortar_normals.is_known(cell.mortar_triangle));
+        result.away = is_known ? result.angle : 0.;
         return result;
       }
 
@@ -233,7 +324,11 @@ namespace Signorini
       flank.add(nonmortar, m, a);
       if (seats[v].covered > rule.least_cover * seats[v].full &&
           flank.gap * seats[v].covered > seats[v].gap * flank.covered)
-        nonmortar.faces[m.face].left_corners |= static_cast<unsigned char>(1u << a);
+        {
+          ContactSurface::Face &face = nonmortar.faces[m.face];
+          face.left_corners |= static_cast<unsigned char>(1u << a);
+          face.flank_corners |= static_cast<unsigned char>(1u << a);
+        }
     });
   }
 } // namespace Signorini

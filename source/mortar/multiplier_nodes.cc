@@ -29,7 +29,10 @@ namespace Signorini
         {
           const unsigned int v = surface.faces[m.face].corners[a];
           if (surface.faces[m.face].leaves(a))
-            continue;
+            {
+              full[v] += surface.faces[m.face].sees_flank(a) ? m.full[a] : 0.;
+              continue;
+            }
           full[v] += m.full[a];
           if (!is_empty(m))
             for (unsigned int b = 0; b < 4; ++b)

@@ -40,9 +40,10 @@ namespace Signorini
 
       std::vector<bool> find() const
       {
+        constexpr double               rounding = 1e-6;
         std::map<unsigned int, double> share;
         for (unsigned int e = 0; e < topology.edges.size(); ++e)
-          if (!topology.is_border(e) && !is_sharp[e] && angle(e) >= rule.shallow)
+          if (!topology.is_border(e) && !is_sharp[e] && angle(e) >= rule.shallow - rounding)
             if (const double s = largest_turn_beside(e) / angle(e); s <= rule.may_be_alone)
               share[e] = s;
         drop_loose_ends(share);
@@ -51,7 +52,8 @@ namespace Signorini
           if (const auto n_alone =
                   std::count_if(crease.begin(), crease.end(),
                                 [&](const unsigned int e) { return share[e] <= rule.is_alone; });
-              n_alone >= rule.least_alone && n_alone >= rule.share_alone * static_cast<double>(crease.size()))
+              (n_alone >= rule.least_alone || (n_alone > 0 && crosses_a_strip(crease))) &&
+              n_alone >= rule.share_alone * static_cast<double>(crease.size()))
             for (const unsigned int e : crease)
               result[e] = true;
         return result;
@@ -225,6 +227,21 @@ namespace Signorini
               else
                 ++it;
           }
+      }
+
+      /// Whether a single edge goes from border to border, or sharp edge: that of a slab of one layer.
+      bool crosses_a_strip(const std::vector<unsigned int> &crease) const
+      {
+        const auto ends_here = [&](const unsigned int v) {
+          for (unsigned int k = topology.fan_start[v]; k < topology.fan_start[v + 1]; ++k)
+            for (const unsigned int e : topology.triangle_edges[topology.fan[k]])
+              if ((topology.is_border(e) || is_sharp[e]) &&
+                  (topology.edges[e][0] == v || topology.edges[e][1] == v))
+                return true;
+          return false;
+        };
+        return crease.size() == 1 && ends_here(topology.edges[crease[0]][0]) &&
+               ends_here(topology.edges[crease[0]][1]);
       }
 
       /// Edges that hang together.

@@ -617,3 +617,49 @@ def polygon_in_hole(p):
                 print(f'{n}, {side}: load {load}, by statics {1000. + second * (1. - math.cos(angle))}')
                 near(load, 1000. + second * (1. - math.cos(angle)), 1e-4, f'{n}, {side}: load')
                 check(s['certificate']['contact_conditions_hold'], f'{s["certificate"]["objections"]}')
+
+
+TIPPING_BLOCK = '''set Bodies        = block, plate
+set Contact pairs = seat
+subsection Body block
+  set Mesh            = prism
+  set Corners         = (-5, 0); (5, 0); (9, {h}); (9, 10); (-9, 10); (-9, {h})
+  set Height          = 4
+  set Round divisions = 6, 0, {layers}
+  set Rotation axis   = 1, 0, 0
+  set Rotation angle  = 90
+  set Translation     = 0, 4, 0
+  set Young modulus   = 70000
+  set Dirichlet       = start: (*, 0, *); end: (*, 0, *)
+  set Rigid           = +z: force (0, 0, -1000), moment (0, {moment}, 0), displacement (0, 0, *), rotation (0, *, 0)
+end
+subsection Body plate
+  set Mesh          = block
+  set Lower corner  = -15, 0, -6
+  set Upper corner  = 15, 4, 0
+  set Divisions     = 19, {layers}, 6
+  set Young modulus = 200000
+  set Dirichlet     = bottom: (0, 0, 0); front: (*, 0, *); back: (*, 0, *)
+end
+subsection Pair seat
+  set First  = block: side 1 + side 2 + side 6
+  set Second = plate: top
+end
+'''
+
+
+def tipping_block(p):
+    """A block with chamfers of few degrees is pressed down in its middle and beside it: it stands on its sole, and is not pushed sideways, in slabs of one layer, too."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, 'tipping.prm')
+        for layers, angle, moment in ((1, 10, 4000), (1, 25, 4000), (3, 6, 0), (3, 15, 4000)):
+            with open(path, 'w') as f:
+                f.write(TIPPING_BLOCK.format(layers=layers, h=4 * math.tan(math.radians(angle)), moment=moment))
+            sole = p.solve(path, 'Pair seat/First=block: side 1')['bodies'][0]['largest_displacement']
+            for side in ('first', 'second'):
+                s = p.solve(path, f'Pair seat/Nonmortar={side}')
+                pair = s['pairs'][0]
+                print(f'{layers} layers, {angle} degrees, {side}: {s["bodies"][0]["largest_displacement"]} for {sole}, force {pair["force"]}')
+                near(s['bodies'][0]['largest_displacement'], sole, .03, f'{layers} layers, {angle} degrees, {side}: displacement')
+                check(abs(pair['force'][0]) < 1e-3, f'{layers} layers, {angle} degrees, {side}: pushed sideways by {pair["force"][0]}')
+                check(s['displacements_are_small'] and s['certificate']['contact_conditions_hold'], f'{s["certificate"]["objections"]}')

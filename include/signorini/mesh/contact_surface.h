@@ -40,6 +40,8 @@ namespace Signorini
       /// Bit i: at corner i another side of the body is nearer to contact (FacingParts::acts()), or the other
       /// body runs away over this face (leave_flanks()); the multiplier of the vertex does not act on it.
       unsigned char left_corners = 0;
+      /// Those of them over which the other body runs away: for the multiplier the face is not covered there.
+      unsigned char flank_corners = 0;
 
       /// See left_corners.
       bool leaves(const unsigned int corner) const
@@ -47,13 +49,19 @@ namespace Signorini
         return (left_corners >> corner & 1u) != 0;
       }
 
-      /// The same of a vertex of the surface.
+      /// Of a vertex of the surface.
       bool leaves_vertex(const unsigned int vertex) const
       {
         for (unsigned int i = 0; i < n_corners; ++i)
           if (corners[i] == vertex)
             return leaves(i);
         return false;
+      }
+
+      /// See flank_corners.
+      bool sees_flank(const unsigned int corner) const
+      {
+        return (flank_corners >> corner & 1u) != 0;
       }
     };
 

@@ -30,7 +30,7 @@ namespace Signorini
                                const std::vector<OverlayTriangle> &overlay);
 
   /// Vertices that have a seat on some of their faces leave those that see flanks only
-  /// (ContactSurface::Face::left_corners). Collective.
+  /// (ContactSurface::Face::left_corners, flank_corners). Collective.
   /// @param halo of the surface
   /// @param moments of own and ghost faces
   void leave_flanks(ContactSurface &nonmortar, const SurfaceHalo &halo,
