@@ -121,3 +121,40 @@ TEST(CreaseEdges, NoneOnRoundSurfaces)
         EXPECT_EQ(n_creases(bent(n, jitter, fillet)), 0u) << n << ", " << jitter;
       }
 }
+
+
+
+// A slab of one layer: each crease is a single edge from border to border, and those of a roller are none.
+TEST(CreaseEdges, AcrossSlabsOfOneLayer)
+{
+  const auto slab = [](const unsigned int n, const std::function<Point<3>(double)> &profile) {
+    SurfaceMesh mesh;
+    for (unsigned int i = 0; i <= n; ++i)
+      for (const double y : {0., .2})
+        {
+          mesh.vertices.push_back(profile(static_cast<double>(i) / n));
+          mesh.vertices.back()[1] = y;
+        }
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        mesh.triangles.push_back({{2 * i, 2 * i + 2, 2 * i + 1}});
+        mesh.triangles.push_back({{2 * i + 2, 2 * i + 3, 2 * i + 1}});
+      }
+    return mesh;
+  };
+  for (const double angle : {10., 25., 38.})
+    for (const unsigned int n : {4u, 12u})
+      EXPECT_EQ(n_creases(slab(n,
+                               [&](const double s) {
+                                 const double way = std::max(0., s - .5), turn = angle * M_PI / 180.;
+                                 return Point<3>(std::min(s, .5) + way * std::cos(turn), 0.,
+                                                 way * std::sin(turn));
+                               })),
+                1u)
+          << angle << ", " << n;
+  for (const unsigned int n : {5u, 9u, 16u})
+    EXPECT_EQ(n_creases(slab(
+                  n, [](const double s) { return Point<3>(std::sin(M_PI * s), 0., std::cos(M_PI * s)); })),
+              0u)
+        << n;
+}
