@@ -6,6 +6,7 @@
 #include <signorini/algebra/input_error.h>
 #include <signorini/application/facing_sides.h>
 #include <signorini/application/journal.h>
+#include <signorini/mesh/surface_creases.h>
 #include <signorini/mesh/surface_extraction.h>
 #include <signorini/mortar/edge_normals.h>
 #include <signorini/mortar/face_claims.h>
@@ -85,6 +86,7 @@ namespace Signorini
         throw InputError("Pair " + pair.definition.name + ": the boundary \"" + side.boundary +
                          "\" of body \"" + model.bodies().body_name(side.body) +
                          "\" has no faces in its region.");
+      mark_creases(result.surface);
       result.material = mean_material(result.surface, model.bodies());
       return result;
     }

@@ -3,12 +3,12 @@
 
 #include <signorini/algebra/disjoint_sets.h>
 #include <signorini/mesh/facing_parts.h>
+#include <signorini/mesh/surface_creases.h>
 #include <signorini/mesh/surface_normals.h>
 #include <signorini/mesh/surface_piece.h>
 #include <signorini/mesh/surface_sight.h>
 #include <signorini/mesh/symmetry_planes.h>
 #include <signorini/mesh/way_out.h>
-#include <signorini/surface/crease_edges.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -119,7 +119,7 @@ namespace Signorini
   {
     const std::vector<Vector3> normals = face_normals(surface);
     const SurfaceTopology      topology(surface.mesh.triangles, surface.mesh.vertices.size());
-    const std::vector<bool>    is_crease = find_creases(surface.mesh, topology);
+    const std::vector<bool>    is_crease = creases_of(surface, topology);
     DisjointSets               part_sets(surface.faces.size()), piece_sets(surface.faces.size());
     for (std::size_t e = 0; e < topology.edge_triangles.size(); ++e)
       if (const auto &[one, other] = topology.edge_triangles[e];

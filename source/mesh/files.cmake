@@ -34,6 +34,7 @@ signorini_add_layer(mesh
   separate_process.cc
   start_nodes.cc
   size_limit.cc
+  surface_creases.cc
   surface_extraction.cc
   surface_file.cc
   surface_normals.cc

@@ -51,8 +51,8 @@ namespace Signorini
   {
     std::size_t bytes = list_bytes(mesh.vertices) + list_bytes(mesh.triangles) +
                         list_bytes(mesh.vertex_normals) + list_bytes(faces) + list_bytes(triangle_face) +
-                        list_bytes(vertex_node) + list_bytes(vertex_fixed) + list_bytes(hanging) +
-                        has_partner_normal.size() / 8 + true_shape.memory_consumption();
+                        list_bytes(crease_sides) + list_bytes(vertex_node) + list_bytes(vertex_fixed) +
+                        list_bytes(hanging) + has_partner_normal.size() / 8 + true_shape.memory_consumption();
     for (const auto &parents : hanging)
       bytes += list_bytes(parents);
     if (origin)
@@ -125,6 +125,8 @@ namespace Signorini
     result.vertex_node         = vertices.select(whole.vertex_node);
     result.vertex_fixed        = vertices.select(whole.vertex_fixed);
     result.hanging             = vertices.select(whole.hanging);
+    if (!whole.crease_sides.empty())
+      result.crease_sides = triangles.select(whole.crease_sides);
     if (!whole.has_partner_normal.empty())
       result.has_partner_normal = vertices.select(whole.has_partner_normal);
     for (const auto &[v, normal] : whole.normals_of_rows)

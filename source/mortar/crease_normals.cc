@@ -5,9 +5,9 @@
 #include "corner_sight.h"
 
 #include <signorini/mesh/facing_parts.h>
+#include <signorini/mesh/surface_creases.h>
 #include <signorini/mesh/surface_normals.h>
 #include <signorini/surface/contact_mapping.h>
-#include <signorini/surface/crease_edges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -119,7 +119,7 @@ namespace Signorini
       std::vector<bool> vertices_on_creases() const
       {
         std::vector<bool>       result(x.size(), false), in_groove(result);
-        const std::vector<bool> is_crease = find_creases(surface.mesh, topology);
+        const std::vector<bool> is_crease = creases_of(surface, topology);
         for (unsigned int e = 0; e < topology.edges.size(); ++e)
           if (is_crease[e])
             for (const unsigned int v : topology.edges[e])

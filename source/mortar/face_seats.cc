@@ -2,11 +2,11 @@
 // Copyright (C) 2026 by the Signorini authors
 
 #include <signorini/algebra/disjoint_sets.h>
+#include <signorini/mesh/surface_creases.h>
 #include <signorini/mesh/surface_normals.h>
 #include <signorini/mortar/face_seats.h>
 #include <signorini/mortar/surface_values.h>
 #include <signorini/surface/contact_mapping.h>
-#include <signorini/surface/crease_edges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -106,7 +106,7 @@ namespace Signorini
       /// Pieces between creases.
       void add_flat_pieces()
       {
-        const std::vector<bool> is_crease = find_creases(surface.mesh, topology);
+        const std::vector<bool> is_crease = creases_of(surface, topology);
         DisjointSets            pieces(known.size());
         for (unsigned int e = 0; e < topology.edges.size(); ++e)
           if (!topology.is_border(e) && !is_crease[e])
@@ -137,14 +137,10 @@ namespace Signorini
       /// Whether they are more than those of a facet of an unknown surface.
       bool is_known(const unsigned int triangle)
       {
-        constexpr std::array<double, 3> centre   = {{1. / 3., 1. / 3., 1. / 3.}};
-        constexpr double                rounding = 1e-6;
-        if (surface.offset(triangle, centre).norm_square() >
-            rounding * rounding * triangle_area(surface.mesh, triangle))
-          return true;
-        if (!planes)
-          planes.emplace(surface);
-        return planes->has(triangle);
+        const auto [entry, is_new] = at_known.try_emplace(triangle, false);
+        if (is_new)
+          entry->second = is_curved(triangle) || is_at_plane(triangle);
+        return entry->second;
       }
 
       Vector3 operator()(const unsigned int triangle, const std::array<double, 3> &weights)
@@ -162,10 +158,26 @@ namespace Signorini
       }
 
     private:
+      bool is_curved(const unsigned int triangle) const
+      {
+        constexpr std::array<double, 3> centre   = {{1. / 3., 1. / 3., 1. / 3.}};
+        constexpr double                rounding = 1e-6;
+        return surface.offset(triangle, centre).norm_square() >
+               rounding * rounding * triangle_area(surface.mesh, triangle);
+      }
+
+      bool is_at_plane(const unsigned int triangle)
+      {
+        if (!planes)
+          planes.emplace(surface);
+        return planes->has(triangle);
+      }
+
       const ContactSurface &surface;
       /// Made when first asked for.
       std::optional<const KnownPlanes>                         planes;
       std::unordered_map<unsigned int, std::array<Vector3, 3>> known;
+      std::unordered_map<unsigned int, bool>                   at_known;
     };
 
     class CellLies

@@ -35,15 +35,15 @@ namespace Signorini
             if (const double length = normals.back().norm(); length > 0.)
               normals.back() /= length;
           }
+        find_angles();
         find_sharp_edges();
       }
 
       std::vector<bool> find() const
       {
-        constexpr double               rounding = 1e-6;
         std::map<unsigned int, double> share;
         for (unsigned int e = 0; e < topology.edges.size(); ++e)
-          if (!topology.is_border(e) && !is_sharp[e] && angle(e) >= rule.shallow - rounding)
+          if (!topology.is_border(e) && !is_sharp[e] && angle(e) > 0.)
             if (const double s = largest_turn_beside(e) / angle(e); s <= rule.may_be_alone)
               share[e] = s;
         drop_loose_ends(share);
@@ -101,11 +101,26 @@ namespace Signorini
         return away.norm() > 0. ? away / away.norm() : away;
       }
 
+      /// Those that are no creases anyway are taken for zero.
+      void find_angles()
+      {
+        constexpr double rounding = 1e-6;
+        const double     most     = std::cos((rule.shallow - rounding) / 180. * numbers::PI);
+        angles.assign(topology.edges.size(), 0.);
+        for (unsigned int e = 0; e < angles.size(); ++e)
+          if (!topology.is_border(e))
+            {
+              const auto &[s, t]  = topology.edge_triangles[e];
+              const double cosine = normals[s] * normals[t];
+              if (cosine <= most)
+                angles[e] = degrees(std::acos(std::max(-1., cosine)));
+            }
+      }
+
       /// Between the triangles at an edge (degrees).
       double angle(const unsigned int edge) const
       {
-        const auto &[s, t] = topology.edge_triangles[edge];
-        return degrees(std::acos(std::max(-1., std::min(1., normals[s] * normals[t]))));
+        return angles[edge];
       }
 
       static double degrees(const double radians)
@@ -271,6 +286,7 @@ namespace Signorini
       const SurfaceTopology    &topology;
       const CreaseEdgeRule     &rule;
       std::vector<Tensor<1, 3>> normals;
+      std::vector<double>       angles;
       std::vector<bool>         is_sharp;
     };
   } // namespace

@@ -74,6 +74,8 @@ namespace Signorini
     std::vector<Face> faces;
     /// The face of each triangle of mesh.
     std::vector<unsigned int> triangle_face;
+    /// By triangle; bit i: its side from corner i to the next one is a crease. Empty before mark_creases().
+    std::vector<unsigned char> crease_sides;
     /// Global node number of each vertex of mesh.
     std::vector<NodeIndex> vertex_node;
     /// By vertex, whether its normal is that of the other side of the pair, or the nearest to it on a crease;
