@@ -164,7 +164,7 @@ namespace Signorini
       {
         const auto write = [&](const std::vector<std::string> &list, const std::string &which) {
           if (!list.empty())
-            journal.note("faces beyond sharp edges that " + which +
+            journal.note("faces beyond edges that " + which +
                          " are left out: " + Patterns::Tools::to_string(list) + ".");
         };
         write(blind, "face nothing of the other side");

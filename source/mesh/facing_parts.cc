@@ -220,10 +220,11 @@ namespace Signorini
     find_far_in_grooves();
     nearest.assign(surface.mesh.vertices.size(), infinite);
     for (unsigned int f = 0; f < part_of.size(); ++f)
-      for (const unsigned int v : surface.faces[f].corners)
-        if (const auto far = far_in_grooves.find(v);
-            far == far_in_grooves.end() || far->second.count(part_of[f]) == 0)
-          nearest[v] = std::min(nearest[v], parts[part_of[f]].distance);
+      if (is_kept(f))
+        for (const unsigned int v : surface.faces[f].corners)
+          if (const auto far = far_in_grooves.find(v);
+              far == far_in_grooves.end() || far->second.count(part_of[f]) == 0)
+            nearest[v] = std::min(nearest[v], parts[part_of[f]].distance);
   }
 
 
@@ -298,7 +299,7 @@ namespace Signorini
       if (const unsigned int p = part_of[f]; goes[p] && !stays[p])
         {
           parts[p] = {infinite, infinite};
-          ++n_faces;
+          n_faces += !is_blind[piece_of[f]];
         }
     find_nearest();
     return n_faces;

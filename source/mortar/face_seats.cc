@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <unordered_map>
@@ -28,6 +29,8 @@ namespace Signorini
       /// face lies, none of it is farther away than that. (With a share of .3 a contact of gears was smaller
       /// by a tenth.)
       double share = .5, ratio = 4.;
+      /// Of planes that lie along each other exactly a smaller share will do.
+      double share_of_planes = .15;
       /// Angles below are no angles.
       double rounding = .25;
       /// Flanks lie away by at least this where their true shape is not known: facets of round surfaces do,
@@ -51,6 +54,8 @@ namespace Signorini
       double area;
       /// Along the normal of the nonmortar facet, at the centre (length).
       double gap;
+      /// Whether a plane lies along a plane there.
+      bool is_plane;
     };
 
     /// By triangle, whether a surface is known to be a plane there, or to end at one.
@@ -59,73 +64,87 @@ namespace Signorini
     public:
       explicit KnownPlanes(const ContactSurface &surface)
         : surface(surface)
-        , topology(surface.mesh.triangles, surface.mesh.vertices.size())
-        , known(topology.triangles.size(), false)
       {
-        for (unsigned int t = 0; t < topology.triangles.size(); ++t)
+        for (unsigned int t = 0; t < surface.mesh.triangles.size(); ++t)
           normals.push_back(facet_normal(surface, t));
-        add_triangles_around_flat_vertices();
-        add_flat_pieces();
+        find_flat_vertices();
       }
 
-      bool has(const unsigned int triangle) const
+      bool has(const unsigned int triangle)
       {
-        return known[triangle];
+        const auto &corners     = surface.mesh.triangles[triangle];
+        const auto  n_at_planes = std::count_if(corners.begin(), corners.end(),
+                                                [&](const unsigned int v) { return is_at_plane[v]; });
+        if (n_at_planes >= 2)
+          return true;
+        if (in_flat_piece.empty())
+          find_flat_pieces();
+        return in_flat_piece[triangle];
       }
 
     private:
       bool are_parallel(const unsigned int one, const unsigned int other) const
       {
-        constexpr double rounding = 1e-6;
+        // Mesh files have few digits; a fourth of what SeatRule takes for an angle.
+        constexpr double rounding = 1e-3;
         return (normals[one] - normals[other]).norm() <= rounding;
       }
 
-      /// All triangles around one of their vertices lie in a plane, or around one of a neighbour's. Strips of
-      /// facets around a roller have no such vertex.
-      void add_triangles_around_flat_vertices()
+      /// All triangles around such a vertex lie in a plane, and surround it: its neighbours follow and
+      /// precede each other. Strips of facets around a roller have none. Other vertices of these triangles
+      /// lie at the plane.
+      void find_flat_vertices()
       {
-        std::vector<bool> is_flat(surface.mesh.vertices.size(), true);
-        for (unsigned int e = 0; e < topology.edges.size(); ++e)
-          if (topology.is_border(e) ||
-              !are_parallel(topology.edge_triangles[e][0], topology.edge_triangles[e][1]))
-            for (const unsigned int v : topology.edges[e])
-              is_flat[v] = false;
-        std::vector<bool> at_flat;
-        for (const auto &corners : topology.triangles)
-          at_flat.push_back(
-              std::any_of(corners.begin(), corners.end(), [&](const unsigned int v) { return is_flat[v]; }));
-        known = at_flat;
-        for (const auto &[one, other] : topology.edge_triangles)
-          if (one != SurfaceTopology::none && other != SurfaceTopology::none)
+        const std::size_t          n = surface.mesh.vertices.size();
+        std::vector<unsigned int>  first(n, SurfaceTopology::none);
+        std::vector<std::uint64_t> open(n, 0);
+        std::vector<bool>          is_flat(n, true);
+        const auto                 mixed = [](std::uint64_t v) {
+          v = (v + 1) * 0x9e3779b97f4a7c15ULL;
+          return v ^ v >> 29;
+        };
+        for (unsigned int t = 0; t < normals.size(); ++t)
+          for (unsigned int i = 0; i < 3; ++i)
             {
-              known[one]   = known[one] || at_flat[other];
-              known[other] = known[other] || at_flat[one];
+              const auto        &c = surface.mesh.triangles[t];
+              const unsigned int v = c[i];
+              open[v] += mixed(c[(i + 1) % 3]) - mixed(c[(i + 2) % 3]);
+              if (first[v] == SurfaceTopology::none)
+                first[v] = t;
+              is_flat[v] = is_flat[v] && are_parallel(first[v], t);
             }
+        is_at_plane.assign(n, false);
+        for (const auto &corners : surface.mesh.triangles)
+          if (std::any_of(corners.begin(), corners.end(),
+                          [&](const unsigned int v) { return is_flat[v] && open[v] == 0; }))
+            for (const unsigned int v : corners)
+              is_at_plane[v] = true;
       }
 
-      /// Pieces between creases.
-      void add_flat_pieces()
+      /// Between creases.
+      void find_flat_pieces()
       {
+        const SurfaceTopology   topology(surface.mesh.triangles, surface.mesh.vertices.size());
         const std::vector<bool> is_crease = creases_of(surface, topology);
-        DisjointSets            pieces(known.size());
+        DisjointSets            pieces(normals.size());
         for (unsigned int e = 0; e < topology.edges.size(); ++e)
           if (!topology.is_border(e) && !is_crease[e])
             pieces.unite(topology.edge_triangles[e][0], topology.edge_triangles[e][1]);
-        std::vector<bool> is_flat(known.size(), true);
-        for (unsigned int t = 0; t < known.size(); ++t)
-          if (const auto first = static_cast<unsigned int>(pieces.find(t)); !are_parallel(first, t))
-            is_flat[first] = false;
-        for (unsigned int t = 0; t < known.size(); ++t)
-          known[t] = known[t] || is_flat[pieces.find(t)];
+        std::vector<bool> is_flat(normals.size(), true);
+        for (unsigned int t = 0; t < normals.size(); ++t)
+          if (const auto piece = static_cast<unsigned int>(pieces.find(t)); !are_parallel(piece, t))
+            is_flat[piece] = false;
+        for (unsigned int t = 0; t < normals.size(); ++t)
+          in_flat_piece.push_back(is_flat[pieces.find(t)]);
       }
 
       const ContactSurface &surface;
-      const SurfaceTopology topology;
       std::vector<Vector3>  normals;
-      std::vector<bool>     known;
+      /// By vertex; by triangle, made when first asked for.
+      std::vector<bool> is_at_plane, in_flat_piece;
     };
 
-    /// Normals of the true surface, linear on triangles. Those of a triangle are worked out once.
+    /// Normals of the true surface, linear on triangles. What is known of a triangle is worked out once.
     class TrueNormals
     {
     public:
@@ -137,22 +156,26 @@ namespace Signorini
       /// Whether they are more than those of a facet of an unknown surface.
       bool is_known(const unsigned int triangle)
       {
-        const auto [entry, is_new] = at_known.try_emplace(triangle, false);
+        return is_curved(triangle) || is_plane(triangle);
+      }
+
+      /// Whether a triangle is one of a plane, or ends at one, as far as is known.
+      bool is_plane(const unsigned int triangle)
+      {
+        const auto [entry, is_new] = in_plane.try_emplace(triangle, false);
         if (is_new)
-          entry->second = is_curved(triangle) || is_at_plane(triangle);
+          entry->second = !is_curved(triangle) && is_at_plane(triangle);
         return entry->second;
       }
 
       Vector3 operator()(const unsigned int triangle, const std::array<double, 3> &weights)
       {
         const auto [entry, is_new] = known.try_emplace(triangle);
+        if (is_new)
+          entry->second = corner_normals(triangle);
         Vector3 sum;
         for (unsigned int i = 0; i < 3; ++i)
-          {
-            if (is_new)
-              entry->second[i] = true_normal(surface, triangle, i);
-            sum += weights[i] * entry->second[i];
-          }
+          sum += weights[i] * entry->second[i];
         const double norm = sum.norm();
         return norm > 0. ? sum / norm : sum;
       }
@@ -173,11 +196,21 @@ namespace Signorini
         return planes->has(triangle);
       }
 
+      std::array<Vector3, 3> corner_normals(const unsigned int triangle) const
+      {
+        const Vector3          facet  = facet_normal(surface, triangle);
+        std::array<Vector3, 3> result = {{facet, facet, facet}};
+        if (is_curved(triangle))
+          for (unsigned int i = 0; i < 3; ++i)
+            result[i] = true_normal(surface, triangle, i);
+        return result;
+      }
+
       const ContactSurface &surface;
       /// Made when first asked for.
-      std::optional<const KnownPlanes>                         planes;
+      std::optional<KnownPlanes>                               planes;
       std::unordered_map<unsigned int, std::array<Vector3, 3>> known;
-      std::unordered_map<unsigned int, bool>                   at_known;
+      std::unordered_map<unsigned int, bool>                   in_plane;
     };
 
     class CellLies
@@ -207,7 +240,10 @@ namespace Signorini
             result.angle > SeatRule().facets ||
             (result.angle > SeatRule().rounding && nonmortar_normals.is_known(cell.nonmortar_triangle) &&
              mortar_normals.is_known(cell.mortar_triangle));
-        result.away = is_known ? result.angle : 0.;
+        result.away     = is_known ? result.angle : 0.;
+        result.is_plane = result.angle <= SeatRule().rounding &&
+                          nonmortar_normals.is_plane(cell.nonmortar_triangle) &&
+                          mortar_normals.is_plane(cell.mortar_triangle);
         return result;
       }
 
@@ -236,11 +272,26 @@ namespace Signorini
           area += cell.area;
         }
       std::sort(angles.begin(), angles.end());
-      double sum = 0.;
+      constexpr double rounding = 1e-6;
+      double           sum      = 0.;
       for (const auto &[angle, part] : angles)
-        if (sum += part; sum >= share * area)
+        if (sum += part; sum >= (share - rounding) * area)
           return angle;
       return angles.empty() ? 0. : angles.back().first;
+    }
+
+    double angle_of_seat(const std::vector<CellLie> &cells)
+    {
+      const SeatRule rule;
+      double         planes = 0., area = 0.;
+      for (const CellLie &cell : cells)
+        {
+          area += cell.area;
+          planes += cell.is_plane ? cell.area : 0.;
+        }
+      return planes > rule.share_of_planes * area
+                 ? rule.rounding
+                 : std::max(rule.rounding, quantile(cells, rule.share, &CellLie::angle));
     }
 
     /// Appends the cells of one face that count.
@@ -250,7 +301,7 @@ namespace Signorini
       const SeatRule       rule;
       std::vector<CellLie> lies, kept;
       std::transform(begin, end, std::back_inserter(lies), lie_of);
-      const double seat = std::max(rule.rounding, quantile(lies, rule.share, &CellLie::angle));
+      const double seat = angle_of_seat(lies);
       double       area = 0., gap = 0.;
       for (const CellLie &cell : lies)
         if (cell.angle <= seat)
@@ -323,6 +374,17 @@ namespace Signorini
       along[v] = std::min(along[v], m.lie.along);
     });
     halo.update(along);
+    // What hangs belongs to its parents: of a refined flank beside a coarse seat.
+    std::vector<bool> follows(along.size(), false);
+    for (unsigned int v = 0; v < along.size(); ++v)
+      if (!nonmortar.hanging[v].empty())
+        {
+          double of_parents = std::numeric_limits<double>::infinity();
+          for (const auto &parent : nonmortar.hanging[v])
+            of_parents = std::min(of_parents, along[parent.first]);
+          follows[v] = of_parents < along[v];
+          along[v]   = std::min(along[v], of_parents);
+        }
     std::vector<Cover> seats(nonmortar.vertex_node.size());
     for_corners([&](const FaceMoments &m, const unsigned int a, const unsigned int v) {
       if (m.lie.along < rule.ratio * along[v] && !nonmortar.faces[m.face].leaves(a))
@@ -334,8 +396,8 @@ namespace Signorini
         return;
       Cover flank;
       flank.add(nonmortar, m, a);
-      if (seats[v].covered > rule.least_cover * seats[v].full &&
-          flank.gap * seats[v].covered > seats[v].gap * flank.covered)
+      if (follows[v] || (seats[v].covered > rule.least_cover * seats[v].full &&
+                         flank.gap * seats[v].covered > seats[v].gap * flank.covered))
         {
           ContactSurface::Face &face = nonmortar.faces[m.face];
           face.left_corners |= static_cast<unsigned char>(1u << a);

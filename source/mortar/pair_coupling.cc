@@ -182,6 +182,9 @@ namespace Signorini
                   add_function(m, corners, psi.corner[i], psi.coefficients[i]);
                   is_lost = false;
                 }
+            // Nothing touches a flank.
+            for (unsigned int a = 0; a < non.faces[m.face].n_corners; ++a)
+              is_lost = is_lost && !non.faces[m.face].sees_flank(a);
             if (is_lost && is_own)
               result.lost_area += m.covered;
           }
@@ -213,6 +216,8 @@ namespace Signorini
         for (const unsigned int v : halo.functions())
           if (nodes.is_row(v))
             combination[v].emplace_back(v, 1.);
+        gap_combination                   = combination;
+        const std::vector<bool> has_kinks = vertices_beside_flanks();
         for (const unsigned int h : halo.functions())
           {
             if (!nodes.is_hanging(h) || nodes.is_in_r(h) || !(diagonal[h] > 0.))
@@ -225,12 +230,29 @@ namespace Signorini
                   weight_sum += c;
                   rho.emplace_back(k, -c * diagonal[h] / diagonal[k]);
                   add_to(combination[k], k, c * diagonal[h] / diagonal[k]);
+                  add_to(gap_combination[k], k, c * diagonal[h] / diagonal[k]);
                 }
             for (const auto &[k, c] : non.hanging[h])
               if (nodes.is_row(k))
                 for (const auto &[v, value] : rho)
-                  add_to(combination[k], v, c / weight_sum * value);
+                  {
+                    add_to(combination[k], v, c / weight_sum * value);
+                    if (!has_kinks[h])
+                      add_to(gap_combination[k], v, c / weight_sum * value);
+                  }
           }
+      }
+
+      /// Beside these the gap is no linear function: the rho of a hanging one, which sees what is not linear,
+      /// would take the gap of a parent over the flank from that of one at the seat.
+      std::vector<bool> vertices_beside_flanks() const
+      {
+        std::vector<bool> result(non.vertex_node.size(), false);
+        for (const FaceMoments &m : moments)
+          for (unsigned int a = 0; a < non.faces[m.face].n_corners; ++a)
+            if (non.faces[m.face].sees_flank(a))
+              result[non.faces[m.face].corners[a]] = true;
+        return result;
       }
 
       void add_row(PairCoupling &result, const MultiplierNodes &nodes, const unsigned int k)
@@ -242,6 +264,9 @@ namespace Signorini
           {
             d_sum.add(factor, d_rows[v]);
             m_sum.add(factor, m_rows[v]);
+          }
+        for (const auto &[v, factor] : gap_combination[k])
+          {
             gap += factor * gaps[v];
             normals += factor * facing[v];
           }
@@ -301,8 +326,10 @@ namespace Signorini
       const SurfaceHalo              &halo;
       const std::vector<FaceMoments> &moments;
       const bool                      prescribed_gap;
-      std::vector<Entries>            d_rows, m_rows, combination;
-      std::vector<Vector3>            gaps, facing;
+      /// By vertex: of functions; of rows, the functions of which they are combinations, and those of which
+      /// their gaps are.
+      std::vector<Entries> d_rows, m_rows, combination, gap_combination;
+      std::vector<Vector3> gaps, facing;
       /// int psi_v phi_v.
       std::vector<double> diagonal;
       VertexSum           d_sum, m_sum;

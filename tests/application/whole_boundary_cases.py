@@ -652,12 +652,14 @@ def tipping_block(p):
     """A block with chamfers of few degrees is pressed down in its middle and beside it: it stands on its sole, and is not pushed sideways, in slabs of one layer, too."""
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, 'tipping.prm')
-        for layers, angle, moment in ((1, 10, 4000), (1, 25, 4000), (3, 6, 0), (3, 15, 4000)):
+        for layers, angle, moment, cycles in ((1, 10, 4000, 0), (1, 25, 4000, 0), (3, 6, 0, 0), (3, 15, 4000, 0), (4, 25, 0, 1)):
             with open(path, 'w') as f:
                 f.write(TIPPING_BLOCK.format(layers=layers, h=4 * math.tan(math.radians(angle)), moment=moment))
-            sole = p.solve(path, 'Pair seat/First=block: side 1')['bodies'][0]['largest_displacement']
+            # Refined faces beside coarse ones, some under the sole, some under a chamfer.
+            refined = f'Refinement/Adaptive cycles={cycles}'
+            sole = p.solve(path, refined, 'Pair seat/First=block: side 1')['bodies'][0]['largest_displacement']
             for side in ('first', 'second'):
-                s = p.solve(path, f'Pair seat/Nonmortar={side}')
+                s = p.solve(path, refined, f'Pair seat/Nonmortar={side}')
                 pair = s['pairs'][0]
                 print(f'{layers} layers, {angle} degrees, {side}: {s["bodies"][0]["largest_displacement"]} for {sole}, force {pair["force"]}')
                 near(s['bodies'][0]['largest_displacement'], sole, .03, f'{layers} layers, {angle} degrees, {side}: displacement')
