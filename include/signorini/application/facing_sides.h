@@ -16,7 +16,7 @@ namespace Signorini
   class Journal;
 
   /// Collective. Takes from the whole surfaces of pairs, by pair and side, what faces nothing of the other
-  /// side beyond sharp edges (FacingParts), and what lies far from that but nearer to the other side of
+  /// side beyond edges (FacingParts), and what lies far from that but nearer to the other side of
   /// another pair: the shaft is between the seat of a key and the far side of the bore. Tied pairs keep that.
   void leave_out_blind_parts(std::vector<std::vector<ContactSide>> &sides,
                              const std::vector<PairModel> &pairs, const MPI_Comm communicator,
