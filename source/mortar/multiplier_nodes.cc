@@ -253,7 +253,7 @@ namespace Signorini
         add_place(places, false, h, true, parents(h));
     for (const FaceMoments &m : moments)
       {
-        if (!halo.owns_face(m.face) || is_empty(m))
+        if (!halo.owns_face(m.face) || is_empty(m) || surface.faces[m.face].flank_corners != 0)
           continue;
         const std::vector<unsigned int> vertices = corners(m);
         if (!all_in_r(vertices) || !any_may_return(vertices))
@@ -309,7 +309,7 @@ namespace Signorini
     std::vector<PairCoupling::LostFace> result;
     for (const FaceMoments &m : moments)
       {
-        if (!halo.owns_face(m.face) || !(m.covered > 0.))
+        if (!halo.owns_face(m.face) || !(m.covered > 0.) || surface.faces[m.face].flank_corners != 0)
           continue;
         std::map<NodeIndex, unsigned int> nodes;
         for (const unsigned int v : corners(m))

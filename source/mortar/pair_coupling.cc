@@ -183,9 +183,7 @@ namespace Signorini
                   is_lost = false;
                 }
             // Nothing touches a flank.
-            for (unsigned int a = 0; a < non.faces[m.face].n_corners; ++a)
-              is_lost = is_lost && !non.faces[m.face].sees_flank(a);
-            if (is_lost && is_own)
+            if (is_lost && is_own && non.faces[m.face].flank_corners == 0)
               result.lost_area += m.covered;
           }
       }
