@@ -30,7 +30,7 @@ namespace Signorini
       /// by a tenth.)
       double share = .5, ratio = 4.;
       /// Of planes that lie along each other exactly a smaller share will do.
-      double share_of_planes = .01;
+      double share_of_planes = .3;
       /// Angles below are no angles.
       double rounding = .25;
       /// Flanks lie away by at least this where their true shape is not known: facets of round surfaces do,
