@@ -29,7 +29,9 @@ namespace Signorini
       /// face lies, none of it is farther away than that. (With a share of .3 a contact of gears was smaller
       /// by a tenth.)
       double share = .5, ratio = 4.;
-      /// Of planes that lie along each other exactly a smaller share will do.
+      /// Of planes that lie along each other exactly a smaller share will do. (With .01 to .15 nodes of a
+      /// refined plate under a turned block moved two to five times as far as under the sole alone, with .3
+      /// by 5 % more.)
       double share_of_planes = .3;
       /// Angles below are no angles.
       double rounding = .25;
@@ -91,8 +93,9 @@ namespace Signorini
       }
 
       /// All triangles around such a vertex lie in a plane, and surround it: its neighbours follow and
-      /// precede each other. Strips of facets around a roller have none. Other vertices of these triangles
-      /// lie at the plane.
+      /// precede each other (sums of mixed numbers cancel; to build the topology of a large surface takes
+      /// longer than all else here). Strips of facets around a roller have none. Other vertices of these
+      /// triangles lie at the plane.
       void find_flat_vertices()
       {
         const std::size_t          n = surface.mesh.vertices.size();
