@@ -131,6 +131,7 @@ namespace Signorini
     for (const NodeIndex first : first_nodes(partition))
       contact_begin.push_back(std::lower_bound(nodes.begin(), nodes.end(), first) - nodes.begin());
     const unsigned int coarsest = choose_level(hierarchy, level);
+    spaces.reserve(level - coarsest);
     for (unsigned int l = level; l > coarsest; --l)
       add_space(hierarchy, l - 1);
     NodeBlockMatrix &coarsest_matrix = spaces.back().matrix;
@@ -139,12 +140,6 @@ namespace Signorini
     gather_matrix(couplings);
     partition.reinit(step);
     partition.reinit(product);
-    for (Space &space : spaces)
-      {
-        space.matrix.partition().reinit(space.values);
-        if (&space != &spaces.back())
-          space.matrix = NodeBlockMatrix();
-      }
   }
 
 
@@ -222,6 +217,9 @@ namespace Signorini
         masks.push_back(finest.fixed[own.to_local(node)]);
     space.fixed = import_ghost_masks(space.matrix.partition(), masks);
     eliminate_fixed_components(space.matrix, space.fixed, all_rows(space.matrix), finest.scale);
+    space.matrix.partition().reinit(space.values);
+    if (!spaces.empty())
+      spaces.back().matrix = NodeBlockMatrix();
     spaces.push_back(std::move(space));
   }
 
