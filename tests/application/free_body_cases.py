@@ -550,7 +550,8 @@ def ring_on_cone(p):
         with open(path, 'w') as f:
             f.write(RING_ON_CONE)
         s = p.solve(path)
-        certificate(s)
+        # The iterate's energy, of which 1e-12 is the tolerance, is 460 times the potential energy: 8e-10 to 1.2e-9 by ranks and libraries.
+        certificate(s, complementarity=2e-9)
         near(s['pairs'][0]['force'][2], 10, 1e-4, 'force')
         # The sagitta of a chord, R (1 - cos(pi / 96)) cos(39 degrees), is 4.2e-4.
         check(s['pairs'][0]['max_penetration'] < 1e-4, f'penetration between the nodes: {s["pairs"][0]["max_penetration"]}')
