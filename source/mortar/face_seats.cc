@@ -29,10 +29,12 @@ namespace Signorini
       /// face lies, none of it is farther away than that. (With a share of .3 a contact of gears was smaller
       /// by a tenth.)
       double share = .5, ratio = 4.;
-      /// Of planes that lie along each other exactly a smaller share will do. (With .01 to .15 nodes of a
-      /// refined plate under a turned block moved two to five times as far as under the sole alone, with .3
-      /// by 5 % more.)
-      double share_of_planes = .3;
+      /// Of true surfaces that lie along each other exactly a smaller share will do. (With .01 to .15 nodes
+      /// of a refined plate under a turned block moved two to five times as far as under the sole alone, with
+      /// .3 by 5 % more. Of the seat of a spherical washer a twentieth was lost at its rim with .5, with .3 a
+      /// sixtieth.) Times the ratio it is more than one: where angles grow with the distance nothing is a
+      /// flank.
+      double share_of_fits = .3;
       /// Angles below are no angles.
       double rounding = .25;
       /// Flanks lie away by at least this where their true shape is not known: facets of round surfaces do,
@@ -56,8 +58,8 @@ namespace Signorini
       double area;
       /// Along the normal of the nonmortar facet, at the centre (length).
       double gap;
-      /// Whether a plane lies along a plane there.
-      bool is_plane;
+      /// Whether a known true surface lies along a known one there.
+      bool is_fit;
     };
 
     /// By triangle, whether a surface is known to be a plane there, or to end at one.
@@ -239,14 +241,12 @@ namespace Signorini
                        y = evaluate(mortar.mesh, cell.mortar_triangle, at_centre);
         result.area      = std::abs(cell.share()) * triangle_area(nonmortar.mesh, cell.nonmortar_triangle);
         result.gap       = (y - x) * facet_normal(nonmortar, cell.nonmortar_triangle);
+        const bool is_parallel = result.angle <= SeatRule().rounding;
         const bool is_known =
-            result.angle > SeatRule().facets ||
-            (result.angle > SeatRule().rounding && nonmortar_normals.is_known(cell.nonmortar_triangle) &&
-             mortar_normals.is_known(cell.mortar_triangle));
-        result.away     = is_known ? result.angle : 0.;
-        result.is_plane = result.angle <= SeatRule().rounding &&
-                          nonmortar_normals.is_plane(cell.nonmortar_triangle) &&
-                          mortar_normals.is_plane(cell.mortar_triangle);
+            result.angle > SeatRule().facets || (nonmortar_normals.is_known(cell.nonmortar_triangle) &&
+                                                 mortar_normals.is_known(cell.mortar_triangle));
+        result.away   = is_known && !is_parallel ? result.angle : 0.;
+        result.is_fit = is_known && is_parallel;
         return result;
       }
 
@@ -286,13 +286,13 @@ namespace Signorini
     double angle_of_seat(const std::vector<CellLie> &cells)
     {
       const SeatRule rule;
-      double         planes = 0., area = 0.;
+      double         fits = 0., area = 0.;
       for (const CellLie &cell : cells)
         {
           area += cell.area;
-          planes += cell.is_plane ? cell.area : 0.;
+          fits += cell.is_fit ? cell.area : 0.;
         }
-      return planes > rule.share_of_planes * area
+      return fits > rule.share_of_fits * area
                  ? rule.rounding
                  : std::max(rule.rounding, quantile(cells, rule.share, &CellLie::angle));
     }

@@ -78,6 +78,43 @@ TEST(FaceSeats, SoleWithChamfers)
 
 
 
+// The same where both are known to be round, on a seat of two fifths of a face.
+TEST(FaceSeats, RoundSoleWithChamfers)
+{
+  const double         width = .9, radius = 5.;
+  const Point<3>       axis(0., 0., radius);
+  const auto           round  = [&](const double x) { return radius - std::sqrt(radius * radius - x * x); };
+  const ContactSurface facets = make_upper(36, -1.8, 1.8, [&](const double x) {
+    return round(std::min(std::abs(x), width)) + std::max(0., std::abs(x) - width);
+  });
+  const BoundaryShapePointer shape = make_cylinder_shape(axis, Point<3>(0., 1., 0.), radius);
+  std::vector<unsigned int>  of_triangle;
+  for (const auto &corners : facets.mesh.triangles)
+    {
+      double farthest = 0.;
+      for (const unsigned int v : corners)
+        farthest = std::max(farthest, std::abs(facets.mesh.vertices[v][0]));
+      of_triangle.push_back(farthest > width + 1e-9 ? TrueShape::no_shape : 0);
+    }
+  ContactSurface upper = facets, plate = make_plate();
+  upper.true_shape = TrueShape(upper.mesh, {shape}, of_triangle, true);
+  for (Point<3> &x : plate.mesh.vertices)
+    x[2] = round(x[0]);
+  plate.true_shape =
+      TrueShape(plate.mesh, {shape}, std::vector<unsigned int>(plate.mesh.triangles.size(), 0), true);
+  const PairCoupling pair = couple_seated(plate, upper);
+  // And of the last faces, which have no seat, what lies over them from 1.5 to 1.8.
+  EXPECT_NEAR(pair.covered_area, 2. * (width + .3), .1);
+  // Of the nodes at 1.5 the seat covers too little.
+  for (const auto &[x, gap] : gaps_by_x(pair))
+    if (std::abs(x) < 2.)
+      {
+        EXPECT_NEAR(gap, 0., .02) << x;
+      }
+}
+
+
+
 // A wedge that stands on the plate with its edge alone has no seat.
 TEST(FaceSeats, KeepsWedges)
 {
