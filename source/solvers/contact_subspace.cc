@@ -131,6 +131,7 @@ namespace Signorini
     for (const NodeIndex first : first_nodes(partition))
       contact_begin.push_back(std::lower_bound(nodes.begin(), nodes.end(), first) - nodes.begin());
     const unsigned int coarsest = choose_level(hierarchy, level);
+    // A list that grows would copy them.
     spaces.reserve(level - coarsest);
     for (unsigned int l = level; l > coarsest; --l)
       add_space(hierarchy, l - 1);
@@ -263,7 +264,7 @@ namespace Signorini
           mine.add(number, n_motions + partition.to_global(entry.column), entry.block());
         });
       }
-    problem.set_matrix(mine, n_motions + partition.n_global(), comm);
+    problem.set_matrix(std::move(mine), n_motions + partition.n_global(), comm);
   }
 
 

@@ -216,12 +216,12 @@ namespace Signorini
 
 
 
-  void GatheredObstacleProblem::set_matrix(const Blocks &mine, const std::size_t n_nodes, const MPI_Comm comm)
+  void GatheredObstacleProblem::set_matrix(Blocks mine, const std::size_t n_nodes, const MPI_Comm comm)
   {
     communicator = comm;
     if (!factors)
       factors = std::make_unique<Factors>();
-    factors->matrix.gather(mine, n_nodes, comm);
+    factors->matrix.gather(std::move(mine), n_nodes, comm);
     if (Utilities::MPI::this_mpi_process(comm) == 0)
       factors->set_structure();
   }

@@ -47,7 +47,7 @@ namespace Signorini
         if (is_contact[entry.column])
           mine.add(place(row), place(entry.column), entry.block());
       });
-    problem.set_matrix(mine, nodes.size(), partition.communicator());
+    problem.set_matrix(std::move(mine), nodes.size(), partition.communicator());
   }
 
 

@@ -64,7 +64,7 @@ namespace Signorini
     /// Collective. The matrix, from the rows that each rank owns; the structure stays the same from the first
     /// call on.
     /// @param n_nodes of all ranks, which own them in the order of the ranks
-    void set_matrix(const Blocks &mine, const std::size_t n_nodes, const MPI_Comm communicator);
+    void set_matrix(Blocks mine, const std::size_t n_nodes, const MPI_Comm communicator);
 
     /// Collective. The minimizer, up to forces of 1e-6 of the residual; zero, and the active set of before,
     /// if there is none.
