@@ -131,7 +131,7 @@ namespace Signorini
     for (const NodeIndex first : first_nodes(partition))
       contact_begin.push_back(std::lower_bound(nodes.begin(), nodes.end(), first) - nodes.begin());
     const unsigned int coarsest = choose_level(hierarchy, level);
-    // A list that grows would copy them.
+    // A list that grows would copy them: moves of deal.II's vectors may throw.
     spaces.reserve(level - coarsest);
     for (unsigned int l = level; l > coarsest; --l)
       add_space(hierarchy, l - 1);

@@ -640,6 +640,7 @@ def clevis(p):
     # The pin would turn on its facets; the point at which it is held carries next to nothing.
     near(outer[0], 2e4, 1e-4, 'force on the fork')
     check(max(map(abs, inner[1:] + outer[1:])) <= 1e-4 * 2e4, f'forces {inner}, {outer}')
+
     def noted(words):
         return any(words in n for n in s['notes'])
 

@@ -137,7 +137,7 @@ TEST(FaceSeats, KeepsWedges)
 // its true shape or without.
 TEST(FaceSeats, KeepsRollers)
 {
-  for (const double radius : {2.3, 4., 10., 100.})
+  for (const double radius : {2.3, 4., 10., 30., 50., 100.})
     for (const unsigned int n : {6u, 17u, 80u})
       for (double x0 = -.5; x0 < .51; x0 += .1)
         for (const bool is_round : {false, true})
