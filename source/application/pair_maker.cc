@@ -268,13 +268,6 @@ namespace Signorini
 
 
 
-  bool PairMaker::has_mapping_errors(const ContactPair &pair) const
-  {
-    return !describe_errors(sum_reports(pair.mapping->report(), model.communicator())).empty();
-  }
-
-
-
   double PairMaker::wrong_share(const ContactPair &pair) const
   {
     const MappingReport report = sum_reports(pair.mapping->report(), model.communicator());

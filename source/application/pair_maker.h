@@ -32,9 +32,6 @@ namespace Signorini
       return !definition.obstacle && definition.nonmortar == NonmortarChoice::automatic;
     }
 
-    /// Collective. Whether the mapping has errors, on any rank.
-    bool has_mapping_errors(const ContactPair &pair) const;
-
     /// Collective. Of what the mapping covers, the area of the nonmortar triangles with errors of it or
     /// beside torn edges; 1 where it covers something twice.
     double wrong_share(const ContactPair &pair) const;

@@ -74,6 +74,8 @@ namespace Signorini
       double least_cut = .25;
       /// Of that, what faces of the other side are cut has to be less than.
       double much_less_cut = .1;
+      /// Of what the mapping gets wrong of the pair's faces, what it has to be less than with swapped sides.
+      double much_less_wrong = .1;
     };
 
     /// Of all pairs.
@@ -168,10 +170,11 @@ namespace Signorini
 
   void SideChoice::turn_for_mapping(const unsigned int p)
   {
-    if (!(maker.wrong_share(pairs[p]) > SideRule().least_share) || !has_sharp_edges(pairs[p]))
+    const double wrong = maker.wrong_share(pairs[p]);
+    if (!(wrong > SideRule().least_share))
       return;
     ContactPair other = make(p, true);
-    if (maker.has_mapping_errors(other))
+    if (maker.wrong_share(other) > SideRule().much_less_wrong * wrong)
       return;
     pairs[p]          = std::move(other);
     turned[p]         = true;
