@@ -32,6 +32,13 @@ namespace Signorini
 
 
 
+  PlaneGraph::State PlaneGraph::end_before(const Walk &walk)
+  {
+    return walk.target == none ? State::left : State::lost;
+  }
+
+
+
   PlaneGraph::State PlaneGraph::go_to_vertex(Walk &walk, const unsigned int vertex, const double position)
   {
     walk.vertex   = vertex;
@@ -110,7 +117,7 @@ namespace Signorini
     const unsigned int    opposite = nonmortar.triangles[walk.triangle][k];
     const Incidence::Side s        = side(opposite, walk.edge);
     if (s.sign == 0)
-      return go_to_vertex(walk, opposite, s.position);
+      return walk.passes_at(s.position) ? go_to_vertex(walk, opposite, s.position) : end_before(walk);
     return walk.direction * s.sign > 0 ? leave_through(walk, (k + 2) % 3, walk.entry_sides[1], s)
                                        : leave_through(walk, k, s, walk.entry_sides[0]);
   }
@@ -140,7 +147,7 @@ namespace Signorini
           {
             const unsigned int v = nonmortar.triangles[t][(corner + 1 + i) % 3];
             s[i]                 = side(v, walk.edge);
-            if (s[i].sign == 0 && walk.forward(s[i].position) > walk.position)
+            if (s[i].sign == 0 && walk.passes_at(s[i].position))
               return go_to_vertex(walk, v, s[i].position);
             at_border = at_border || nonmortar.is_border(nonmortar.triangle_edges[t][(corner + 2 * i) % 3]);
           }
@@ -179,7 +186,7 @@ namespace Signorini
             return leave_through(walk, i, s[i], s[(i + 1) % 3]);
         for (unsigned int i = 0; i < 3; ++i)
           if (walk.direction * s[i].sign < 0 && s[(i + 1) % 3].sign == 0 &&
-              walk.direction * s[(i + 2) % 3].sign > 0)
+              walk.direction * s[(i + 2) % 3].sign > 0 && walk.passes_at(s[(i + 1) % 3].position))
             return go_to_vertex(walk, nonmortar.triangles[walk.triangle][(i + 1) % 3],
                                 s[(i + 1) % 3].position);
         return State::lost;
@@ -192,7 +199,7 @@ namespace Signorini
     const auto     &ends = nonmortar.edges[start.index];
     Incidence::Side s[2] = {side(ends[0], walk.edge), side(ends[1], walk.edge)};
     for (unsigned int i = 0; i < 2; ++i)
-      if (s[i].sign == 0 && walk.forward(s[i].position) > 0.)
+      if (s[i].sign == 0 && walk.passes_at(s[i].position))
         return go_to_vertex(walk, ends[i], s[i].position);
     // It starts between the two: they lie on different sides, whatever rounding says of the nearer one.
     const unsigned int far =

@@ -35,6 +35,14 @@ namespace Signorini
     {
       return direction > 0 ? parameter : 1. - parameter;
     }
+
+    /// Whether a vertex that lies on the curtain, there, is still to come. Where both surfaces end in one
+    /// plane, all vertices of the rim lie on the curtain, those beyond the end of the edge as well.
+    bool passes_at(const double parameter) const
+    {
+      const double here = forward(parameter);
+      return here > position && here < 1. + Incidence::near_end;
+    }
   };
 } // namespace Signorini
 

@@ -177,6 +177,47 @@ namespace Signorini
 
 
 
+  Tensor<1, 3> VertexFits::find_straight_direction(const unsigned int piece_vertex)
+  {
+    const auto normal = [&](const unsigned int t) {
+      const auto &[a, b, c] = mesh.triangles[t];
+      const Tensor<1, 3> area =
+          cross_product_3d(mesh.vertices[b] - mesh.vertices[a], mesh.vertices[c] - mesh.vertices[a]);
+      const double length = area.norm();
+      return length > 0. ? area / length : area;
+    };
+    const std::vector<unsigned int> &around = pieces.vertices[piece_vertex].triangles;
+    const Tensor<1, 3>               first  = normal(around[0]);
+    Tensor<1, 3>                     last   = first, result;
+    // At an end of the curve one ring has two columns of cells only.
+    pieces.neighbours(near, piece_vertex, pieces.vertices[piece_vertex].is_closed ? 1 : 2);
+    near.push_back(piece_vertex);
+    for (const unsigned int q : near)
+      for (const unsigned int t : pieces.vertices[q].triangles)
+        if (const Tensor<1, 3> across = cross_product_3d(first, normal(t)); across.norm() > result.norm())
+          {
+            last   = normal(t);
+            result = across;
+          }
+    const double turn = result.norm();
+    if (!(turn > rule.flat))
+      return {};
+    result /= turn;
+    // Two planes have such a direction on every surface.
+    bool has_third = false;
+    for (const unsigned int q : near)
+      for (const unsigned int t : pieces.vertices[q].triangles)
+        {
+          const Tensor<1, 3> n = normal(t);
+          if (std::abs(n * result) > rule.flat * turn)
+            return {};
+          has_third = has_third || std::min((n - first).norm(), (n - last).norm()) > rule.distinct * turn;
+        }
+    return has_third ? result : Tensor<1, 3>();
+  }
+
+
+
   bool VertexFits::fit_vertex(Quadric &quadric, const unsigned int piece_vertex)
   {
     const PieceVertex &centre = pieces.vertices[piece_vertex];
@@ -193,6 +234,7 @@ namespace Signorini
       }
     if (mean.norm() > 0. || some.norm() > 0.)
       set_frame(quadric, mean.norm() > 0. ? mean : some);
+    const Tensor<1, 3>        straight = find_straight_direction(piece_vertex);
     std::vector<Tensor<1, 3>> points;
     // A corner of the surface may need one more ring.
     for (unsigned int n_rings = 2; n_rings <= 3; ++n_rings)
@@ -204,9 +246,11 @@ namespace Signorini
               x.norm() > 0.)
             points.push_back(x);
         Quadric found = quadric;
-        if (!fit(found, points))
+        if (straight.norm() > 0. ? !fit_extruded(found, points, straight) : !fit(found, points))
           continue;
         quadric = found;
+        if (straight.norm() > 0.)
+          return true;
         if (centre.is_closed && quadric.residual > rule.exact)
           {
             pieces.neighbours(near, piece_vertex, 1);

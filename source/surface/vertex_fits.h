@@ -41,6 +41,9 @@ namespace Signorini
     const Quadric &own_fit(const unsigned int piece_vertex);
     bool           is_fitted(const unsigned int piece_vertex);
     bool           fit_vertex(Quadric &quadric, const unsigned int piece_vertex);
+    /// The direction in which the surface is straight around a piece vertex, as those of extruded bodies are:
+    /// the normals of the triangles nearby lie across it. Nothing if there is none, or many.
+    dealii::Tensor<1, 3> find_straight_direction(const unsigned int piece_vertex);
 
     /// The piece vertex whose surface a triangle takes; nothing if each corner has its own.
     unsigned int lender(const unsigned int triangle);

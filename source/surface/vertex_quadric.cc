@@ -157,6 +157,65 @@ namespace Signorini
 
 
 
+  bool fit_extruded(Quadric &q, const std::vector<Tensor<1, 3>> &neighbours, const Tensor<1, 3> &axis)
+  {
+    constexpr unsigned int n_steps = 20;
+    // What lies beside each other along the axis is the same point of the curve.
+    constexpr double          same = 1e-6;
+    std::vector<Tensor<1, 3>> points;
+    double                    size = 0.;
+    for (const Tensor<1, 3> &x : neighbours)
+      size = std::max(size, (x - (x * axis) * axis).norm());
+    for (const Tensor<1, 3> &x : neighbours)
+      if (const Tensor<1, 3> across = x - (x * axis) * axis;
+          across.norm() > same * size &&
+          std::none_of(points.begin(), points.end(),
+                       [&](const Tensor<1, 3> &other) { return (other - across).norm() <= same * size; }))
+        points.push_back(across);
+    const auto         n      = static_cast<Eigen::Index>(points.size());
+    const Tensor<1, 3> normal = q.normal - (q.normal * axis) * axis;
+    if (!(normal.norm() > 0.))
+      return false;
+    q.normal = normal / normal.norm();
+    q.v      = axis;
+    q.d = q.e = 0.;
+    Eigen::Matrix<double, Eigen::Dynamic, 2> a(n, 2);
+    Eigen::VectorXd                          b(n);
+    double                                   last = std::numeric_limits<double>::max();
+    for (unsigned int step = 0; step < n_steps; ++step)
+      {
+        q.u = cross_product_3d(q.v, q.normal);
+        for (Eigen::Index i = 0; i < n; ++i)
+          {
+            const Tensor<1, 3> x      = points[i] / size;
+            const double       weight = 1. / x.norm_square();
+            a(i, 0)                   = weight * (x * q.u);
+            a(i, 1)                   = .5;
+            b[i]                      = weight * (x * q.normal);
+          }
+        const Eigen::ColPivHouseholderQR<Eigen::Matrix<double, Eigen::Dynamic, 2>> qr(a);
+        if (qr.rank() < 2)
+          return false;
+        const Eigen::Vector2d x       = qr.solve(b);
+        const double          heights = (b - x[0] * a.col(0)).norm(), turn = std::abs(x[0]);
+        q.c         = x[1] / size;
+        q.left_over = (b - a * x).norm();
+        q.residual  = heights > 0. ? q.left_over / heights : 0.;
+        q.normal -= x[0] * q.u;
+        q.normal /= q.normal.norm();
+        if (turn < 1e-13 || (step > 2 && turn > .7 * last))
+          break;
+        last = turn;
+      }
+    q.u = cross_product_3d(q.v, q.normal);
+    // There are two rows of them at least; what a strip of one cell has with five unknowns.
+    q.n_checks = static_cast<unsigned int>(2 * (n - 2));
+    q.left_over *= 2. / (size * std::sqrt(std::max(1., static_cast<double>(q.n_checks))));
+    return true;
+  }
+
+
+
   bool fit_sphere(Quadric &q, const std::vector<Tensor<1, 3>> &neighbours)
   {
     if (neighbours.size() < 3)

@@ -22,6 +22,17 @@ namespace Signorini
     double residual = 0.;
     /// The former as a curvature (1/length): where the surface is nearly flat the ratio says little.
     double left_over = 0.;
+    /// The quadratic form with the magnitudes of the principal curvatures.
+    double magnitude_along(const dealii::Tensor<1, 3> &x) const
+    {
+      const double mean = .5 * (c + e), difference = std::hypot(.5 * (c - e), d), s = x * u, t = x * v,
+                   square = .5 * (s * s + t * t);
+      // With the share of the difference of curvatures that x sees.
+      const double seen =
+          difference > 0. ? (.5 * (c - e) * (s * s - t * t) * .5 + d * s * t) / difference : 0.;
+      return std::abs(mean + difference) * (square + seen) + std::abs(mean - difference) * (square - seen);
+    }
+
     /// How many more points than unknowns there were.
     unsigned int n_checks = 0;
 
@@ -57,6 +68,11 @@ namespace Signorini
   /// Fits a quadratic surface to the vectors from a vertex to its neighbours, with weights 1/distance², and
   /// turns the frame to the normal found until it rests. Returns false if they do not determine one.
   bool fit(Quadric &q, const std::vector<dealii::Tensor<1, 3>> &neighbours);
+
+  /// The same for points of a surface that is straight along an axis: no curvature along it, and a normal
+  /// across it, whatever the points leave open.
+  bool fit_extruded(Quadric &q, const std::vector<dealii::Tensor<1, 3>> &neighbours,
+                    const dealii::Tensor<1, 3> &axis);
 
   /// The sphere through a vertex that comes nearest to its neighbours, weighted in the same way: it needs
   /// fewer. Returns false if they do not determine one.

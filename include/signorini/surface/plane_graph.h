@@ -135,11 +135,13 @@ namespace Signorini
                       const double t);
     bool runs_along(const unsigned int mortar_edge, const unsigned int edge) const;
 
-    State go_to_vertex(Walk &walk, const unsigned int vertex, const double position);
-    State place_crossing(Walk &walk, const unsigned int edge, const double t, const double position,
-                         const int low);
-    State add_crossing(Walk &walk, const unsigned int edge, const Incidence::Side &low,
-                       const Incidence::Side &high);
+    /// What a walk is whose edge ends before the next vertex.
+    static State end_before(const Walk &walk);
+    State        go_to_vertex(Walk &walk, const unsigned int vertex, const double position);
+    State        place_crossing(Walk &walk, const unsigned int edge, const double t, const double position,
+                                const int low);
+    State        add_crossing(Walk &walk, const unsigned int edge, const Incidence::Side &low,
+                              const Incidence::Side &high);
 
     /// As Incidence, but a nonmortar vertex with a node lies on the mortar edge of that node and no other.
     Incidence::Side side(const unsigned int vertex, const unsigned int mortar_edge) const;

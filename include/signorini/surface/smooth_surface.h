@@ -38,6 +38,9 @@ namespace Signorini
     /// Triangles that lie in one plane up to this share of their size are flat: noise of files with eight
     /// digits is none.
     double flat = 1e-6;
+    /// Of what the surface turns by near a vertex, how far three normals are apart at least for it to be
+    /// known as straight: two always lie across some direction.
+    double distinct = .01;
     /// Degrees between the normals that are found for the end of a curved part and that of the flat one
     /// beside it up to which it may touch that, as fillets of three faces do (7 at corners); and up to what
     /// part of what the curved part turns by within its first faces. A cone does not turn across.

@@ -2,6 +2,7 @@ signorini_add_unit_tests(surface RANKS "1;3"
   boundary_depth.cc
   closed_surfaces.cc
   contact_mapping.cc
+  coplanar_rims.cc
   crease_edges.cc
   creases.cc
   degenerate_pairs.cc

@@ -126,6 +126,41 @@ TEST(SmoothSurface, StripsOfOneCell)
 
 
 
+// Extruded curves (gear teeth, profiles): normals lie across the direction of extrusion, so that rims of two
+// such surfaces in one plane stay in it, and how well the surface is known does not depend on how long it is.
+TEST(SmoothSurface, ExtrudedCurves)
+{
+  for (const unsigned int n_layers : {1, 4})
+    {
+      std::array<double, 3> doubts;
+      for (unsigned int i = 0; i < 3; ++i)
+        {
+          const double                 length = std::array<double, 3>{{.2, 1., 30.}}[i];
+          const TestSurfaces::FlatGrid grid   = TestSurfaces::flat_grid(9, n_layers);
+          SurfaceMesh                  mesh;
+          for (const auto &[s, t] : grid.vertices)
+            mesh.vertices.push_back({std::cos(s + .1 * s * s), .7 * std::sin(s + .1 * s * s), length * t});
+          mesh.triangles              = grid.triangles;
+          const SmoothSurface surface = smooth(mesh);
+          EXPECT_EQ(n_smooth(surface), mesh.triangles.size()) << n_layers << ' ' << length;
+          doubts[i] = 0.;
+          for (unsigned int t = 0; t < mesh.triangles.size(); ++t)
+            {
+              doubts[i] = std::max(doubts[i], surface.patch(t).doubt);
+              for (const Tensor<1, 3> &normal : surface.patch(t).normals)
+                EXPECT_LT(std::abs(normal[2]), 1e-15) << n_layers << ' ' << length;
+            }
+          const auto ellipse = [](const Point<3> &x) { return std::hypot(x[0], x[1] / .7) - 1.; };
+          const auto [of_facets, of_patches] = heights(surface, ellipse);
+          EXPECT_LT(of_patches, .1 * of_facets) << n_layers << ' ' << length;
+        }
+      EXPECT_NEAR(doubts[1], doubts[0], 1e-9 * doubts[0]) << n_layers;
+      EXPECT_NEAR(doubts[2], doubts[0], 1e-9 * doubts[0]) << n_layers;
+    }
+}
+
+
+
 // Where a cylinder goes on as a sphere, or as two planes, curvature jumps: a surface fitted to both is
 // neither.
 TEST(SmoothSurface, IsExactOnBothSidesOfSeams)
