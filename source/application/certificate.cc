@@ -289,7 +289,8 @@ namespace Signorini
         c.objections.push_back(
             name + "the gap may be wrong by " + text_of(pair.gap_doubt) + ", " +
             text_of(pair.gap_doubt / pair.approach) + " of what contact does there, for the facets of the " +
-            "mesh stand for the surface; give Boundary shapes" +
+            "mesh stand for the surface, most at " + place_text(pair.gap_doubt_at) +
+            "; give Boundary shapes" +
             (surface == SurfaceKind::smooth      ? " or a finer start mesh"
              : surface == SurfaceKind::automatic ? ", a finer start mesh, or Surface = smooth"
                                                  : ", a finer start mesh, or Surface = automatic"));

@@ -224,6 +224,7 @@ namespace Signorini
     result.missed_penetration  = missed_penetration(result, pair, coupling, comm);
     result.loaded_gap          = pair.prescribed_gap ? 0. : penetration.loaded_gap;
     result.gap_doubt           = penetration.gap_doubt;
+    result.gap_doubt_at        = penetration.gap_doubt_at;
     result.mean_pressure       = result.contact_area > 0. ? result.load / result.contact_area : 0.;
     result.initial_penetration = std::max(0., -penetration.min_initial_gap);
     return result;

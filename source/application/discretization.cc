@@ -70,9 +70,10 @@ namespace Signorini
           std::ostringstream place;
           place << node->position;
           error = "a contact surface has nodes in common with a rigid face, at (" + place.str() +
-                  ") for example. Leave them out of the surface (First region, Second region); where some of "
-                  "its nodes are free it may be the nonmortar one. A contact surface that is all rigid "
-                  "should be an obstacle, or the rigid face a boundary behind it.";
+                  ") for example. Leave them out of the surface (First region, Second region; start faces "
+                  "that reach from there to where the bodies touch want more Initial levels first); where "
+                  "some of its nodes are free it may be the nonmortar one. A contact surface that is all "
+                  "rigid should be an obstacle, or the rigid face a boundary behind it.";
           break;
         }
     throw_everywhere(error, nodal().communicator());

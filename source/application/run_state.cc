@@ -78,7 +78,7 @@ namespace Signorini
     a(r.name, r.nonmortar, r.mortar, r.force, r.force_on_mortar, r.moment, r.centre, r.min_pressure);
     a(r.max_pressure, r.contact_area, r.coverage, r.min_gap, r.max_penetration, r.initial_penetration);
     a(r.loaded_gap, r.lost_area, r.load, r.approach, r.gap_doubt, r.moment_balance, r.dropped_nodes,
-      r.max_pressure_at, r.min_gap_at);
+      r.max_pressure_at, r.min_gap_at, r.gap_doubt_at);
     a(r.slip, r.slip_in_faces, r.mean_pressure, r.max_recovered_pressure, r.max_recovered_pressure_at,
       r.pressure_scatter, r.narrow_share, r.missed_penetration);
   }

@@ -98,7 +98,8 @@ namespace Signorini
 
 
   DoubtOfGaps::DoubtOfGaps(const ContactSurface &surface)
-    : shares(surface.mesh.triangles.size(), 0.)
+    : mesh(surface.mesh)
+    , shares(surface.mesh.triangles.size(), 0.)
     , doubts(shares)
   {
   }
@@ -114,13 +115,16 @@ namespace Signorini
 
 
 
-  double DoubtOfGaps::largest(const MPI_Comm communicator) const
+  std::pair<double, Point<3>> DoubtOfGaps::largest(const MPI_Comm communicator) const
   {
-    double result = 0.;
-    for (std::size_t t = 0; t < shares.size(); ++t)
-      if (shares[t] > 0.)
-        result = std::max(result, doubts[t] / shares[t]);
-    return Utilities::MPI::max(result, communicator);
+    constexpr std::array<double, 3> middle = {{1. / 3., 1. / 3., 1. / 3.}};
+    LeastGap                        result;
+    result.add(0., Point<3>());
+    for (unsigned int t = 0; t < shares.size(); ++t)
+      if (shares[t] > 0. && doubts[t] > 0.)
+        result.add(-doubts[t] / shares[t], evaluate(mesh, t, middle));
+    result.reduce(communicator);
+    return {-result.value(), result.place()};
   }
 
 
@@ -271,8 +275,9 @@ namespace Signorini
       }
     initially.reduce(communicator);
     deformed.reduce(communicator);
-    return {initially.value(), deformed.value(), deformed.place(), under_load.mean(communicator),
-            doubts.largest(communicator)};
+    const auto [doubt, doubt_at] = doubts.largest(communicator);
+    return {initially.value(), deformed.value(), deformed.place(), under_load.mean(communicator), doubt,
+            doubt_at};
   }
 
 

@@ -343,7 +343,8 @@ namespace Signorini
         }
     initially.reduce(communicator);
     deformed.reduce(communicator);
-    return {initially.value(), deformed.value(), deformed.place(), under_load.mean(communicator),
-            doubts.largest(communicator)};
+    const auto [doubt, doubt_at] = doubts.largest(communicator);
+    return {initially.value(), deformed.value(), deformed.place(), under_load.mean(communicator), doubt,
+            doubt_at};
   }
 } // namespace Signorini

@@ -169,6 +169,7 @@ namespace Signorini
       json.number("coverage", pair.coverage);
       json.number("min_gap", pair.min_gap);
       json.vector("min_gap_at", Vector3(pair.min_gap_at));
+      json.vector("gap_doubt_at", Vector3(pair.gap_doubt_at));
       json.number("max_penetration", pair.max_penetration);
       json.number("loaded_gap", pair.loaded_gap);
       json.number("initial_penetration", pair.initial_penetration);

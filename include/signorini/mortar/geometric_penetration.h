@@ -26,6 +26,8 @@ namespace Signorini
     double loaded_gap;
     /// The largest doubt of the gap of a triangle of faces with an active corner (DoubtOfGaps).
     double gap_doubt;
+    /// The middle of that triangle.
+    dealii::Point<3> gap_doubt_at;
 
     /// Largest n(x)·(u_non(x) - u_mor(Phi(x))) - initial_gap()·n(x): negative if the surfaces are apart.
     double max_penetration() const
@@ -110,10 +112,11 @@ namespace Signorini
     /// @param gap after deformation (length)
     void add(const unsigned int triangle, const double share, const double doubt, const double gap);
 
-    /// Collective. Of all triangles (length).
-    double largest(const MPI_Comm communicator) const;
+    /// Collective. Of all triangles: the length, and the middle of that triangle.
+    std::pair<double, dealii::Point<3>> largest(const MPI_Comm communicator) const;
 
   private:
+    const SurfaceMesh  &mesh;
     std::vector<double> shares, doubts;
   };
 

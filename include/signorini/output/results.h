@@ -84,8 +84,8 @@ namespace Signorini
     double moment_balance = 0.;
     /// Nodes without a multiplier although covered.
     std::size_t dropped_nodes = 0;
-    /// Where the pressure is largest, and the gap after the deformation least.
-    dealii::Point<3> max_pressure_at, min_gap_at;
+    /// Where the pressure is largest, the gap after the deformation least, and the doubt of the gap largest.
+    dealii::Point<3> max_pressure_at, min_gap_at, gap_doubt_at;
     /// load / contact_area; the largest recovered pressure, which scatters less from node to node
     /// (recover_pressure()), and where it is.
     double           mean_pressure = 0., max_recovered_pressure = 0.;

@@ -7,6 +7,7 @@
 
 #include <signorini/mortar/contact_forces.h>
 #include <signorini/mortar/geometric_penetration.h>
+#include <signorini/surface/contact_mapping.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -192,12 +193,15 @@ TEST(GeometricPenetration, DoubtOfGaps)
 {
   const Surfaces s;
   DoubtOfGaps    doubts(s.non);
+  EXPECT_EQ(doubts.largest(MPI_COMM_SELF).first, 0.);
   doubts.add(3, .25, .1, 0.);
   doubts.add(3, .5, .1, 1.1);
   doubts.add(3, .25, .2, 1.1);
-  EXPECT_NEAR(doubts.largest(MPI_COMM_SELF), .075, 1e-15);
+  EXPECT_NEAR(doubts.largest(MPI_COMM_SELF).first, .075, 1e-15);
   doubts.add(1, .1, .3, -1.);
-  EXPECT_NEAR(doubts.largest(MPI_COMM_SELF), .3, 1e-15);
+  const auto [largest, where] = doubts.largest(MPI_COMM_SELF);
+  EXPECT_NEAR(largest, .3, 1e-15);
+  EXPECT_EQ(where, Signorini::evaluate(s.non.mesh, 1, {{1. / 3., 1. / 3., 1. / 3.}}));
 }
 
 TEST(GeometricPenetration, NothingCovered)
