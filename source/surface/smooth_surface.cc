@@ -179,7 +179,7 @@ namespace Signorini
       {
         for (unsigned int i = 0; i < 3; ++i)
           patch.normals[i] = fit.corners[i].normal;
-        double typical = 0., residual = 0.;
+        double curvature = 0., longest = 0., typical = 0., residual = 0.;
         for (unsigned int i = 0; i < 3; ++i)
           {
             // Heights of the middle of an edge: from the normals at its ends and from either curvature.
@@ -191,11 +191,14 @@ namespace Signorini
             patch.height      = std::max(patch.height, std::abs(by_normals));
             patch.doubt =
                 std::max({patch.doubt, std::abs(by_a - by_b), std::abs(by_normals - .5 * (by_a + by_b))});
-            typical  = std::max({typical, a.magnitude_along(edge) / 8., b.magnitude_along(edge) / 8.});
-            residual = std::max(residual, a.residual);
+            // Of an edge along which the surface is straight there is none, however long it is.
+            typical   = std::max({typical, a.magnitude_along(edge) / 8., b.magnitude_along(edge) / 8.});
+            curvature = std::max(curvature, std::abs(a.largest_curvature()));
+            longest   = std::max(longest, edge.norm());
+            residual  = std::max(residual, a.residual);
           }
         patch.is_smooth = fit.is_complete && residual <= rule.largest_residual &&
-                          patch.doubt <= rule.largest_disagreement * typical;
+                          patch.doubt <= rule.largest_disagreement * curvature * longest * longest / 8.;
         patch.doubt = std::max(patch.doubt, residual * typical);
         if (!fit.is_complete)
           patch.doubt = std::max(patch.doubt, patch.height);
