@@ -178,6 +178,7 @@ namespace Signorini
       json.vector("max_pressure_at", Vector3(pair.max_pressure_at));
       json.number("slip", pair.slip);
       json.number("slip_in_faces", pair.slip_in_faces);
+      json.number("pressed_by_slip", pair.pressed_by_slip);
       json.end('}');
     }
 

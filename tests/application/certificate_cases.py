@@ -320,6 +320,7 @@ def slides_beside(p):
             print(moved, pair['load'], pair['slip'], pair['slip_in_faces'], s['displacements_are_small'], told)
             check(pair['load'] > 0 and pair['slip_in_faces'] < 1, f'moved by {moved}: {pair}')
             check(s['displacements_are_small'] == is_small and (not told) == is_small, f'moved by {moved}: {s["notes"]}')
+            check((pair['pressed_by_slip'] > .25) != is_small, f'moved by {moved}: {pair["pressed_by_slip"]}')
         # With the plane itself instead of the plate nothing presses, and nothing is told.
         with open(path, 'w') as f:
             f.write(re.sub('subsection Body plate.*?end\n', '', TUBE, flags=re.S).replace('tube, plate', 'tube').replace('Second    = plate: top', 'Obstacle  = plane: (0, 0, 0), (0, 0, 1)')
