@@ -283,7 +283,9 @@ namespace Signorini
     for (const unsigned int t : wrong)
       area += triangle_area(pair.nonmortar.surface.mesh, t);
     // What is turned counts with a negative area in what is covered.
-    return area > 0. ? area / std::max(area, report.area_covered) : 0.;
+    if (!(area > 0.))
+      return report.area_covered > 0. ? 0. : 1.;
+    return area / std::max(area, report.area_covered);
   }
 
 

@@ -33,7 +33,7 @@ namespace Signorini
     }
 
     /// Collective. Of what the mapping covers, the area of the nonmortar triangles with errors of it or
-    /// beside torn edges; 1 where it covers something twice.
+    /// beside torn edges; 1 where it covers something twice, or nothing.
     double wrong_share(const ContactPair &pair) const;
 
     /// Collective. Of what the pair covers and is not far from, the area of the nonmortar faces that it

@@ -38,9 +38,8 @@ namespace Signorini
   private:
     ContactPair make(const unsigned int p, const bool is_turned);
     void        note_chosen() const;
-    /// Turns it if the mapping has errors one way and none the other way, as it may have where a rim of one
-    /// part lies over that of another one. Elsewhere errors are where surfaces turn away from each other, and
-    /// the choice matters for other pairs.
+    /// Turns it if the mapping has many errors one way and few the other way: where a rim of one part lies
+    /// over that of another one, or between smooth surfaces if it gets much of the faces wrong.
     void turn_for_mapping(const unsigned int p);
     /// Turns it if the mortar surface ends within the nonmortar one, but not the other way round, and the
     /// sides are alike otherwise: of the faces that the rim of the mortar surface cuts, nodes outside of it
@@ -51,7 +50,8 @@ namespace Signorini
     std::vector<LossOfChoice> losses() const;
     /// Changes to another choice and couples again.
     void turn(const std::vector<bool> &choice);
-    /// Whether the sides of a pair may be swapped for what it loses: not those of a mapping without errors.
+    /// Whether the sides of a pair may be swapped for what it loses: not those that were swapped for the
+    /// mapping.
     bool may_turn(const unsigned int p, const LossOfChoice &loss) const;
     /// The choices that differ in one such pair that loses much, or in all of them.
     std::vector<std::vector<bool>> neighbours(const std::vector<LossOfChoice> &now) const;

@@ -124,7 +124,7 @@ namespace Signorini
       if (shares[t] > 0. && doubts[t] > 0.)
         result.add(-doubts[t] / shares[t], evaluate(mesh, t, middle));
     result.reduce(communicator);
-    return {-result.value(), result.place()};
+    return {0. - result.value(), result.place()};
   }
 
 

@@ -117,7 +117,7 @@ namespace Signorini
     const unsigned int    opposite = nonmortar.triangles[walk.triangle][k];
     const Incidence::Side s        = side(opposite, walk.edge);
     if (s.sign == 0)
-      return walk.passes_at(s.position) ? go_to_vertex(walk, opposite, s.position) : end_before(walk);
+      return walk.ends_after(s.position) ? go_to_vertex(walk, opposite, s.position) : end_before(walk);
     return walk.direction * s.sign > 0 ? leave_through(walk, (k + 2) % 3, walk.entry_sides[1], s)
                                        : leave_through(walk, k, s, walk.entry_sides[0]);
   }
@@ -186,7 +186,7 @@ namespace Signorini
             return leave_through(walk, i, s[i], s[(i + 1) % 3]);
         for (unsigned int i = 0; i < 3; ++i)
           if (walk.direction * s[i].sign < 0 && s[(i + 1) % 3].sign == 0 &&
-              walk.direction * s[(i + 2) % 3].sign > 0 && walk.passes_at(s[(i + 1) % 3].position))
+              walk.direction * s[(i + 2) % 3].sign > 0 && walk.ends_after(s[(i + 1) % 3].position))
             return go_to_vertex(walk, nonmortar.triangles[walk.triangle][(i + 1) % 3],
                                 s[(i + 1) % 3].position);
         return State::lost;

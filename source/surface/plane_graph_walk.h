@@ -36,12 +36,18 @@ namespace Signorini
       return direction > 0 ? parameter : 1. - parameter;
     }
 
-    /// Whether a vertex that lies on the curtain, there, is still to come. Where both surfaces end in one
-    /// plane, all vertices of the rim lie on the curtain, those beyond the end of the edge as well.
+    /// Whether a vertex that lies on the curtain, there, comes before the end of the edge. Where both
+    /// surfaces end in one plane, all vertices of the rim lie on the curtain, those beyond the end of the
+    /// edge as well.
+    bool ends_after(const double parameter) const
+    {
+      return forward(parameter) < 1. + Incidence::near_end;
+    }
+
+    /// Whether it is still to come as well.
     bool passes_at(const double parameter) const
     {
-      const double here = forward(parameter);
-      return here > position && here < 1. + Incidence::near_end;
+      return forward(parameter) > position && ends_after(parameter);
     }
   };
 } // namespace Signorini

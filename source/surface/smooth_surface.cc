@@ -191,7 +191,7 @@ namespace Signorini
             patch.height      = std::max(patch.height, std::abs(by_normals));
             patch.doubt =
                 std::max({patch.doubt, std::abs(by_a - by_b), std::abs(by_normals - .5 * (by_a + by_b))});
-            // Of an edge along which the surface is straight there is none, however long it is.
+            // An edge along which the surface is straight has no height, however long it is.
             typical   = std::max({typical, a.magnitude_along(edge) / 8., b.magnitude_along(edge) / 8.});
             curvature = std::max(curvature, std::abs(a.largest_curvature()));
             longest   = std::max(longest, edge.norm());

@@ -186,9 +186,10 @@ namespace Signorini
       const double length = area.norm();
       return length > 0. ? area / length : area;
     };
-    const std::vector<unsigned int> &around = pieces.vertices[piece_vertex].triangles;
-    const Tensor<1, 3>               first  = normal(around[0]);
-    Tensor<1, 3>                     last   = first, result;
+    Tensor<1, 3> first, last, result;
+    for (const unsigned int t : pieces.vertices[piece_vertex].triangles)
+      if (first = normal(t); first.norm() > 0.)
+        break;
     // At an end of the curve one ring has two columns of cells only.
     pieces.neighbours(near, piece_vertex, pieces.vertices[piece_vertex].is_closed ? 1 : 2);
     near.push_back(piece_vertex);
@@ -211,7 +212,8 @@ namespace Signorini
           const Tensor<1, 3> n = normal(t);
           if (std::abs(n * result) > rule.flat * turn)
             return {};
-          has_third = has_third || std::min((n - first).norm(), (n - last).norm()) > rule.distinct * turn;
+          has_third = has_third || (n.norm() > 0. &&
+                                    std::min((n - first).norm(), (n - last).norm()) > rule.distinct * turn);
         }
     return has_third ? result : Tensor<1, 3>();
   }

@@ -160,8 +160,9 @@ namespace Signorini
   bool fit_extruded(Quadric &q, const std::vector<Tensor<1, 3>> &neighbours, const Tensor<1, 3> &axis)
   {
     constexpr unsigned int n_steps = 20;
-    // What lies beside each other along the axis is the same point of the curve.
-    constexpr double          same = 1e-6;
+    // What lies beside each other along the axis is the same point of the curve, but for digits that files
+    // leave out: those of cells a thousand times longer than wide.
+    constexpr double          same = 1e-3;
     std::vector<Tensor<1, 3>> points;
     double                    size = 0.;
     for (const Tensor<1, 3> &x : neighbours)
@@ -208,8 +209,10 @@ namespace Signorini
         last = turn;
       }
     q.u = cross_product_3d(q.v, q.normal);
-    // There are two rows of them at least; what a strip of one cell has with five unknowns.
-    q.n_checks = static_cast<unsigned int>(2 * (n - 2));
+    // As many as with five unknowns; rows beside each other tell the same, two of them count.
+    const auto n_neighbours = static_cast<Eigen::Index>(neighbours.size());
+    q.n_checks =
+        static_cast<unsigned int>(std::max<Eigen::Index>(0, std::min(n_neighbours - 5, 2 * (n - 2))));
     q.left_over *= 2. / (size * std::sqrt(std::max(1., static_cast<double>(q.n_checks))));
     return true;
   }

@@ -22,17 +22,6 @@ namespace Signorini
     double residual = 0.;
     /// The former as a curvature (1/length): where the surface is nearly flat the ratio says little.
     double left_over = 0.;
-    /// The quadratic form with the magnitudes of the principal curvatures.
-    double magnitude_along(const dealii::Tensor<1, 3> &x) const
-    {
-      const double mean = .5 * (c + e), difference = std::hypot(.5 * (c - e), d), s = x * u, t = x * v,
-                   square = .5 * (s * s + t * t);
-      // With the share of the difference of curvatures that x sees.
-      const double seen =
-          difference > 0. ? (.5 * (c - e) * (s * s - t * t) * .5 + d * s * t) / difference : 0.;
-      return std::abs(mean + difference) * (square + seen) + std::abs(mean - difference) * (square - seen);
-    }
-
     /// How many more points than unknowns there were.
     unsigned int n_checks = 0;
 
@@ -48,6 +37,17 @@ namespace Signorini
     {
       const double s = x * u, t = x * v, z = x * normal;
       return c * s * s + 2. * d * s * t + e * t * t + largest_curvature() * z * z;
+    }
+
+    /// The quadratic form with the magnitudes of the principal curvatures.
+    double magnitude_along(const dealii::Tensor<1, 3> &x) const
+    {
+      const double mean = .5 * (c + e), difference = std::hypot(.5 * (c - e), d), s = x * u, t = x * v,
+                   square = .5 * (s * s + t * t);
+      // With the share of the difference of curvatures that x sees.
+      const double seen =
+          difference > 0. ? (.5 * (c - e) * (s * s - t * t) * .5 + d * s * t) / difference : 0.;
+      return std::abs(mean + difference) * (square + seen) + std::abs(mean - difference) * (square - seen);
     }
 
     /// Its unit normal where it comes nearest to the place with this vector from the vertex.

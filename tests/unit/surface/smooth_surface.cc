@@ -161,6 +161,48 @@ TEST(SmoothSurface, ExtrudedCurves)
 
 
 
+// Files leave digits out: vertices beside each other along the axis, however far away, are the same point of
+// the curve still.
+TEST(SmoothSurface, ExtrudedCurvesOfFewDigits)
+{
+  const Tensor<1, 3> axis = Point<3>(1., 2., 3.) / std::sqrt(14.), u = Point<3>(2., -1., 0.) / std::sqrt(5.),
+                     v = cross_product_3d(axis, u);
+  std::mt19937                           random(3);
+  std::uniform_real_distribution<double> number(-1., 1.);
+  for (const unsigned int n_layers : {1, 3})
+    for (const double length : {.3, 3., 30.})
+      for (const double noise : {1e-12, 1e-9, 2e-7, 2e-6})
+        {
+          const TestSurfaces::FlatGrid grid = TestSurfaces::flat_grid(14, n_layers);
+          SurfaceMesh                  mesh;
+          for (const auto &[s, t] : grid.vertices)
+            {
+              Point<3> p(std::cos(1.5 * s) * u + std::sin(1.5 * s) * v + length * t * axis);
+              for (unsigned int c = 0; c < 3; ++c)
+                p[c] += noise * number(random);
+              mesh.vertices.push_back(p);
+            }
+          mesh.triangles              = grid.triangles;
+          const SmoothSurface surface = smooth(mesh);
+          EXPECT_EQ(n_smooth(surface), mesh.triangles.size()) << n_layers << ' ' << length << ' ' << noise;
+          for (unsigned int t = 0; t < mesh.triangles.size(); ++t)
+            {
+              EXPECT_LT(surface.patch(t).doubt, 1e-9 + 100. * noise)
+                  << n_layers << ' ' << length << ' ' << noise;
+              for (unsigned int i = 0; i < 3; ++i)
+                {
+                  const Tensor<1, 3> x      = mesh.vertices[mesh.triangles[t][i]] - Point<3>();
+                  const Tensor<1, 3> radial = x - (x * axis) * axis;
+                  EXPECT_LT(1. - std::abs(surface.patch(t).normals[i] * radial) / radial.norm(),
+                            1e-9 + 1e3 * noise * noise)
+                      << n_layers << ' ' << length << ' ' << noise;
+                }
+            }
+        }
+}
+
+
+
 // Where a cylinder goes on as a sphere, or as two planes, curvature jumps: a surface fitted to both is
 // neither.
 TEST(SmoothSurface, IsExactOnBothSidesOfSeams)
