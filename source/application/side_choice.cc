@@ -236,8 +236,8 @@ namespace Signorini
   {
     const bool is_much_stiffer =
         pairs[p].mortar.material.young > SideRule().much_stiffer * pairs[p].nonmortar.material.young;
-    return maker.is_open(p) && !is_for_mapping[p] && (is_first ? loss.share : loss.refused) > 0. &&
-           (loss.refused > 0. || !is_much_stiffer);
+    return maker.is_open(p) &&
+           (loss.refused > 0. || (is_first && loss.share > 0. && !is_for_mapping[p] && !is_much_stiffer));
   }
 
 

@@ -51,7 +51,7 @@ namespace Signorini
     /// Changes to another choice and couples again.
     void turn(const std::vector<bool> &choice);
     /// Whether the sides of a pair may be swapped for what it loses: not those that were swapped for the
-    /// mapping.
+    /// mapping, unless they would be refused.
     bool may_turn(const unsigned int p, const LossOfChoice &loss) const;
     /// The choices that differ in one such pair that loses much, or in all of them.
     std::vector<std::vector<bool>> neighbours(const std::vector<LossOfChoice> &now) const;
