@@ -175,7 +175,7 @@ namespace Signorini
         points.push_back(across);
     const auto         n      = static_cast<Eigen::Index>(points.size());
     const Tensor<1, 3> normal = q.normal - (q.normal * axis) * axis;
-    if (!(normal.norm() > 0.))
+    if (n < 2 || !(normal.norm() > 0.))
       return false;
     q.normal = normal / normal.norm();
     q.v      = axis;
