@@ -9,7 +9,7 @@
 #include <limits>
 
 using namespace Signorini;
-using namespace dealii;
+using dealii::Point;
 
 namespace
 {
@@ -39,12 +39,12 @@ namespace
 
   unsigned int n_ranks()
   {
-    return Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+    return dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
   }
 
   unsigned int this_rank()
   {
-    return Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
+    return dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
   }
 } // namespace
 

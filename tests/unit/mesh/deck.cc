@@ -3,6 +3,7 @@
 
 // Decks as files have them, and their elements as cells.
 
+#include "expect_in.h"
 #include "mesh_file.h"
 
 #include <signorini/algebra/input_error.h>
@@ -31,11 +32,6 @@ namespace
         return e.what();
       }
     return "none";
-  }
-
-  void expect_in(const std::string &text, const std::string &part)
-  {
-    EXPECT_NE(text.find(part), std::string::npos) << text << " has no \"" << part << "\"";
   }
 
   std::string nodes_text(const std::vector<Point<3>> &points)

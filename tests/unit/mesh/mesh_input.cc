@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include "expect_in.h"
 #include "mesh_file.h"
 
 #include <signorini/algebra/input_error.h>
@@ -33,11 +34,6 @@ namespace
       }
     ADD_FAILURE() << "no error";
     return "";
-  }
-
-  void expect_in(const std::string &text, const std::string &word)
-  {
-    EXPECT_NE(text.find(word), std::string::npos) << text;
   }
 } // namespace
 

@@ -20,12 +20,12 @@ namespace
 {
   /// The five-point Laplacian on the unit square with zero boundary values: an interior of a grid of n x n
   /// cells with its border, each rank a strip of it.
-  struct Grid
+  struct LaplaceGrid
   {
     unsigned int n;
     IndexSet     all, owned, border;
 
-    Grid(const unsigned int n, const MPI_Comm communicator)
+    LaplaceGrid(const unsigned int n, const MPI_Comm communicator)
       : n(n)
       , all(dealii::complete_index_set((n + 1) * (n + 1)))
       , owned(all.size())
@@ -74,7 +74,7 @@ namespace
     static constexpr bool is_parallel = true;
 
     template <typename Entries>
-    static dealii::TrilinosWrappers::SparseMatrix make(const Grid &rows, const Grid &columns,
+    static dealii::TrilinosWrappers::SparseMatrix make(const LaplaceGrid &rows, const LaplaceGrid &columns,
                                                        const Entries &entries)
     {
       dealii::TrilinosWrappers::SparseMatrix matrix(rows.owned, columns.owned, MPI_COMM_WORLD, 9);
@@ -93,7 +93,7 @@ namespace
     dealii::SparseMatrix<double> matrix;
 
     template <typename Entries>
-    Serial(const Grid &rows, const Grid &columns, const Entries &entries)
+    Serial(const LaplaceGrid &rows, const LaplaceGrid &columns, const Entries &entries)
     {
       dealii::DynamicSparsityPattern dynamic(rows.all.size(), columns.all.size());
       entries([&](const auto i, const auto j, const double) { dynamic.add(i, j); });
@@ -105,7 +105,8 @@ namespace
 
   /// Calls use(matrix) with a matrix of one of the kinds.
   template <typename Kind, typename Entries, typename Use>
-  auto with_matrix(const Grid &rows, const Grid &columns, const Entries &entries, const Use &use)
+  auto with_matrix(const LaplaceGrid &rows, const LaplaceGrid &columns, const Entries &entries,
+                   const Use &use)
   {
     if constexpr (Kind::is_parallel)
       return use(Trilinos::make(rows, columns, entries));
@@ -124,11 +125,11 @@ namespace
   {
     const MPI_Comm                    comm = communicator<Kind>();
     const ForeignNumbering            scalar;
-    const Grid                        finest(n, comm);
+    const LaplaceGrid                 finest(n, comm);
     std::vector<ForeignLevels::Level> levels;
     for (unsigned int m = n; m > 4; m /= 2)
       {
-        const Grid fine(m, comm), coarse(m / 2, comm);
+        const LaplaceGrid fine(m, comm), coarse(m / 2, comm);
         levels.push_back(
             {with_matrix<Kind>(
                  fine, coarse, [&](const auto &set) { fine.interpolation(set); },
@@ -149,9 +150,9 @@ namespace
   template <typename Kind>
   ConvergenceReport solve_membrane(const unsigned int n)
   {
-    const Grid      grid(n, communicator<Kind>());
-    ObstacleProblem problem;
-    Vector3         down;
+    const LaplaceGrid grid(n, communicator<Kind>());
+    ObstacleProblem   problem;
+    Vector3           down;
     down[0] = -1.;
     for (const auto i : grid.owned)
       if (!grid.border.is_element(i))
@@ -195,7 +196,7 @@ TEST(ForeignLevels, PreconditionsConjugateGradientsOfTrilinosVectors)
 {
   for (const unsigned int n : {16, 64})
     {
-      const Grid         grid(n, MPI_COMM_WORLD);
+      const LaplaceGrid  grid(n, MPI_COMM_WORLD);
       MultigridHierarchy hierarchy = make_hierarchy<Trilinos>(n);
       const auto         matrix = Trilinos::make(grid, grid, [&](const auto &set) { grid.laplacian(set); });
       const auto         solve  = [&](auto &u, auto &b) {

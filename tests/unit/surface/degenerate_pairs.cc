@@ -20,17 +20,6 @@ namespace
     return mesh;
   }
 
-  /// Both in one mesh, without common vertices.
-  SurfaceMesh join(SurfaceMesh a, const SurfaceMesh &b)
-  {
-    const auto n = static_cast<unsigned int>(a.vertices.size());
-    a.vertices.insert(a.vertices.end(), b.vertices.begin(), b.vertices.end());
-    for (const auto &t : b.triangles)
-      a.triangles.push_back({{t[0] + n, t[1] + n, t[2] + n}});
-    a.compute_vertex_normals();
-    return a;
-  }
-
   Shape shifted(const Shape &shape, const double dx, const double dy, const double dz = 0.)
   {
     return [=](const double x, const double y) { return shape(x, y) + Point<3>(dx, dy, dz); };

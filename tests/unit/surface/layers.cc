@@ -17,16 +17,6 @@ namespace
         [=](const double x, const double y) { return Point<3>(x0 + x * (x1 - x0), y0 + y * (y1 - y0), z); },
         up);
   }
-
-  SurfaceMesh join(SurfaceMesh a, const SurfaceMesh &b)
-  {
-    const auto n = static_cast<unsigned int>(a.vertices.size());
-    a.vertices.insert(a.vertices.end(), b.vertices.begin(), b.vertices.end());
-    for (const auto &t : b.triangles)
-      a.triangles.push_back({{t[0] + n, t[1] + n, t[2] + n}});
-    a.compute_vertex_normals();
-    return a;
-  }
 } // namespace
 
 

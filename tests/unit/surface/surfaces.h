@@ -186,6 +186,17 @@ namespace TestSurfaces
     EXPECT_EQ(violated_invariant(nonmortar, mortar, mapping, true), "");
     EXPECT_EQ(mapping.report().n_flips, 0u);
   }
+
+  /// Both in one mesh, without common vertices.
+  inline SurfaceMesh join(SurfaceMesh a, const SurfaceMesh &b)
+  {
+    const auto n = static_cast<unsigned int>(a.vertices.size());
+    a.vertices.insert(a.vertices.end(), b.vertices.begin(), b.vertices.end());
+    for (const auto &t : b.triangles)
+      a.triangles.push_back({{t[0] + n, t[1] + n, t[2] + n}});
+    a.compute_vertex_normals();
+    return a;
+  }
 } // namespace TestSurfaces
 
 #endif
