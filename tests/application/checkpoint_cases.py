@@ -412,7 +412,7 @@ def checkpoint_and_signal(p):
 
 def killed_and_resumed(p):
     """SIGKILL at random moments, then --resume on another number of ranks: the results of a run that nobody disturbed."""
-    n, seed = int(os.environ.get('SIGNORINI_KILLS', 10)), int(os.environ.get('SIGNORINI_KILL_SEED', 1))
+    n, seed = int(os.environ.get('SIGNORINI_KILLS', 5)), int(os.environ.get('SIGNORINI_KILL_SEED', 1))
     n_ranks = [int(r) for r in os.environ.get('SIGNORINI_KILL_RANKS', '1 2').split()]
     chance = random.Random(seed)
     with tempfile.TemporaryDirectory() as folder:
