@@ -1,6 +1,7 @@
 signorini_add_layer(algebra
   algebraic_multigrid.cc
   block_row.cc
+  block_storage.cc
   block_structure.cc
   collectives.cc
   dense_matrix.cc

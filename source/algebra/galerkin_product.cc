@@ -163,7 +163,8 @@ namespace Signorini
     {
       for (std::size_t m = 0; m < from.n; ++m, to += n_entries)
         {
-          const double *const a = from.blocks + n_entries * static_cast<std::size_t>(from.positions[m]);
+          double a[n_entries];
+          from.blocks.read(a, from.positions[m]);
           for (unsigned int c = 0; c < dim; ++c)
             for (unsigned int d = 0; d < dim; ++d)
               to[dim * c + d] = a[dim * d + c];
@@ -295,9 +296,17 @@ namespace Signorini
         return transfer.row_blocks(row) == nullptr && transfer.plane(row) == nullptr;
       }
 
-      static GalerkinKernels::Blocks blocks_of(const NodeBlockMatrix &matrix, const BlockRange &range)
+      /// Blocks that are split are put together in `whole`.
+      GalerkinKernels::Blocks blocks_of(const NodeBlockMatrix &matrix, const BlockRange &range)
       {
-        return {matrix.block(range.begin), matrix.column_data() + range.begin, range.size()};
+        const unsigned int *const columns = matrix.column_data() + range.begin;
+        const BlockNumbers        numbers = matrix.block_data();
+        if (range.size() == 0 || range.begin < numbers.first_split)
+          return {numbers.exact + n_entries * range.begin, columns, range.size()};
+        whole.resize(n_entries * range.size());
+        for (std::size_t k = range.begin; k < range.end; ++k)
+          numbers.read(whole.data() + n_entries * (k - range.begin), k);
+        return {whole.data(), columns, range.size()};
       }
 
       void add_blocks(unsigned int &n_columns, const GalerkinKernels::Blocks &blocks,
@@ -385,8 +394,8 @@ namespace Signorini
       }
 
       GalerkinKernels::Row row;
-      /// The mirrored blocks of a row of A.
-      std::vector<double> turned;
+      /// The mirrored blocks of a row of A, and those below the diagonal where they are split.
+      std::vector<double> turned, whole;
     };
   } // namespace
 

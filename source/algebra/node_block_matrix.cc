@@ -18,7 +18,7 @@ namespace Signorini
                                const IndexSet &extra_ghosts, const MPI_Comm communicator)
   {
     make_structure(owned, pattern, extra_ghosts, communicator);
-    values.assign(9 * n_positions() + 1, 0.);
+    values.reinit(n_positions());
   }
 
 
@@ -26,7 +26,18 @@ namespace Signorini
   void NodeBlockMatrix::clear_row(const unsigned int row)
   {
     for (const BlockRange &range : stored(row))
-      std::fill(values.begin() + 9 * range.begin, values.begin() + 9 * range.end, 0.);
+      std::fill_n(values.exact(range.begin), 9 * range.size(), 0.);
+  }
+
+
+
+  void NodeBlockMatrix::split()
+  {
+    // Factors of 1e12 on both sides for the other numbers of a matrix and for what they are multiplied with.
+    constexpr double largest_unit = 1e12;
+    const double     scale        = diagonal_scale(*this);
+    if (partition().n_ranks() == 1 && scale < largest_unit && scale > 1. / largest_unit)
+      values.split(n_rows());
   }
 
 
@@ -38,8 +49,8 @@ namespace Signorini
     ListsByRank<double> packets;
     for (const auto &[rank, rows] : send_rows)
       {
-        const auto begin = values.begin() + 9 * outer(rows.first).begin;
-        const auto end   = values.begin() + 9 * outer(rows.second - 1).end;
+        double *const begin = values.exact(outer(rows.first).begin);
+        double *const end   = values.exact(outer(rows.second - 1).end);
         packets[rank].assign(begin, end);
         std::fill(begin, end, 0.);
       }
@@ -53,7 +64,7 @@ namespace Signorini
         AssertDimension(data.size(), 9 * positions.size());
         for (std::size_t k = 0; k < positions.size(); ++k)
           for (unsigned int c = 0; c < 9; ++c)
-            values[9 * positions[k] + c] += data[9 * k + c];
+            values.exact(positions[k])[c] += data[9 * k + c];
       }
   }
 
@@ -63,7 +74,7 @@ namespace Signorini
   {
     const auto here = stored(row);
     double     sums[9], mirrored_sums[dim];
-    multiply_block_ranges(sums, values.data(), column_data(), here.data(), here.size(), src.begin());
+    multiply_block_ranges(sums, block_data(), column_data(), here.data(), here.size(), src.begin());
     multiply_mirrored_blocks(mirrored_sums, mirrored_blocks(row), src.begin());
     for (unsigned int c = 0; c < dim; ++c)
       product[c] = sums[c] + sums[3 + c] + mirrored_sums[c] + sums[6 + c];
@@ -84,17 +95,18 @@ namespace Signorini
 
   void NodeBlockMatrix::subtract_product(Vector &dst, const Vector &src) const
   {
+    const BlockNumbers blocks = block_data();
     src.update_ghost_values();
     for (unsigned int i = 0; i < n_rows(); ++i)
       {
-        const auto          here = stored(i);
-        const double *const x    = src.begin() + dim * static_cast<std::size_t>(i);
-        double *const       y    = dst.begin() + dim * static_cast<std::size_t>(i);
-        double              sums[9];
-        multiply_block_ranges(sums, values.data(), column_data(), here.data(), here.size(), src.begin());
+        const auto       here       = stored(i);
+        const BlockRange one_way[2] = {here[0], here[2]};
+        double *const    y          = dst.begin() + dim * static_cast<std::size_t>(i);
+        double           sums[6];
+        multiply_block_ranges(sums, blocks, column_data(), one_way, 2, src.begin());
         for (unsigned int c = 0; c < dim; ++c)
-          y[c] -= sums[c] + sums[3 + c] + sums[6 + c];
-        subtract_transposed_blocks(dst.begin(), values.data(), column_data(), here[1], x);
+          y[c] -= sums[c] + sums[3 + c];
+        subtract_both_ways(dst.begin(), i, blocks, column_data(), here[1], src.begin());
       }
   }
 

@@ -23,7 +23,8 @@ namespace Signorini
       Row(const RoundedSweep::Arrays &arrays, const std::size_t row)
         : n(arrays.lower_start[row + 1] - arrays.lower_start[row])
         , columns(arrays.columns + arrays.lower_start[row])
-        , blocks(arrays.blocks + n_entries * (arrays.lower_start[row] - arrays.lower_start[0] + row))
+        , blocks(arrays.blocks + n_entries * (arrays.lower_start[row] - arrays.lower_start[0]))
+        , inverse(arrays.inverses + n_entries * row)
       {
       }
 
@@ -38,14 +39,9 @@ namespace Signorini
         return blocks + n_entries * (n - 1);
       }
 
-      const float *inverse() const
-      {
-        return blocks + n_entries * n;
-      }
-
       std::size_t         n;
       const unsigned int *columns;
-      const float        *blocks;
+      const float        *blocks, *inverse;
     };
 
     inline float *node(float *const values, const std::size_t i)
@@ -56,35 +52,28 @@ namespace Signorini
     /// Plain loops, for processors without AVX2.
     namespace Plain
     {
-      /// Calls action(block, stride of its rows, column) for all blocks of a row.
-      template <typename Action>
-      inline void for_all_blocks(const Row &row, const Action &action)
-      {
-        std::size_t k = 0;
-        for (; k < 2 * row.n_pairs(); ++k)
-          action(row.blocks + 2 * n_entries * (k / 2) + dim * (k % 2), 2 * dim, row.columns[k]);
-        for (; k < row.n; ++k)
-          action(row.blocks + n_entries * k, dim, row.columns[k]);
-      }
-
       inline void pass_down(const RoundedSweep::Arrays &arrays, const Row &row, const float *const change)
       {
-        for_all_blocks(row, [&](const float *const a, const unsigned int stride, const unsigned int column) {
-          float *const y = node(arrays.reduced, column);
-          for (unsigned int c = 0; c < dim; ++c)
-            for (unsigned int d = 0; d < dim; ++d)
-              y[d] -= a[stride * c + d] * change[c];
-        });
+        for (std::size_t k = 0; k < row.n; ++k)
+          {
+            const float *const a = row.blocks + n_entries * k;
+            float *const       y = node(arrays.reduced, row.columns[k]);
+            for (unsigned int c = 0; c < dim; ++c)
+              for (unsigned int d = 0; d < dim; ++d)
+                y[d] -= a[dim * c + d] * change[c];
+          }
       }
 
       /// s -= Σ_j L_row,j x_j
       inline void multiply(float *const s, const RoundedSweep::Arrays &arrays, const Row &row)
       {
-        for_all_blocks(row, [&](const float *const a, const unsigned int stride, const unsigned int column) {
-          const float *const y = node(arrays.values, column);
-          for (unsigned int c = 0; c < dim; ++c)
-            s[c] -= a[stride * c] * y[0] + a[stride * c + 1] * y[1] + a[stride * c + 2] * y[2];
-        });
+        for (std::size_t k = 0; k < row.n; ++k)
+          {
+            const float *const a = row.blocks + n_entries * k;
+            const float *const y = node(arrays.values, row.columns[k]);
+            for (unsigned int c = 0; c < dim; ++c)
+              s[c] -= a[dim * c] * y[0] + a[dim * c + 1] * y[1] + a[dim * c + 2] * y[2];
+          }
       }
 
       inline void relax(const RoundedSweep::Arrays &arrays, double *const v, const std::size_t begin,
@@ -98,7 +87,7 @@ namespace Signorini
             float s[dim], change[dim];
             std::copy_n(reduced, dim, s);
             multiply(s, arrays, row);
-            const float *const inverse = row.inverse();
+            const float *const inverse = row.inverse;
             for (unsigned int c = 0; c < dim; ++c)
               {
                 const float y = inverse[c] * s[0] + inverse[dim + c] * s[1] + inverse[2 * dim + c] * s[2];
@@ -125,11 +114,10 @@ namespace Signorini
       constexpr std::ptrdiff_t bytes_ahead = 2304;
       constexpr std::ptrdiff_t line        = 64;
 
-      /// The second block's three numbers of a row of two.
-      SIGNORINI_INLINE_AVX2 __m128 second(const __m256 &row)
+      /// Four numbers and four others.
+      SIGNORINI_INLINE_AVX2 __m256 side_by_side(const float *const one, const float *const other)
       {
-        return _mm_castsi128_ps(_mm_alignr_epi8(_mm_castps_si128(_mm256_extractf128_ps(row, 1)),
-                                                _mm_castps_si128(_mm256_castps256_ps128(row)), 12));
+        return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(one)), _mm_loadu_ps(other), 1);
       }
 
       /// The sums of the numbers of each, and a zero.
@@ -158,27 +146,23 @@ namespace Signorini
             const char *const ahead = reinterpret_cast<const char *>(a) + step * bytes_ahead;
             __builtin_prefetch(ahead);
             __builtin_prefetch(ahead + line);
-            // The first three numbers of one node, the next three of the other.
-            const __m256 one   = _mm256_castps128_ps256(_mm_loadu_ps(node(arrays.values, columns[0])));
-            const __m256 other = _mm256_loadu_ps(node(arrays.values, columns[1]) - 3);
-            const __m256 both  = _mm256_blend_ps(other, one, 7);
-            sums[0]            = _mm256_fmadd_ps(_mm256_loadu_ps(a), both, sums[0]);
-            sums[1]            = _mm256_fmadd_ps(_mm256_loadu_ps(a + 6), both, sums[1]);
-            sums[2]            = _mm256_fmadd_ps(_mm256_loadu_ps(a + 12), both, sums[2]);
+            const __m256 both =
+                side_by_side(node(arrays.values, columns[0]), node(arrays.values, columns[1]));
+            sums[0] = _mm256_fmadd_ps(side_by_side(a, a + 9), both, sums[0]);
+            sums[1] = _mm256_fmadd_ps(side_by_side(a + 3, a + 12), both, sums[1]);
+            sums[2] = _mm256_fmadd_ps(side_by_side(a + 6, a + 15), both, sums[2]);
           }
         if (row.n > 0 && row.n % 2 == 0)
           {
             const float *const single = row.last() - n_entries;
-            const __m256       x      = _mm256_blend_ps(
-                           _mm256_setzero_ps(),
-                           _mm256_castps128_ps256(_mm_loadu_ps(node(arrays.values, row.columns[row.n - 2]))), 7);
+            const __m256       x =
+                _mm256_zextps128_ps256(_mm_loadu_ps(node(arrays.values, row.columns[row.n - 2])));
             for (unsigned int c = 0; c < dim; ++c)
               sums[c] = _mm256_fmadd_ps(_mm256_zextps128_ps256(_mm_loadu_ps(single + dim * c)), x, sums[c]);
           }
         __m128 s[dim];
         for (unsigned int c = 0; c < dim; ++c)
-          s[c] =
-              _mm_blend_ps(_mm_add_ps(_mm256_castps256_ps128(sums[c]), second(sums[c])), _mm_setzero_ps(), 8);
+          s[c] = _mm_add_ps(_mm256_castps256_ps128(sums[c]), _mm256_extractf128_ps(sums[c], 1));
         return add_up(s[0], s[1], s[2]);
       }
 
@@ -225,11 +209,11 @@ namespace Signorini
         const unsigned int *columns = row.columns;
         for (std::size_t p = row.n_pairs(); p > 0; --p, a += 18, columns += 2)
           {
-            __m256 sum = _mm256_mul_ps(w0, _mm256_loadu_ps(a));
-            sum        = _mm256_fmadd_ps(w1, _mm256_loadu_ps(a + 6), sum);
-            sum        = _mm256_fmadd_ps(w2, _mm256_loadu_ps(a + 12), sum);
+            __m256 sum = _mm256_mul_ps(w0, side_by_side(a, a + 9));
+            sum        = _mm256_fmadd_ps(w1, side_by_side(a + 3, a + 12), sum);
+            sum        = _mm256_fmadd_ps(w2, side_by_side(a + 6, a + 15), sum);
             subtract(node(arrays.reduced, columns[0]), _mm256_castps256_ps128(sum));
-            subtract(node(arrays.reduced, columns[1]), second(sum));
+            subtract(node(arrays.reduced, columns[1]), _mm256_extractf128_ps(sum, 1));
           }
       }
 
@@ -247,7 +231,7 @@ namespace Signorini
             float *const x = node(arrays.values, i), *const reduced = node(arrays.reduced, i);
             const __m128       old = _mm_loadu_ps(x);
             const __m128       s   = subtract_last(_mm_sub_ps(_mm_loadu_ps(reduced), sum), arrays, row);
-            const float *const d   = row.inverse();
+            const float *const d   = row.inverse;
             __m128             y   = _mm_mul_ps(_mm_permute_ps(s, 0), _mm_loadu_ps(d));
             y                      = _mm_fmadd_ps(_mm_permute_ps(s, 0x55), _mm_loadu_ps(d + 3), y);
             y                      = _mm_fmadd_ps(_mm_permute_ps(s, 0xaa), _mm_loadu_ps(d + 6), y);

@@ -41,27 +41,20 @@ namespace Signorini
   {
     typedef float Float4 __attribute__((vector_size(4 * sizeof(float))));
 
-    /// Writes n blocks times a factor in the order of RoundedSweep::blocks, and a number behind them.
+    /// Writes n blocks times a factor.
     SIGNORINI_VECTORIZED
-    void round_blocks(float *to, const double *const *from, const std::size_t n, const std::size_t n_pairs,
-                      const double factor)
+    void round_blocks(float *to, const double *const *from, const std::size_t n, const double factor)
     {
       const auto round = [&](const double *const row) {
-        // The fourth number is written over by what comes behind.
+        // The fourth number belongs to what comes behind.
         Vector4 numbers;
         std::memcpy(&numbers, row, sizeof(numbers));
         numbers *= factor;
         const auto rounded = __builtin_convertvector(numbers, Float4);
-        std::memcpy(to, &rounded, sizeof(rounded));
+        std::memcpy(to, &rounded, dim * sizeof(float));
         to += dim;
       };
-      for (std::size_t k = 0; k < 2 * n_pairs; k += 2)
-        for (unsigned int c = 0; c < dim; ++c)
-          {
-            round(from[k] + dim * c);
-            round(from[k + 1] + dim * c);
-          }
-      for (std::size_t k = 2 * n_pairs; k < n; ++k)
+      for (std::size_t k = 0; k < n; ++k)
         for (unsigned int c = 0; c < dim; ++c)
           round(from[k] + dim * c);
     }
@@ -92,13 +85,14 @@ namespace Signorini
     , values(matrix.n_rows())
     , reduced(matrix.n_rows())
   {
-    matrix_unit = power_of_two_near(diagonal_scale(matrix));
     AssertDimension(order.size(), matrix.n_rows());
     const unsigned int n = matrix.n_rows();
-    if (n == 0)
-      return;
     if (!std::is_sorted(order.begin(), order.end()))
       order_columns();
+    if (!shares_blocks())
+      matrix_unit = power_of_two_near(diagonal_scale(matrix));
+    if (n == 0)
+      return;
     ghost_positions.reserve(matrix.n_ghost_couplings());
     for (unsigned int ghost = 0; ghost < matrix.partition().ghosts().size(); ++ghost)
       for (auto [coupling, end] = matrix.ghost_column(ghost); coupling != end; ++coupling)
@@ -106,11 +100,16 @@ namespace Signorini
     ghost_blocks.resize(n_entries * matrix.n_ghost_couplings() + 1);
     // Registers are filled from behind the last row. Nothing is set: who updates all rows touches the memory
     // for the first time.
-    constexpr unsigned int n_behind = 8;
-    const Arrays           here     = arrays();
-    const std::size_t      n_blocks = n_entries * (here.lower_start[n] - here.lower_start[0] + n);
-    blocks.reset(new float[n_blocks + n_behind]);
-    std::fill_n(blocks.get() + n_blocks, n_behind, 0.f);
+    const auto allocate = [](const std::size_t n_blocks) {
+      constexpr unsigned int   n_behind = 8;
+      std::unique_ptr<float[]> memory(new float[n_entries * n_blocks + n_behind]);
+      std::fill_n(memory.get() + n_entries * n_blocks, n_behind, 0.f);
+      return memory;
+    };
+    inverses          = allocate(n);
+    const Arrays here = arrays();
+    if (!shares_blocks())
+      own_blocks = allocate(here.lower_start[n] - here.lower_start[0]);
   }
 
 
@@ -140,7 +139,8 @@ namespace Signorini
   RoundedSweep::Arrays RoundedSweep::arrays()
   {
     const bool is_own = !positions.empty();
-    return {blocks.get(),
+    return {shares_blocks() ? matrix.block_data().rounded : own_blocks.get(),
+            inverses.get(),
             is_own ? own_lower_start.data() : matrix.lower_start_data(),
             is_own ? own_columns.data() : matrix.column_data(),
             values.node(0),
@@ -160,10 +160,13 @@ namespace Signorini
     for (const unsigned int i : rows)
       {
         const Row row(here, position(i));
-        find_lower(lower, turned, i);
-        float *a = blocks.get() + (row.blocks - here.blocks);
-        RoundingKernels::round_blocks(a, lower.data(), row.n, row.n_pairs(), factor);
-        a += n_entries * row.n;
+        if (!shares_blocks())
+          {
+            find_lower(lower, turned, i);
+            RoundingKernels::round_blocks(own_blocks.get() + (row.blocks - here.blocks), lower.data(), row.n,
+                                          factor);
+          }
+        float              *a       = inverses.get() + n_entries * position(i);
         const double *const inverse = inverse_diagonal + n_entries * static_cast<std::size_t>(i);
         for (unsigned int c = 0; c < dim; ++c)
           for (unsigned int d = 0; d < dim; ++d)
@@ -189,14 +192,16 @@ namespace Signorini
     for (std::size_t k = range.begin; k < range.end; ++k)
       {
         const unsigned int column = order[own_columns[k]];
+        double *const      copy   = turned.data() + n_entries * (k - range.begin);
         if (matrix.stores(i, column))
-          lower.push_back(matrix.block(matrix.find(i, column)));
+          matrix.block_data().read(copy, matrix.find(i, column));
         else
           {
-            double *const copy = turned.data() + n_entries * (k - range.begin);
-            write_block(copy, transpose(read_block(matrix.block(matrix.find(column, i)))));
-            lower.push_back(copy);
+            double numbers[n_entries];
+            matrix.block_data().read(numbers, matrix.find(column, i));
+            write_block(copy, transpose(read_block(numbers)));
           }
+        lower.push_back(copy);
       }
   }
 

@@ -161,6 +161,9 @@ namespace Signorini
     level.scale           = diagonal_scale(level.matrix);
     eliminate_fixed_components(level.matrix, level.fixed, all_rows(level.matrix), level.scale);
     level.empty.fill(level.matrix, all_rows(level.matrix), level.scale);
+    // Coarser levels are computed anew where contact changes.
+    if (parts.levels != nullptr)
+      level.matrix.split();
     make_smoother(level, parts.interface, parts);
   }
 

@@ -9,7 +9,8 @@ namespace Signorini
   NodeBlockMatrix matrix_on_planes(const NodeBlockMatrix &matrix, const HalfSpaces &half_spaces,
                                    const std::vector<unsigned char> &active)
   {
-    NodeBlockMatrix      result    = matrix;
+    NodeBlockMatrix result = matrix;
+    result.join();
     const NodePartition &partition = result.partition();
     Vector               planes;
     partition.reinit(planes);

@@ -106,17 +106,18 @@ namespace Signorini
       most_negative[row] = std::min(most_negative[row], t);
     };
     // Half of the matrix and, at the end of a row, the columns of other ranks.
+    const BlockNumbers blocks = matrix.block_data();
     for (unsigned int i = 0; i < n; ++i)
       {
         const BlockRange lower = matrix.lower(i), outer = matrix.outer(i);
         for (std::size_t k = lower.begin; k < lower.end; ++k)
           {
-            const double t = trace_of(matrix.block(k));
+            const double t = blocks.trace(k);
             see(t, i);
             see(t, matrix.column(k));
           }
         for (std::size_t k = outer.begin; k < outer.end; ++k)
-          see(trace_of(matrix.block(k)), i);
+          see(blocks.trace(k), i);
       }
     is_stretched.resize(n);
     for (unsigned int i = 0; i < n; ++i)

@@ -5,7 +5,9 @@
 #define signorini_algebra_block_row_h
 
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
+#include <limits>
 
 // Compiled for processors with AVX2 as well; the loader chooses. Distributions build for the oldest
 // processor.
@@ -22,6 +24,9 @@
 
 namespace Signorini
 {
+  /// See put_together().
+  constexpr double unit_of_remainders = 0x1p-53;
+
   /// Positions of consecutive blocks.
   struct BlockRange
   {
@@ -35,30 +40,97 @@ namespace Signorini
     }
   };
 
+  /// A number in double precision is one in single precision and what is missing then, an integer of 32 bits
+  /// in units of 2⁻⁵³ times the power of two of the former.
+  inline double put_together(const float rounded, const std::int32_t remainder)
+  {
+    constexpr std::uint64_t exponent = 0x7ff0000000000000;
+    const double            x        = rounded;
+    std::uint64_t           bits;
+    std::memcpy(&bits, &x, sizeof(bits));
+    bits &= exponent;
+    double power;
+    std::memcpy(&power, &bits, sizeof(power));
+    return x + remainder * unit_of_remainders * power;
+  }
+
+  /// The numbers of 3x3 blocks in memory, nine each, row by row: in double precision, or from some position
+  /// on rounded and what is missing then. What only needs them rounded has half as much to read.
+  struct BlockNumbers
+  {
+    /// All in double precision.
+    BlockNumbers(const double *const exact)
+      : exact(exact)
+    {
+    }
+
+    /// Split from a position on.
+    BlockNumbers(const double *const exact, const std::size_t first_split, const float *const rounded,
+                 const std::int32_t *const remainders)
+      : exact(exact)
+      , first_split(first_split)
+      , rounded(rounded)
+      , remainders(remainders)
+    {
+    }
+
+    /// Nine numbers of the block at position k.
+    void read(double *const to, const std::size_t k) const
+    {
+      if (k < first_split)
+        std::memcpy(to, exact + 9 * k, 9 * sizeof(double));
+      else
+        for (std::size_t i = 9 * (k - first_split), c = 0; c < 9; ++c)
+          to[c] = put_together(rounded[i + c], remainders[i + c]);
+    }
+
+    /// The trace of that block.
+    double trace(const std::size_t k) const
+    {
+      double numbers[9];
+      read(numbers, k);
+      return numbers[0] + numbers[4] + numbers[8];
+    }
+
+    /// Those before the first one that is split, and a number more.
+    const double *exact;
+    /// Where blocks begin that are split.
+    std::size_t first_split = std::numeric_limits<std::size_t>::max();
+    /// The numbers from there on, and eight more: put_together().
+    const float        *rounded    = nullptr;
+    const std::int32_t *remainders = nullptr; ///< See there.
+  };
+
   /// Four numbers at once.
   typedef double Vector4 __attribute__((vector_size(4 * sizeof(double))));
 
-  /// Kernels on consecutive 3x3 blocks (nine numbers each, row by row). Products ask for memory further on in
-  /// the direction of reading. All read one number behind the last block: there must be one.
+  /// Kernels on consecutive 3x3 blocks. Products ask for memory further on in the direction of reading. Of a
+  /// range all blocks are split, or none.
   ///
   /// sums[3 r + c] = Σ_k (A_k x_{columns[k]})_c over the blocks k of range r, reading forward.
-  void multiply_block_ranges(double *sums, const double *blocks, const unsigned int *columns,
+  void multiply_block_ranges(double *sums, const BlockNumbers &blocks, const unsigned int *columns,
                              const BlockRange *ranges, unsigned int n_ranges, const double *x);
 
   /// The same, reading from the last block to the first: for sweeps that go backward.
-  void multiply_block_ranges_backward(double *sums, const double *blocks, const unsigned int *columns,
+  void multiply_block_ranges_backward(double *sums, const BlockNumbers &blocks, const unsigned int *columns,
                                       const BlockRange *ranges, unsigned int n_ranges, const double *x);
 
   /// values_{columns[k]} -= A_kᵀ change for the blocks of a range: what a change of the row's node does to
   /// its neighbours.
-  void subtract_transposed_blocks(double *values, const double *blocks, const unsigned int *columns,
+  void subtract_transposed_blocks(double *values, const BlockNumbers &blocks, const unsigned int *columns,
                                   const BlockRange range, const double *change);
 
-  /// Blocks that are in memory transposed, anywhere: A_m is the transposed block at positions[m].
+  /// Both at once, for a row of a symmetric matrix: values_row -= Σ_k A_k x_{columns[k]}, and
+  /// values_{columns[k]} -= A_kᵀ x_row.
+  void subtract_both_ways(double *values, unsigned int row, const BlockNumbers &blocks,
+                          const unsigned int *columns, const BlockRange range, const double *x);
+
+  /// Blocks that are in memory transposed, anywhere: A_m is the transposed block at positions[m]. All are
+  /// split, or none.
   struct MirroredBlocks
   {
-    /// Nine numbers each, row by row; one number more than those of all blocks.
-    const double *blocks;
+    /// Of all positions.
+    BlockNumbers blocks;
     /// Positions and columns of a row.
     const unsigned int *positions, *columns;
     /// How many.

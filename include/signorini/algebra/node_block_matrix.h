@@ -4,6 +4,7 @@
 #ifndef signorini_algebra_node_block_matrix_h
 #define signorini_algebra_node_block_matrix_h
 
+#include <signorini/algebra/block_storage.h>
 #include <signorini/algebra/block_structure.h>
 #include <signorini/algebra/types.h>
 
@@ -17,22 +18,24 @@ namespace Signorini
   {
     /// Local node.
     unsigned int column;
-    /// The nine numbers in memory, row by row.
-    const double *numbers;
-    /// Whether they are those of the transposed block.
+    /// Where it is in memory.
+    const BlockNumbers &numbers;
+    std::size_t         position; ///< Of the block in memory.
+    /// Whether it is the transposed block that is there.
     bool is_mirrored;
 
     /// The block itself.
     Block block() const
     {
-      const Block in_memory = read_block(numbers);
-      return is_mirrored ? transpose(in_memory) : in_memory;
+      double in_memory[9];
+      numbers.read(in_memory, position);
+      return is_mirrored ? transpose(read_block(in_memory)) : read_block(in_memory);
     }
 
     /// Its trace.
     double trace() const
     {
-      return numbers[0] + numbers[4] + numbers[8];
+      return numbers.trace(position);
     }
   };
 
@@ -51,7 +54,7 @@ namespace Signorini
     MirroredBlocks mirrored_blocks(const unsigned int row) const
     {
       const MirroredPlaces places = above(row);
-      return {values.data(), places.positions, places.columns, places.n};
+      return {block_data(), places.positions, places.columns, places.n};
     }
 
     /// Adds blocks to a row given by row_of(), as far as they are in memory.
@@ -80,34 +83,57 @@ namespace Signorini
     template <typename Action>
     void visit_row(const unsigned int row, const Action &action) const
     {
-      const auto visit = [&](const BlockRange &range) {
+      const BlockNumbers numbers = block_data();
+      const auto         visit   = [&](const BlockRange &range) {
         for (std::size_t k = range.begin; k < range.end; ++k)
-          action(RowEntry{column(k), block(k), false});
+          action(RowEntry{column(k), numbers, k, false});
       };
-      action(RowEntry{row, block(diagonal(row)), false});
+      action(RowEntry{row, numbers, diagonal(row), false});
       visit(lower(row));
-      const MirroredBlocks above = mirrored_blocks(row);
-      for (std::size_t m = 0; m < above.n; ++m)
-        action(RowEntry{above.columns[m], block(above.positions[m]), true});
+      const MirroredPlaces mirrored = above(row);
+      for (std::size_t m = 0; m < mirrored.n; ++m)
+        action(RowEntry{mirrored.columns[m], numbers, mirrored.positions[m], true});
       visit(outer(row));
     }
 
     /// The blocks of all positions.
-    const double *block_data() const
+    BlockNumbers block_data() const
     {
-      return values.data();
+      return values.numbers();
     }
 
-    /// Nine numbers, row by row.
+    /// Nine numbers, row by row, of a block that is not split.
     double *block(const std::size_t k)
     {
-      return values.data() + 9 * k;
+      return values.exact(k);
     }
 
     /// The nine numbers of block k.
     const double *block(const std::size_t k) const
     {
-      return values.data() + 9 * k;
+      return values.exact(k);
+    }
+
+    /// Splits the blocks below the diagonal (see BlockStorage), for a matrix that has no ghosts and whose
+    /// numbers are in the middle of the range of single precision: others stay as they are.
+    void split();
+
+    /// Whether it is split: then diagonal blocks alone may be written.
+    bool is_split() const
+    {
+      return values.is_split();
+    }
+
+    /// All blocks may be written again.
+    void join()
+    {
+      values.join();
+    }
+
+    /// Bytes of the numbers in memory.
+    std::size_t n_bytes() const
+    {
+      return values.n_bytes();
     }
 
     /// Sets what a row given by row_of() has in memory to zero.
@@ -132,12 +158,12 @@ namespace Signorini
   private:
     void add_to_block(const std::size_t k, const double *const numbers)
     {
+      double *const here = values.exact(k);
       for (unsigned int i = 0; i < 9; ++i)
-        values[9 * k + i] += numbers[i];
+        here[i] += numbers[i];
     }
 
-    /// One number more than there are, see block_row.h.
-    std::vector<double> values;
+    BlockStorage values;
   };
 
   /// Collective. The largest diagonal entry of a matrix, over all ranks: a scale for its units.

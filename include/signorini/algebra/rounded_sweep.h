@@ -45,11 +45,12 @@ namespace Signorini
   /// 3x3 blocks, A = L + D + Lᵀ + G, where L couples a row to those that come before it in the order of the
   /// sweep, G to ghosts.
   ///
-  /// A sweep reads L and D⁻¹ only, a quarter of the memory of A: products with rows that come before are
-  /// computed, those with the others are kept up to date, in `reduced` = rhs - Lᵀ v - G v, by passing the
-  /// change of a row on to rows before it while it is at hand. Sweeps that go backward do the same. The
-  /// numbers of v are kept in double precision as well, for rows that are not visited in this way: whoever
-  /// changes v there tells by set() and pass_down(), and pass_from_ghost().
+  /// A sweep reads L and D⁻¹ only, a quarter of the memory of A: from the matrix itself if it is split and
+  /// the order is that of its numbers, else from a copy. Products with rows that come before are computed,
+  /// those with the others are kept up to date, in `reduced` = rhs - Lᵀ v - G v, by passing the change of a
+  /// row on to rows before it while it is at hand. Sweeps that go backward do the same. The numbers of v are
+  /// kept in double precision as well, for rows that are not visited in this way: whoever changes v there
+  /// tells by set() and pass_down(), and pass_from_ghost().
   ///
   /// Errors are those of single precision relative to v. The matrix must outlive the object.
   class RoundedSweep
@@ -107,10 +108,12 @@ namespace Signorini
     /// What the kernels need.
     struct Arrays
     {
-      /// Nine numbers a block, see RoundedSweep::blocks.
+      /// Nine numbers a block, row by row of the block; eight more may be read.
       const float *blocks;
+      /// The inverse diagonal blocks, column by column, by position in the order.
+      const float *inverses;
       /// By position in the order: the first entry of a row in `columns`. In `blocks` those entries begin
-      /// with zero, and with an inverse behind each row.
+      /// with zero.
       const std::size_t *lower_start;
       /// Positions.
       const unsigned int *columns;
@@ -131,6 +134,12 @@ namespace Signorini
     void find_unit(const double largest_value);
     void fit_unit(const double largest_value);
 
+    /// Whether the lower blocks are those of the matrix.
+    bool shares_blocks() const
+    {
+      return positions.empty() && matrix.is_split();
+    }
+
     /// Where a row is in the order.
     unsigned int position(const unsigned int row) const
     {
@@ -145,9 +154,8 @@ namespace Signorini
     /// Of NodeBlockMatrix::ghost_column(), one column after the other; nine numbers, column by column.
     std::vector<float>        ghost_blocks;
     std::vector<unsigned int> ghost_positions;
-    /// A row: its lower blocks two by two, side by side (three rows of six numbers), the last one alone, as
-    /// well as the one before if it is left over; then the inverse diagonal block, column by column.
-    std::unique_ptr<float[]> blocks;
+    /// The lower blocks if they are not those of the matrix, and all inverse diagonal blocks: Arrays.
+    std::unique_ptr<float[]> own_blocks, inverses;
     RoundedVector            values, reduced;
     /// Powers of two by which matrix, values and right hand side are divided: single precision has a small
     /// range.

@@ -64,18 +64,22 @@ namespace
 // the residual; rows of all lengths and in any order, in units at both ends of single precision.
 TEST(RoundedSweep, FollowsGaussSeidel)
 {
-  for (const auto &[vectorized, factor, shuffled] :
-       std::vector<std::tuple<bool, double, bool>>{{true, 1., false},
-                                                   {true, 1e-60, false},
-                                                   {true, 1e60, true},
-                                                   {true, 1., true},
-                                                   {false, 1., false},
-                                                   {false, 1e-60, true},
-                                                   {false, 1e60, false}})
+  for (const auto &[vectorized, factor, shuffled, is_split] :
+       std::vector<std::tuple<bool, double, bool, bool>>{{true, 1., false, false},
+                                                         {true, 1e-60, false, false},
+                                                         {true, 1e60, true, false},
+                                                         {true, 1., true, false},
+                                                         {false, 1., false, false},
+                                                         {false, 1e-60, true, false},
+                                                         {false, 1e60, false, false},
+                                                         {true, 1., false, true},
+                                                         {true, 1., true, true},
+                                                         {false, 1., false, true}})
     {
       use_avx2(vectorized);
       std::ostringstream text;
-      text << (vectorized ? "vectorized, " : "plain, ") << factor << (shuffled ? ", shuffled" : "");
+      text << (vectorized ? "vectorized, " : "plain, ") << factor << (shuffled ? ", shuffled" : "")
+           << (is_split ? ", split" : "");
       SCOPED_TRACE(text.str());
       NodeBlockMatrix           matrix = RandomMatrix::make(43, 5).matrix;
       const OwnedPart           part(matrix, factor);
@@ -89,6 +93,9 @@ TEST(RoundedSweep, FollowsGaussSeidel)
       std::vector<unsigned int> order = rows;
       if (shuffled)
         std::shuffle(order.begin(), order.end(), std::mt19937(7));
+      if (is_split)
+        matrix.split();
+      EXPECT_EQ(matrix.is_split(), is_split && RandomMatrix::n_ranks() == 1);
       RoundedSweep sweep(matrix, order);
       sweep.update(rows, part.inverse_diagonal.data());
 
