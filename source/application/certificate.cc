@@ -311,6 +311,12 @@ namespace Signorini
         c.objections.push_back(
             name + "the contact mapping has errors where the bodies touch (" + mapping_errors.text +
             "); look at the surfaces with signorini-map, or refine where they are bent or folded");
+      if (pair.share_on_edges > rule.share_on_edges)
+        c.objections.push_back(
+            name + text_of(pair.share_on_edges) +
+            " of the contact force acts at sharp edges, in the mean direction of the faces that "
+            "meet there, since these faces have no other nodes: refine until they are two "
+            "cells wide or more");
       if (pair.moment_balance > rule.moment_balance)
         c.objections.push_back(name + "the moments of the contact forces on both sides differ by " +
                                text_of(pair.moment_balance) +

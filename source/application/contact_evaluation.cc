@@ -101,6 +101,18 @@ namespace Signorini
       return std::vector<bool>(active.begin(), active.end());
     }
 
+    /// Collective. PairResult::share_on_edges.
+    double share_of_load_on_edges(const PairCoupling &coupling, const ContactStress &stress,
+                                  const double load, const MPI_Comm comm)
+    {
+      double on_edges = 0.;
+      for (std::size_t row = 0; row < coupling.vertices.size(); ++row)
+        if (stress.active[row] && coupling.on_sharp_edge[row])
+          on_edges += coupling.areas[row] * stress.pressure[row];
+      on_edges = Utilities::MPI::sum(on_edges, comm);
+      return load > 0. ? on_edges / load : 0.;
+    }
+
     /// Collective. PairResult::narrow_share.
     double share_of_narrow_contact(const ContactPair &pair, const PairCoupling &coupling,
                                    const ContactStress &stress, const std::vector<bool> &is_active,
@@ -210,7 +222,10 @@ namespace Signorini
     find_extrema(result, coupling, stress, comm);
     const std::vector<bool> is_active = sum_active(result, pair, coupling, stress, comm);
     if (!pair.is_tied)
-      result.narrow_share = share_of_narrow_contact(pair, coupling, stress, is_active, comm);
+      {
+        result.narrow_share   = share_of_narrow_contact(pair, coupling, stress, is_active, comm);
+        result.share_on_edges = share_of_load_on_edges(coupling, stress, result.load, comm);
+      }
     const ContactForces forces =
         compute_contact_forces(pair.nonmortar.surface, pair.mortar.surface, coupling, stress.traction);
     result.force           = sum(forces.nonmortar.force, comm);

@@ -80,7 +80,7 @@ namespace Signorini
     a(r.loaded_gap, r.lost_area, r.load, r.approach, r.gap_doubt, r.moment_balance, r.dropped_nodes,
       r.max_pressure_at, r.min_gap_at, r.gap_doubt_at);
     a(r.slip, r.slip_in_faces, r.mean_pressure, r.max_recovered_pressure, r.max_recovered_pressure_at,
-      r.pressure_scatter, r.narrow_share, r.missed_penetration);
+      r.pressure_scatter, r.narrow_share, r.share_on_edges, r.missed_penetration);
   }
 
   template <typename Archive>

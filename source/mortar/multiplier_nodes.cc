@@ -49,11 +49,12 @@ namespace Signorini
         on_sharp_edge[v] = false;
     for (unsigned int v = 0; v < states.size(); ++v)
       {
-        State &state     = states[v];
-        state.is_covered = covered[v] > 0.;
-        state.is_touched = covered[v] > empty_share * full[v];
-        state.covered    = covered[v];
-        state.share      = full[v] > 0. ? covered[v] / full[v] : 0.;
+        State &state             = states[v];
+        state.is_covered         = covered[v] > 0.;
+        state.is_touched         = covered[v] > empty_share * full[v];
+        state.covered            = covered[v];
+        state.lies_on_sharp_edge = on_sharp_edge[v];
+        state.share              = full[v] > 0. ? covered[v] / full[v] : 0.;
         if (is_hanging(v))
           continue;
         if (surface.vertex_fixed[v].all())

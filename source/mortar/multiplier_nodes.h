@@ -54,6 +54,12 @@ namespace Signorini
       return !is_hanging(v) && !states[v].in_r;
     }
 
+    /// Whether a row lies on a sharp edge: a face needs it, and its normal is that of none.
+    bool is_on_sharp_edge(const unsigned int v) const
+    {
+      return is_row(v) && states[v].lies_on_sharp_edge;
+    }
+
     /// Covered share of the integral of its function.
     double share(const unsigned int v) const
     {
@@ -88,7 +94,7 @@ namespace Signorini
     /// What a rank knows of a vertex, its own or one that its rows or faces need.
     struct State
     {
-      bool in_r = false, is_protected = false, is_ceded = false;
+      bool in_r = false, is_protected = false, is_ceded = false, lies_on_sharp_edge = false;
       /// Whether anything is covered around it, and more than a rounding.
       bool                is_covered = false, is_touched = false;
       DroppedNode::Reason reason = DroppedNode::thin_cover;

@@ -304,6 +304,7 @@ namespace Signorini
         result.shares.push_back(nodes.share(k));
         result.fixed.push_back(non.vertex_fixed[k]);
         result.vertices.push_back(k);
+        result.on_sharp_edge.push_back(nodes.is_on_sharp_edge(k) ? 1 : 0);
       }
 
       /// Appends a row; a node that occurs on both sides gets one entry.
@@ -394,7 +395,8 @@ namespace Signorini
     return list_bytes(coupling.rows) + list_bytes(coupling.row_start) + list_bytes(coupling.entries) +
            list_bytes(coupling.weight) + list_bytes(normals) + list_bytes(gaps) + list_bytes(positions) +
            list_bytes(areas) + list_bytes(shares) + list_bytes(fixed) + list_bytes(vertices) +
-           list_bytes(r_nodes) + list_bytes(ceded) + list_bytes(dropped) + list_bytes(lost_faces);
+           list_bytes(on_sharp_edge) + list_bytes(r_nodes) + list_bytes(ceded) + list_bytes(dropped) +
+           list_bytes(lost_faces);
   }
 
 

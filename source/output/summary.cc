@@ -163,6 +163,7 @@ namespace Signorini
       json.number("pressure_scatter", pair.pressure_scatter);
       json.boolean("scatter_is_told", pair.scatter_is_told());
       json.number("narrow_share", pair.narrow_share);
+      json.number("share_on_edges", pair.share_on_edges);
       json.number("missed_penetration", pair.missed_penetration);
       json.boolean("is_narrow", pair.is_narrow());
       json.number("contact_area", pair.contact_area);

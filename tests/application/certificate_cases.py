@@ -1,4 +1,5 @@
 """What the certificate sees, and how far bodies move that little holds: problems of users that went wrong with the verdict yes."""
+import itertools
 import os
 import re
 import tempfile
@@ -479,3 +480,76 @@ def slid_apart(p):
         # Out of the cone that it lies on.
         s, told = solve(RING_ON_CONE, 'Body ring/Forces=', 'Body ring/Dirichlet=end: (0, 0, 0.5)')
         check(s['pairs'][0]['contact_area'] == 0 and not told, f'lifted off a cone: {s["pairs"]}')
+
+
+def write_stairs(path, step, n=6):
+    """Unit cubes of a box, n by 2 by n, in two bodies that meet in stairs of `step` cubes, each with nodes of its own."""
+    corners = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)]
+    faces = {(-1, 0, 0): (0, 3, 7, 4), (1, 0, 0): (1, 2, 6, 5), (0, -1, 0): (0, 1, 5, 4), (0, 1, 0): (3, 2, 6, 7), (0, 0, -1): (0, 1, 2, 3), (0, 0, 1): (4, 5, 6, 7)}
+    names = ['upper', 'lower', 'upper_joint', 'lower_joint', 'x', 'y', 'z', 'outside']
+    size = (n, 2, n)
+    nodes, elements = {}, []
+    for i, j, k in itertools.product(*map(range, size)):
+        body = 'upper' if k // step >= i // step else 'lower'
+        number = lambda c: nodes.setdefault((body, i + corners[c][0], j + corners[c][1], k + corners[c][2]), len(nodes) + 1)
+        elements.append((5, body, [number(c) for c in range(8)]))
+        for direction, face in faces.items():
+            beside = (i + direction[0], j + direction[1], k + direction[2])
+            if all(0 <= b < s for b, s in zip(beside, size)):
+                if ('upper' if beside[2] // step >= beside[0] // step else 'lower') == body:
+                    continue
+                name = f'{body}_joint'
+            else:
+                name = 'xyz'[[abs(d) for d in direction].index(1)] if min(beside) < 0 else 'outside'
+            elements.append((3, name, [number(c) for c in face]))
+    with open(path, 'w') as f:
+        f.write(f'$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n{len(names)}\n')
+        f.writelines(f'{3 if name in ("upper", "lower") else 2} {1 + names.index(name)} "{name}"\n' for name in names)
+        f.write(f'$EndPhysicalNames\n$Nodes\n{len(nodes)}\n')
+        f.writelines(f'{number} {x} {y} {z}\n' for (_, x, y, z), number in nodes.items())
+        f.write(f'$EndNodes\n$Elements\n{len(elements)}\n')
+        for number, (kind, name, corner) in enumerate(elements, 1):
+            group = 1 + names.index(name)
+            f.write(f'{number} {kind} 2 {group} {group} {" ".join(map(str, corner))}\n')
+        f.write('$EndElements\n')
+
+
+STAIRS = '''set Bodies        = upper, lower
+set Contact pairs = joint
+subsection Body upper
+  set Mesh          = stairs.msh
+  set Volumes       = upper
+  set Young modulus = 1000
+  set Dirichlet     = x: (0, *, *); y: (*, 0, *); z: (*, *, 0)
+  set Pressures     = outside: 2
+end
+subsection Body lower
+  set Mesh          = stairs.msh
+  set Volumes       = lower
+  set Young modulus = 1000
+  set Dirichlet     = y: (*, 0, *); z: (*, *, 0)
+  set Pressures     = outside: 2
+end
+subsection Pair joint
+  set First         = upper: upper_joint
+  set Second        = lower: lower_joint
+end
+'''
+
+
+def stairs(p):
+    """Pressed from all sides: where steps are one cell wide, nodes have the normals of no face, pressures are wrong, and the verdict says so."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, 'stairs.prm')
+        with open(path, 'w') as f:
+            f.write(STAIRS)
+        for step, settings, is_right in ((1, (), False), (2, (), True), (1, ('Refinement/Global cycles=1',), True)):
+            write_stairs(os.path.join(folder, 'stairs.msh'), step)
+            for side in ('first', 'second'):
+                s = p.solve(path, f'Pair joint/Nonmortar={side}', *settings, codes=(0,) if is_right else (3,))
+                pair = s['pairs'][0]
+                print(f'steps of {step} {settings}, {side} nonmortar: {pair["min_pressure"]} to {pair["max_pressure"]}, on edges {pair["share_on_edges"]}')
+                error = max(abs(pair['max_pressure'] / 2 - 1), abs(pair['min_pressure'] / 2 - 1))
+                check((error < 1e-9) == is_right and (pair['share_on_edges'] == 0) == is_right, f'steps of {step}, {side}: wrong by {error}')
+                objections = s['certificate']['objections']
+                check(any('acts at sharp edges' in text for text in objections) != is_right, f'{objections}')

@@ -38,6 +38,10 @@ namespace Signorini
     /// The area of faces where the mapping has errors, relative to that of contact, and the force on them. A
     /// taper of 1,500 nodes with one triangle that is covered wrongly: 2e-3, and the force to all digits.
     double wrongly_mapped = .01;
+    /// Of the load, on nodes of sharp edges. Stairs under pressure from all sides, where contact is uniform:
+    /// with one cell a step .93 and pressures wrong by 40 %, voxels .66 and 60 %, with two cells a step .16
+    /// and 5 % in the mean, .07 and 2 %, 0 and nothing.
+    double share_on_edges = .1;
     /// Directions that contradict each other.
     double moment_balance = .05;
   };

@@ -102,6 +102,9 @@ namespace Signorini
     /// Share of the load on nodes around which no face is in contact as a whole: pressures there are those of
     /// the mesh. Zero for ties.
     double narrow_share = 0.;
+    /// Share of the load on nodes of sharp edges: they press along the mean of the normals of the faces that
+    /// meet there, where those have no other node. Zero for ties.
+    double share_on_edges = 0.;
     /// Whether that is so much that it is told (NarrowContactRule).
     bool is_narrow() const
     {
