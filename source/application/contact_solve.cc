@@ -240,7 +240,7 @@ namespace Signorini
     /// What is around the half-spaces of a problem.
     FacesAtContact faces_at_contact(const Discretization &d)
     {
-      std::vector<double> turn(d.coupling.n_rows(), 0.);
+      std::vector<std::vector<Vector3>> turns(d.coupling.n_rows());
       for (const NodalSpace::BoundaryFace &face : d.nodal().boundary_faces())
         {
           const NodalSpace::Cell &cell    = d.nodal().cells()[face.cell];
@@ -250,14 +250,14 @@ namespace Signorini
               if (const std::ptrdiff_t a = d.coupling.find(d.nodal().nodes(cell)[one]),
                   b                      = d.coupling.find(d.nodal().nodes(cell)[other]);
                   a >= 0 && b >= 0)
-                if (const double angle = (d.projections[a].direction() - d.projections[b].direction()).norm();
-                    angle < LooseMotionRule().sharp)
-                  turn[a] = std::max(turn[a], angle);
+                if (const Vector3 turn = d.projections[b].direction() - d.projections[a].direction();
+                    a != b && turn.norm() < LooseMotionRule().sharp)
+                  turns[a].push_back(turn);
         }
       FacesAtContact result{mean_width(d), {}};
-      for (std::size_t row = 0; row < turn.size(); ++row)
+      for (std::size_t row = 0; row < turns.size(); ++row)
         if (!d.tied[row] && d.owns_row(row))
-          result.turn.push_back(turn[row]);
+          result.turns.push_back(turns[row]);
       return result;
     }
 
@@ -268,7 +268,7 @@ namespace Signorini
       double result = 0.;
       for (std::size_t p = 0; p < active.size(); ++p)
         if (active[p])
-          result = std::max(result, faces.turn[p]);
+          result = std::max(result, faces.turn(p));
       return Utilities::MPI::max(result, d.nodal().communicator());
     }
 

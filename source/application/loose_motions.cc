@@ -143,8 +143,9 @@ namespace Signorini
                 part += motion[i] * spaces.normal_part(p, fields[i]);
                 whole += motion[i] * nodal_value(fields[i], spaces.nodes[p]);
               }
-            is_opposed = is_opposed || std::abs(part) > LooseMotionRule().offset *
-                                                            std::max(turned, faces.turn[p] * whole.norm());
+            is_opposed =
+                is_opposed || std::abs(part) > LooseMotionRule().offset *
+                                                   std::max(turned, faces.change_of_normal_part(p, whole));
           }
       return Utilities::MPI::max(static_cast<int>(is_opposed), fields[0].get_mpi_communicator()) == 0;
     }

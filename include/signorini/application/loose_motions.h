@@ -119,9 +119,27 @@ namespace Signorini
   {
     /// In the mean (length).
     double width;
-    /// By half-space, how much the normal changes within a face there (1): the distance of unit vectors; zero
-    /// at sharp edges.
-    std::vector<double> turn;
+    /// By half-space, what normals change by within the faces around it: differences to the unit normals of
+    /// the nodes there, none across sharp edges.
+    std::vector<std::vector<Vector3>> turns;
+
+    /// The largest of them at a half-space (1).
+    double turn(const std::size_t p) const
+    {
+      double largest = 0.;
+      for (const Vector3 &one : turns[p])
+        largest = std::max(largest, one.norm());
+      return largest;
+    }
+
+    /// By how much the normal part of a displacement of its node changes, at most.
+    double change_of_normal_part(const std::size_t p, const Vector3 &displacement) const
+    {
+      double largest = 0.;
+      for (const Vector3 &one : turns[p])
+        largest = std::max(largest, std::abs(one * displacement));
+      return largest;
+    }
   };
 
   /// Collective. Motions of single parts along which a solution slides by more than a tenth of a face, and

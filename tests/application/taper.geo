@@ -1,0 +1,22 @@
+// An abutment with a cone of 5.5 degrees in its implant, whole; 30 edges around.
+SetFactory("OpenCASCADE");
+DefineConstant[ h = 0.28 ];
+lower = 1.2;
+slope = Tan(5.5 * Pi / 180);
+Cylinder(1) = {0, 0, -1, 0, 0, 4, 2.1};
+Cone(2) = {0, 0, 0, 0, 0, 3, lower, lower + 3 * slope};
+Cylinder(3) = {0, 0, -1, 0, 0, 1, 0.8};
+BooleanDifference(10) = { Volume{1}; Delete; }{ Volume{2, 3}; Delete; };
+Cone(11) = {0, 0, 0.3, 0, 0, 2.7, lower + 0.3 * slope, lower + 3 * slope};
+Cylinder(12) = {0, 0, 3, 0, 0, 1, lower + 3 * slope};
+BooleanUnion(20) = { Volume{11}; Delete; }{ Volume{12}; Delete; };
+eps = 1e-3;
+Physical Volume("implant") = {10};
+Physical Volume("abutment") = {20};
+Physical Surface("foot") = Surface In BoundingBox {-3, -3, -1 - eps, 3, 3, -1 + eps};
+Physical Surface("top") = Surface In BoundingBox {-3, -3, 4 - eps, 3, 3, 4 + eps};
+cones[] = Surface In BoundingBox {-1.6, -1.6, -eps, 1.6, 1.6, 3 + eps};
+cones[] -= Surface In BoundingBox {-1.6, -1.6, -eps, 1.6, 1.6, 0.3 + eps};
+Physical Surface("seat") = {cones[]};
+Mesh.MeshSizeMin = h;
+Mesh.MeshSizeMax = h;
