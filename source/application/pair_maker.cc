@@ -290,6 +290,15 @@ namespace Signorini
 
 
 
+  double PairMaker::depth(const ContactPair &pair) const
+  {
+    return std::max(0., -assess_mapping(*pair.mapping, pair.nonmortar.surface.mesh, pair.mortar.surface.mesh,
+                                        model.communicator())
+                             .min_gap);
+  }
+
+
+
   double PairMaker::cut_share(const ContactPair &pair) const
   {
     constexpr double rounding = 1e-6;

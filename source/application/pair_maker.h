@@ -36,6 +36,9 @@ namespace Signorini
     /// beside torn edges; 1 where it covers something twice, or nothing.
     double wrong_share(const ContactPair &pair) const;
 
+    /// Collective. How deep the facets of a pair lie in each other, as the mapping has it (length).
+    double depth(const ContactPair &pair) const;
+
     /// Collective. Of what the pair covers and is not far from, the area of the nonmortar faces that it
     /// covers only partly: the other surface ends over them.
     double cut_share(const ContactPair &pair) const;

@@ -80,7 +80,10 @@ namespace Signorini
       /// round; from .46 on they were 1.3 to 6 times the right ones, and .93 to 1.24 times with swapped
       /// sides.
       double least_wrong = .5;
-      /// Of what the mapping gets wrong of the pair's faces, what it has to be less than with swapped sides.
+      /// Of what the mapping gets wrong of the pair's faces, or of how deep the surfaces lie in each other by
+      /// it, what these have to be less than with swapped sides. (Few wrong cells matter where they seem to
+      /// penetrate: contact is there then. A thread with 23 such cells of 19,000, 16 clearances deep, turned
+      /// by 6 degrees.)
       double much_less_wrong = .1;
     };
 
@@ -179,10 +182,13 @@ namespace Signorini
     const double wrong        = maker.wrong_share(pairs[p]),
                  least        = has_sharp_edges(pairs[p]) ? SideRule().least_share : SideRule().least_wrong;
     constexpr double rounding = 1e-6;
-    if (!(wrong > (1. + rounding) * least))
+    const bool       are_many = wrong > (1. + rounding) * least;
+    const double     depth    = !are_many && wrong > 0. ? maker.depth(pairs[p]) : 0.;
+    if (!are_many && !(depth > 0.))
       return;
     ContactPair other = make(p, true);
-    if (maker.wrong_share(other) > SideRule().much_less_wrong * wrong)
+    if (maker.wrong_share(other) > SideRule().much_less_wrong * wrong ||
+        (!are_many && maker.depth(other) > SideRule().much_less_wrong * depth))
       return;
     pairs[p]          = std::move(other);
     turned[p]         = true;
