@@ -449,8 +449,13 @@ namespace Signorini
           !boundaries_facing(name, start.mesh, start.boundary).empty())
         return boundaries_facing(name, start.mesh, start.boundary);
     if (it == boundaries[body].end())
-      throw InputError((where.empty() ? "Body " : where + ": body ") + names[body] + " has no boundary \"" +
-                       name + "\"; it has " + listed(names_to_show(boundaries[body], groups[body])) + ".");
+      throw InputError(
+          (where.empty() ? "Body " : where + ": body ") + names[body] + " has no boundary \"" + name +
+          "\"; it has " + listed(names_to_show(boundaries[body], groups[body])) + "." +
+          (parse_direction(name)
+               ? " Only a boundary that is flat as a whole and faces that way goes by the name of a "
+                 "direction, too: give these faces a physical name of their own."
+               : ""));
     return {static_cast<types::boundary_id>(first_boundary[body] + (it - boundaries[body].begin()))};
   }
 
