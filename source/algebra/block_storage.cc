@@ -25,7 +25,7 @@ namespace Signorini
     std::int32_t remainder(const double x, const float rounded)
     {
       constexpr std::uint64_t exponent = 0x7ff0000000000000, twice_of_one = 0x7fe0000000000000;
-      if (rounded == 0.f)
+      if (rounded == 0.f || !std::isfinite(rounded))
         return 0;
       const double  y = rounded;
       std::uint64_t bits;

@@ -105,7 +105,8 @@ namespace Signorini
 
 
 #ifdef SIGNORINI_AVX2
-    /// A row of two blocks at once, six numbers. What is read beside them is not used.
+    /// A row of two blocks at once, with the number behind each: these are multiplied with the fourth numbers
+    /// of nodes, which are zero.
     namespace Avx2
     {
 #  define SIGNORINI_INLINE_AVX2 SIGNORINI_AVX2 inline __attribute__((always_inline))

@@ -316,7 +316,8 @@ namespace Signorini
             name + text_of(pair.share_on_edges) +
             " of the contact force acts at sharp edges, in the mean direction of the faces that "
             "meet there, since these faces have no other nodes: refine until they are two "
-            "cells wide or more");
+            "cells wide or more" +
+            (model.definition.obstacle ? "" : ", or choose the other side as \"Nonmortar\""));
       if (pair.moment_balance > rule.moment_balance)
         c.objections.push_back(name + "the moments of the contact forces on both sides differ by " +
                                text_of(pair.moment_balance) +

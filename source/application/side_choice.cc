@@ -183,7 +183,10 @@ namespace Signorini
                  least        = has_sharp_edges(pairs[p]) ? SideRule().least_share : SideRule().least_wrong;
     constexpr double rounding = 1e-6;
     const bool       are_many = wrong > (1. + rounding) * least;
-    const double     depth    = !are_many && wrong > 0. ? maker.depth(pairs[p]) : 0.;
+    const bool       may_be_few =
+        !pairs[p].is_tied && wrong > 0. &&
+        pairs[p].mortar.material.young <= SideRule().much_stiffer * pairs[p].nonmortar.material.young;
+    const double depth = !are_many && may_be_few ? maker.depth(pairs[p]) : 0.;
     if (!are_many && !(depth > 0.))
       return;
     ContactPair other = make(p, true);
@@ -193,10 +196,10 @@ namespace Signorini
     pairs[p]          = std::move(other);
     turned[p]         = true;
     is_for_mapping[p] = true;
-    journal.note(
-        "pair " + pairs[p].name +
-        ": its sides are swapped, because the mapping has errors the other way round; nonmortar is \"" +
-        model.bodies().body_name(pairs[p].nonmortar.body) + "\".");
+    journal.note("pair " + pairs[p].name +
+                 ": its sides are swapped, because the mapping has errors the other way round" +
+                 (are_many ? "" : ", by which the surfaces lie in each other") + "; nonmortar is \"" +
+                 model.bodies().body_name(pairs[p].nonmortar.body) + "\".");
   }
 
 

@@ -6,6 +6,8 @@
 #include <signorini/algebra/gathered_lists.h>
 #include <signorini/algebra/row_projection.h>
 #include <signorini/mesh/facing_parts.h>
+#include <signorini/mesh/surface_normals.h>
+#include <signorini/surface/crease_edges.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -47,13 +49,14 @@ namespace Signorini
     for (std::size_t v = 0; v < surface.has_partner_normal.size(); ++v)
       if (surface.has_partner_normal[v])
         on_sharp_edge[v] = false;
+    const std::vector<bool> of_none = with_normal_of_none();
     for (unsigned int v = 0; v < states.size(); ++v)
       {
         State &state             = states[v];
         state.is_covered         = covered[v] > 0.;
         state.is_touched         = covered[v] > empty_share * full[v];
         state.covered            = covered[v];
-        state.lies_on_sharp_edge = on_sharp_edge[v];
+        state.lies_on_sharp_edge = rule.drops_sharp_edges && of_none[v];
         state.share              = full[v] > 0. ? covered[v] / full[v] : 0.;
         if (is_hanging(v))
           continue;
@@ -85,6 +88,28 @@ namespace Signorini
     std::vector<bool> result(surface.faces.size(), false);
     for (const FaceMoments &m : moments)
       result[m.face] = m.covered > rule.smallest_share * m.area;
+    return result;
+  }
+
+
+
+  std::vector<bool> MultiplierNodes::with_normal_of_none() const
+  {
+    const double      smallest_cosine = std::cos(CreaseEdgeRule().sharp * numbers::PI / 180.);
+    std::vector<bool> is_covered(surface.faces.size(), false), is_seen(states.size(), false), result(is_seen);
+    for (const FaceMoments &m : moments)
+      is_covered[m.face] = !is_empty(m);
+    for (unsigned int t = 0; t < surface.mesh.triangles.size(); ++t)
+      if (const ContactSurface::Face &face = surface.faces[surface.triangle_face[t]];
+          is_covered[surface.triangle_face[t]])
+        for (const unsigned int v : surface.mesh.triangles[t])
+          if (!face.leaves_vertex(v))
+            {
+              const bool is_of_facet =
+                  surface.mesh.vertex_normals[v] * facet_normal(surface, t) >= smallest_cosine;
+              result[v]  = !is_of_facet && (result[v] || !is_seen[v]);
+              is_seen[v] = true;
+            }
     return result;
   }
 

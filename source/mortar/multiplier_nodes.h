@@ -54,7 +54,8 @@ namespace Signorini
       return !is_hanging(v) && !states[v].in_r;
     }
 
-    /// Whether a row lies on a sharp edge: a face needs it, and its normal is that of none.
+    /// Whether the normal of a row is that of none of the covered faces around it: it lies on a sharp edge,
+    /// and a face needs it or is all that is covered there.
     bool is_on_sharp_edge(const unsigned int v) const
     {
       return is_row(v) && states[v].lies_on_sharp_edge;
@@ -108,6 +109,10 @@ namespace Signorini
 
     /// Own and ghost faces of which at least the share is covered that nodes need.
     std::vector<bool> well_covered(const DroppingRule &rule) const;
+
+    /// By vertex whether its normal is more than CreaseEdgeRule::sharp from those of all covered facets on
+    /// which it acts.
+    std::vector<bool> with_normal_of_none() const;
 
     void drop(const unsigned int v, const DroppedNode::Reason why);
     bool is_reported(const unsigned int v) const;

@@ -105,7 +105,6 @@ def cone_in_socket(p):
         check(run.returncode == 1 and 'Does it belong to this boundary' in run.stderr, f'a cone that narrows: {run.returncode}, {run.stderr}')
 
 
-
 TAPER = '''set Bodies        = implant, abutment
 set Contact pairs = seat
 subsection Body implant

@@ -6,7 +6,11 @@
 
 #include <signorini/algebra/block_row.h>
 
+#include <deal.II/base/exceptions.h>
+
+#include <cstdint>
 #include <cstdlib>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -32,21 +36,21 @@ namespace Signorini
     /// Nine numbers of a block that is not split, and those behind it.
     double *exact(const std::size_t k)
     {
-      Assert(k <= first_split, dealii::ExcInternalError());
+      Assert(k < first_split, dealii::ExcInternalError());
       return reinterpret_cast<double *>(memory.get()) + 9 * k;
     }
 
     /// The same, to be read.
     const double *exact(const std::size_t k) const
     {
-      Assert(k <= first_split, dealii::ExcInternalError());
+      Assert(k < first_split, dealii::ExcInternalError());
       return reinterpret_cast<const double *>(memory.get()) + 9 * k;
     }
 
     /// For kernels.
     BlockNumbers numbers() const
     {
-      return {exact(0), first_split, rounded(), remainders.data()};
+      return {reinterpret_cast<const double *>(memory.get()), first_split, rounded(), remainders.data()};
     }
 
     /// Splits the blocks from a position on. They lie in place until then: at no time there is more than all

@@ -52,7 +52,8 @@ namespace Signorini
   /// kept in double precision as well, for rows that are not visited in this way: whoever changes v there
   /// tells by set() and pass_down(), and pass_from_ghost().
   ///
-  /// Errors are those of single precision relative to v. The matrix must outlive the object.
+  /// Errors are those of single precision relative to v. The matrix must outlive the object, and stay
+  /// split or whole.
   class RoundedSweep
   {
   public:

@@ -84,8 +84,8 @@ namespace Signorini
     std::vector<double>           shares;
     std::vector<FixedDirections>  fixed;
     std::vector<unsigned int>     vertices;
-    /// By row whether its node lies on a sharp edge and would carry no multiplier if a face could do without:
-    /// its normal is that of none of the faces.
+    /// By row whether its normal is that of none of the covered faces around it: its node lies on a sharp
+    /// edge, and they have no others, or only one of them is covered.
     std::vector<unsigned char> on_sharp_edge;
     /// Nodes of these columns that belong to the nonmortar surface (the set R), sorted.
     std::vector<NodeIndex> r_nodes;
