@@ -482,21 +482,23 @@ def slid_apart(p):
         check(s['pairs'][0]['contact_area'] == 0 and not told, f'lifted off a cone: {s["pairs"]}')
 
 
-def write_stairs(path, step, n=6):
-    """Unit cubes of a box, n by 2 by n, in two bodies that meet in stairs of `step` cubes, each with nodes of its own."""
+def write_cubes(path, size, body_of):
+    """Unit cubes of a box in two bodies, each with nodes of its own; body_of(i, j, k) may be None. Faces that meet no cube of the same body inside of the box are
+    BODY_joint, those on the planes of coordinates x, y, z, others outside."""
     corners = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)]
     faces = {(-1, 0, 0): (0, 3, 7, 4), (1, 0, 0): (1, 2, 6, 5), (0, -1, 0): (0, 1, 5, 4), (0, 1, 0): (3, 2, 6, 7), (0, 0, -1): (0, 1, 2, 3), (0, 0, 1): (4, 5, 6, 7)}
     names = ['upper', 'lower', 'upper_joint', 'lower_joint', 'x', 'y', 'z', 'outside']
-    size = (n, 2, n)
     nodes, elements = {}, []
     for i, j, k in itertools.product(*map(range, size)):
-        body = 'upper' if k // step >= i // step else 'lower'
+        body = body_of(i, j, k)
+        if body is None:
+            continue
         number = lambda c: nodes.setdefault((body, i + corners[c][0], j + corners[c][1], k + corners[c][2]), len(nodes) + 1)
         elements.append((5, body, [number(c) for c in range(8)]))
         for direction, face in faces.items():
             beside = (i + direction[0], j + direction[1], k + direction[2])
             if all(0 <= b < s for b, s in zip(beside, size)):
-                if ('upper' if beside[2] // step >= beside[0] // step else 'lower') == body:
+                if body_of(*beside) == body:
                     continue
                 name = f'{body}_joint'
             else:
@@ -544,7 +546,7 @@ def stairs(p):
         with open(path, 'w') as f:
             f.write(STAIRS)
         for step, settings, is_right in ((1, (), False), (2, (), True), (1, ('Refinement/Global cycles=1',), True)):
-            write_stairs(os.path.join(folder, 'stairs.msh'), step)
+            write_cubes(os.path.join(folder, 'stairs.msh'), (6, 2, 6), lambda i, j, k: 'upper' if k // step >= i // step else 'lower')
             for side in ('first', 'second'):
                 s = p.solve(path, f'Pair joint/Nonmortar={side}', *settings, codes=(0,) if is_right else (3,))
                 pair = s['pairs'][0]
@@ -553,3 +555,42 @@ def stairs(p):
                 check((error < 1e-9) == is_right and (pair['share_on_edges'] == 0) == is_right, f'steps of {step}, {side}: wrong by {error}')
                 objections = s['certificate']['objections']
                 check(any('acts at sharp edges' in text for text in objections) != is_right, f'{objections}')
+
+
+CHANNEL = '''set Bodies        = upper, lower
+set Contact pairs = joint
+subsection Body upper
+  set Mesh          = channel.msh
+  set Volumes       = upper
+  set Young modulus = 1000
+  set Dirichlet     = y: (*, 0, *)
+  set Tractions     = outside: (0, 0, -2*(z > 3.5))
+end
+subsection Body lower
+  set Mesh          = channel.msh
+  set Volumes       = lower
+  set Young modulus = 1000
+  set Dirichlet     = z: (0, 0, 0); y: (*, 0, *)
+end
+subsection Pair joint
+  set First         = upper: upper_joint
+  set Second        = lower: lower_joint
+end
+'''
+
+
+def channel(p):
+    """A bar of one cell on the floor of a channel whose walls its sides see from afar: nodes of its edges press along the mean of both, and it is carried by too much."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, 'channel.prm')
+        with open(path, 'w') as f:
+            f.write(CHANNEL)
+        write_cubes(os.path.join(folder, 'channel.msh'), (5, 3, 4), lambda i, j, k: 'lower' if k == 0 or i in (0, 4) else 'upper' if i == 2 else None)
+        for side in ('first', 'second'):
+            s = p.solve(path, f'Pair joint/Nonmortar={side}', codes=(0, 3))
+            pair = s['pairs'][0]
+            # The floor is flat.
+            is_right = abs(pair['load'] / abs(pair['force'][2]) - 1) < 1e-6
+            print(f'{side} nonmortar: load {pair["load"]}, on edges {pair["share_on_edges"]}, {s["certificate"]["objections"]}')
+            check(is_right == s['certificate']['contact_conditions_hold'], f'{side}: load {pair["load"]}: {s["certificate"]}')
+            check(is_right == (pair['share_on_edges'] < .1), f'{side}: load {pair["load"]}, on edges {pair["share_on_edges"]}')
