@@ -444,19 +444,17 @@ namespace Signorini
           return ids;
         }
     const auto it = std::find(boundaries[body].begin(), boundaries[body].end(), name);
-    if (it == boundaries[body].end())
-      if (const StartSurface &start = start_surfaces[body];
-          !boundaries_facing(name, start.mesh, start.boundary).empty())
-        return boundaries_facing(name, start.mesh, start.boundary);
-    if (it == boundaries[body].end())
-      throw InputError(
-          (where.empty() ? "Body " : where + ": body ") + names[body] + " has no boundary \"" + name +
-          "\"; it has " + listed(names_to_show(boundaries[body], groups[body])) + "." +
-          (parse_direction(name)
-               ? " Only a boundary that is flat as a whole and faces that way goes by the name of a "
-                 "direction, too: give these faces a physical name of their own."
-               : ""));
-    return {static_cast<types::boundary_id>(first_boundary[body] + (it - boundaries[body].begin()))};
+    if (it != boundaries[body].end())
+      return {static_cast<types::boundary_id>(first_boundary[body] + (it - boundaries[body].begin()))};
+    const StartSurface &start = start_surfaces[body];
+    if (const auto facing = boundaries_facing(name, start.mesh, start.boundary); !facing.empty())
+      return facing;
+    throw InputError((where.empty() ? "Body " : where + ": body ") + names[body] + " has no boundary \"" +
+                     name + "\"; it has " + listed(names_to_show(boundaries[body], groups[body])) + "." +
+                     (parse_direction(name)
+                          ? " Only a boundary that is flat as a whole and faces that way goes by the "
+                            "name of a direction, too: give these faces a physical name of their own."
+                          : ""));
   }
 
 
