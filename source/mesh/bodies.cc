@@ -452,8 +452,7 @@ namespace Signorini
     throw InputError((where.empty() ? "Body " : where + ": body ") + names[body] + " has no boundary \"" +
                      name + "\"; it has " + listed(names_to_show(boundaries[body], groups[body])) + "." +
                      (parse_direction(name)
-                          ? " Only a boundary that is flat as a whole and faces that way goes by the "
-                            "name of a direction, too: give these faces a physical name of their own."
+                          ? " Only a boundary that is flat as a whole has such a name: name that face apart."
                           : ""));
   }
 
