@@ -99,6 +99,9 @@ namespace Signorini
     std::vector<bool> is_covered(surface.faces.size(), false), is_seen(states.size(), false), result(is_seen);
     for (const FaceMoments &m : moments)
       is_covered[m.face] = !is_empty(m);
+    // On an edge that stands on the other side its normal is right.
+    for (std::size_t v = 0; v < surface.has_partner_normal.size(); ++v)
+      is_seen[v] = surface.has_partner_normal[v];
     for (unsigned int t = 0; t < surface.mesh.triangles.size(); ++t)
       if (const ContactSurface::Face &face = surface.faces[surface.triangle_face[t]];
           is_covered[surface.triangle_face[t]])
