@@ -20,8 +20,7 @@ namespace Signorini
       return std::abs(x) < std::numeric_limits<float>::min() ? 0.f : static_cast<float>(x);
     }
 
-    /// For put_together(): exact. (Standard functions for exponents would take as long as a sweep for each
-    /// number.)
+    /// For put_together(): exact. (By std::ilogb() and std::ldexp() splitting took ten sweeps.)
     std::int32_t remainder(const double x, const float rounded)
     {
       constexpr std::uint64_t exponent = 0x7ff0000000000000, twice_of_one = 0x7fe0000000000000;

@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <limits>
 
 // Compiled for processors with AVX2 as well; the loader chooses. Distributions build for the oldest
 // processor.
@@ -58,21 +57,13 @@ namespace Signorini
   /// on rounded and what is missing then. What only needs them rounded has half as much to read.
   struct BlockNumbers
   {
-    /// All in double precision.
-    BlockNumbers(const double *const exact)
-      : exact(exact)
-    {
-    }
-
-    /// Split from a position on.
-    BlockNumbers(const double *const exact, const std::size_t first_split, const float *const rounded,
-                 const std::int32_t *const remainders)
-      : exact(exact)
-      , first_split(first_split)
-      , rounded(rounded)
-      , remainders(remainders)
-    {
-    }
+    /// Those before the first one that is split, and a number more.
+    const double *exact;
+    /// Where blocks begin that are split.
+    std::size_t first_split;
+    /// The numbers from there on, and eight more: put_together().
+    const float        *rounded;
+    const std::int32_t *remainders; ///< See there.
 
     /// Nine numbers of the block at position k.
     void read(double *const to, const std::size_t k) const
@@ -91,14 +82,6 @@ namespace Signorini
       read(numbers, k);
       return numbers[0] + numbers[4] + numbers[8];
     }
-
-    /// Those before the first one that is split, and a number more.
-    const double *exact;
-    /// Where blocks begin that are split.
-    std::size_t first_split = std::numeric_limits<std::size_t>::max();
-    /// The numbers from there on, and eight more: put_together().
-    const float        *rounded    = nullptr;
-    const std::int32_t *remainders = nullptr; ///< See there.
   };
 
   /// Four numbers at once.

@@ -130,12 +130,6 @@ namespace Signorini
       values.join();
     }
 
-    /// Bytes of the numbers in memory.
-    std::size_t n_bytes() const
-    {
-      return values.n_bytes();
-    }
-
     /// Sets what a row given by row_of() has in memory to zero.
     void clear_row(const unsigned int row);
 
