@@ -228,8 +228,9 @@ namespace Signorini
     for (std::size_t i = 0; i < neighbours.size(); ++i)
       for (unsigned int k = 0; k < 3; ++k)
         a(i, k) = 2. * neighbours[i][k] / neighbours[i].norm_square();
-    const Eigen::VectorXd                                          ones = Eigen::VectorXd::Ones(a.rows());
-    const Eigen::ColPivHouseholderQR<Eigen::Matrix<double, -1, 3>> qr(a);
+    const Eigen::VectorXd ones = Eigen::VectorXd::Ones(a.rows());
+    // With three columns known when it is compiled, g++ 14 warns of a copy of negative length.
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(a);
     if (qr.rank() < 3)
       return false;
     const Eigen::Vector3d m      = qr.solve(ones);

@@ -24,9 +24,13 @@ namespace Signorini
   {
   public:
     BlockStorage() = default;
+    /// A copy is split where the other one is.
     BlockStorage(const BlockStorage &other);
+    /// Leaves nothing to read in the other one.
     BlockStorage(BlockStorage &&) = default;
+    /// As the constructors.
     BlockStorage &operator=(const BlockStorage &other);
+    /// As the constructors.
     BlockStorage &operator=(BlockStorage &&) = default;
     ~BlockStorage()                          = default;
 
