@@ -47,9 +47,11 @@ namespace Signorini
       {
         const unsigned int p = pieces.of_corner[3 * triangle + i];
         result.corners[i]    = taken_at(triangle, i);
+        // Exact surfaces may meet at less than the angle of a crease: each has its own normal there.
+        if (lender(triangle) != SurfaceTopology::none)
+          continue;
         turn_frame(result.corners[i], normal(p));
-        result.is_complete =
-            result.is_complete && (lender(triangle) != SurfaceTopology::none || is_fitted(p));
+        result.is_complete = result.is_complete && is_fitted(p);
       }
     return result;
   }
@@ -220,6 +222,36 @@ namespace Signorini
 
 
 
+  std::vector<Tensor<1, 3>> VertexFits::ways_to_neighbours(const unsigned int piece_vertex,
+                                                           const unsigned int n_rings)
+  {
+    std::vector<Tensor<1, 3>> result;
+    const Point<3>           &centre = mesh.vertices[pieces.vertices[piece_vertex].vertex];
+    pieces.neighbours(near, piece_vertex, n_rings);
+    for (const unsigned int q : near)
+      if (const Tensor<1, 3> x = mesh.vertices[pieces.vertices[q].vertex] - centre; x.norm() > 0.)
+        result.push_back(x);
+    return result;
+  }
+
+
+
+  void VertexFits::fit_exactly(Quadric &quadric, const unsigned int piece_vertex)
+  {
+    const bool is_closed = pieces.vertices[piece_vertex].is_closed;
+    const auto is_exact  = [&](const Quadric &found) {
+      return found.residual <= rule.exact && found.n_checks >= rule.least_checks;
+    };
+    if (Quadric found = quadric;
+        is_closed && fit_sphere(found, ways_to_neighbours(piece_vertex, 1)) && is_exact(found))
+      quadric = found;
+    else if (found = quadric;
+             fit_cone(found, ways_to_neighbours(piece_vertex, is_closed ? 2 : 3)) && is_exact(found))
+      quadric = found;
+  }
+
+
+
   bool VertexFits::fit_vertex(Quadric &quadric, const unsigned int piece_vertex)
   {
     const PieceVertex &centre = pieces.vertices[piece_vertex];
@@ -236,31 +268,17 @@ namespace Signorini
       }
     if (mean.norm() > 0. || some.norm() > 0.)
       set_frame(quadric, mean.norm() > 0. ? mean : some);
-    const Tensor<1, 3>        straight = find_straight_direction(piece_vertex);
-    std::vector<Tensor<1, 3>> points;
+    const Tensor<1, 3> straight = find_straight_direction(piece_vertex);
     // A corner of the surface may need one more ring.
     for (unsigned int n_rings = 2; n_rings <= 3; ++n_rings)
       {
-        pieces.neighbours(near, piece_vertex, n_rings);
-        points.clear();
-        for (const unsigned int q : near)
-          if (const Tensor<1, 3> x = mesh.vertices[pieces.vertices[q].vertex] - mesh.vertices[centre.vertex];
-              x.norm() > 0.)
-            points.push_back(x);
-        Quadric found = quadric;
+        const std::vector<Tensor<1, 3>> points = ways_to_neighbours(piece_vertex, n_rings);
+        Quadric                         found  = quadric;
         if (straight.norm() > 0. ? !fit_extruded(found, points, straight) : !fit(found, points))
           continue;
         quadric = found;
-        if (straight.norm() > 0.)
-          return true;
-        if (centre.is_closed && quadric.residual > rule.exact)
-          {
-            pieces.neighbours(near, piece_vertex, 1);
-            points.resize(std::min(points.size(), near.size()));
-            if (fit_sphere(found, points) && found.residual <= rule.exact &&
-                found.n_checks >= rule.least_checks)
-              quadric = found;
-          }
+        if (straight.norm() == 0. && quadric.residual > rule.exact)
+          fit_exactly(quadric, piece_vertex);
         return true;
       }
     return false;

@@ -41,6 +41,11 @@ namespace Signorini
     const Quadric &own_fit(const unsigned int piece_vertex);
     bool           is_fitted(const unsigned int piece_vertex);
     bool           fit_vertex(Quadric &quadric, const unsigned int piece_vertex);
+    /// Takes a sphere or a cone in place of a fit that leaves something over, if it leaves nothing over.
+    void fit_exactly(Quadric &quadric, const unsigned int piece_vertex);
+    /// The vectors to the neighbours.
+    std::vector<dealii::Tensor<1, 3>> ways_to_neighbours(const unsigned int piece_vertex,
+                                                         const unsigned int n_rings);
     /// The direction in which the surface is straight around a piece vertex, as those of extruded bodies are:
     /// the normals of the triangles nearby lie across it. Nothing if there is none, or many.
     dealii::Tensor<1, 3> find_straight_direction(const unsigned int piece_vertex);

@@ -58,7 +58,7 @@ namespace Signorini
   /// exact on spheres and cylinders (where x - centre = R N, the sum is R (1 - |N|²) and the height R (1 -
   /// |N|)), of fourth order on quadratic surfaces, nothing on flat ones, continuous across edges but at
   /// creases. Normals come from a quadratic surface through each vertex, fitted to two rings of neighbours,
-  /// which is exact on spheres and cylinders, too; where the curvature jumps, as where a fillet goes over
+  /// which is exact on spheres, cylinders and cones; where the curvature jumps, as where a fillet goes over
   /// into a sphere, to one through a vertex nearby on the same side. Creases, and the borders of flat parts,
   /// are borders of the smooth pieces and keep a normal on either side.
   class SmoothSurface

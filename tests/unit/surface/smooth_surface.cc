@@ -203,6 +203,40 @@ TEST(SmoothSurface, ExtrudedCurvesOfFewDigits)
 
 
 
+// Tapers, countersinks, seats of valves: normals are exact, also those at borders.
+TEST(SmoothSurface, KnowsConesAndWhereTheyEnd)
+{
+  struct Case
+  {
+    double half_angle;
+    /// At z = 0 a cylinder goes on, at less than the angle of a crease.
+    bool has_shank;
+  };
+  for (const Case &one : {Case{5.5, false}, {45., false}, {75., false}, {5.5, true}})
+    for (const unsigned int n : {8, 16})
+      {
+        const double      half = one.half_angle * M_PI / 180., sine = std::sin(half), cosine = std::cos(half);
+        const SurfaceMesh mesh      = bent(n, .15, [&](const double s, const double t) {
+          const double place = one.has_shank ? 1.5 * t - .75 : .75 * (t - 1.),
+                       along = std::abs(place) < .25 / n ? 0. : place, r = 1. + sine * std::min(0., along);
+          return Point<3>(r * std::cos(1.5 * s), r * std::sin(1.5 * s), along < 0. ? cosine * along : along);
+        });
+        const SmoothSurface surface = smooth(mesh);
+        EXPECT_EQ(n_smooth(surface), mesh.triangles.size());
+        for (unsigned int t = 0; t < mesh.triangles.size(); ++t)
+          {
+            double highest = -1.;
+            for (const unsigned int v : mesh.triangles[t])
+              highest = std::max(highest, mesh.vertices[v][2]);
+            for (const Tensor<1, 3> &normal : surface.patch(t).normals)
+              EXPECT_NEAR(std::abs(normal[2]), highest < 1e-10 ? sine : 0., 1e-4)
+                  << one.half_angle << ' ' << one.has_shank << ' ' << n;
+          }
+      }
+}
+
+
+
 // Where a cylinder goes on as a sphere, or as two planes, curvature jumps: a surface fitted to both is
 // neither.
 TEST(SmoothSurface, IsExactOnBothSidesOfSeams)
