@@ -14,6 +14,7 @@ signorini_add_layer(surface
   plane_graph_edges.cc
   plane_graph_layers.cc
   plane_graph_vertices.cc
+  revolved_arc.cc
   smooth_pieces.cc
   smooth_surface.cc
   surface_feet.cc

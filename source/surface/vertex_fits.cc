@@ -94,9 +94,12 @@ namespace Signorini
     const unsigned int from = lender(triangle);
     if (from == SurfaceTopology::none)
       return own_fit(pieces.of_corner[3 * triangle + corner]);
+    const Tensor<1, 3> way =
+        mesh.vertices[mesh.triangles[triangle][corner]] - mesh.vertices[pieces.vertices[from].vertex];
+    if (const auto arc = arcs.find(from); arc != arcs.end())
+      return arc->second.at(way);
     Quadric result = own_fit(from);
-    turn_frame(result, result.normal_at(mesh.vertices[mesh.triangles[triangle][corner]] -
-                                        mesh.vertices[pieces.vertices[from].vertex]));
+    turn_frame(result, result.normal_at(way));
     return result;
   }
 
@@ -146,12 +149,14 @@ namespace Signorini
   bool VertexFits::lies_on(const unsigned int triangle, const unsigned int piece_vertex)
   {
     const Quadric  &quadric = own_fit(piece_vertex);
+    const auto      arc     = arcs.find(piece_vertex);
     const Point<3> &centre  = mesh.vertices[pieces.vertices[piece_vertex].vertex];
     double          most = 0., size = 0.;
     for (const unsigned int v : mesh.triangles[triangle])
       {
         const Tensor<1, 3> x = mesh.vertices[v] - centre;
-        most                 = std::max(most, std::abs(x * quadric.normal - .5 * quadric.along(x)));
+        most                 = std::max(most, std::abs(arc != arcs.end() ? arc->second.distance(x)
+                                                                         : x * quadric.normal - .5 * quadric.along(x)));
         size                 = std::max(size, .5 * std::abs(quadric.largest_curvature()) * x.norm_square());
       }
     return most <= 2. * rule.exact * size;
@@ -222,13 +227,22 @@ namespace Signorini
 
 
 
-  std::vector<Tensor<1, 3>> VertexFits::ways_to_neighbours(const unsigned int piece_vertex,
-                                                           const unsigned int n_rings)
+  std::vector<unsigned int> VertexFits::neighbours(const unsigned int piece_vertex,
+                                                   const unsigned int n_rings) const
+  {
+    std::vector<unsigned int> result;
+    pieces.neighbours(result, piece_vertex, n_rings);
+    return result;
+  }
+
+
+
+  std::vector<Tensor<1, 3>> VertexFits::ways(const unsigned int               piece_vertex,
+                                             const std::vector<unsigned int> &others) const
   {
     std::vector<Tensor<1, 3>> result;
     const Point<3>           &centre = mesh.vertices[pieces.vertices[piece_vertex].vertex];
-    pieces.neighbours(near, piece_vertex, n_rings);
-    for (const unsigned int q : near)
+    for (const unsigned int q : others)
       if (const Tensor<1, 3> x = mesh.vertices[pieces.vertices[q].vertex] - centre; x.norm() > 0.)
         result.push_back(x);
     return result;
@@ -239,15 +253,40 @@ namespace Signorini
   void VertexFits::fit_exactly(Quadric &quadric, const unsigned int piece_vertex)
   {
     const bool is_closed = pieces.vertices[piece_vertex].is_closed;
-    const auto is_exact  = [&](const Quadric &found) {
+    const auto is_exact  = [&](const auto &found) {
       return found.residual <= rule.exact && found.n_checks >= rule.least_checks;
     };
-    if (Quadric found = quadric;
-        is_closed && fit_sphere(found, ways_to_neighbours(piece_vertex, 1)) && is_exact(found))
-      quadric = found;
-    else if (found = quadric;
-             fit_cone(found, ways_to_neighbours(piece_vertex, is_closed ? 2 : 3)) && is_exact(found))
-      quadric = found;
+    if (is_closed)
+      if (Quadric sphere = quadric;
+          fit_sphere(sphere, ways(piece_vertex, neighbours(piece_vertex, 1))) && is_exact(sphere))
+        {
+          quadric = sphere;
+          return;
+        }
+    const auto take_arc = [&](const std::vector<Tensor<1, 3>> &points) {
+      Quadric     start = quadric;
+      RevolvedArc arc;
+      if (!fit(start, points) || start.residual > rule.may_be_arc || !fit(arc, start, points) ||
+          arc.residual > rule.exact_arc || arc.n_checks < rule.least_checks)
+        return false;
+      quadric            = arc.at(Tensor<1, 3>());
+      arcs[piece_vertex] = arc;
+      return true;
+    };
+    if (take_arc(ways(piece_vertex, neighbours(piece_vertex, is_closed ? 2 : 3))) || !is_closed)
+      return;
+    // Of a fillet of two faces only the vertices between them have all neighbours on it.
+    const std::vector<unsigned int> ring = neighbours(piece_vertex, 1);
+    for (const unsigned int other : ring)
+      if (pieces.vertices[other].is_closed)
+        {
+          std::vector<unsigned int> both = neighbours(other, 1);
+          both.insert(both.end(), ring.begin(), ring.end());
+          std::sort(both.begin(), both.end());
+          both.erase(std::unique(both.begin(), both.end()), both.end());
+          if (take_arc(ways(piece_vertex, both)))
+            return;
+        }
   }
 
 
@@ -272,7 +311,7 @@ namespace Signorini
     // A corner of the surface may need one more ring.
     for (unsigned int n_rings = 2; n_rings <= 3; ++n_rings)
       {
-        const std::vector<Tensor<1, 3>> points = ways_to_neighbours(piece_vertex, n_rings);
+        const std::vector<Tensor<1, 3>> points = ways(piece_vertex, neighbours(piece_vertex, n_rings));
         Quadric                         found  = quadric;
         if (straight.norm() > 0. ? !fit_extruded(found, points, straight) : !fit(found, points))
           continue;

@@ -4,11 +4,12 @@
 #ifndef signorini_source_surface_vertex_fits_h
 #define signorini_source_surface_vertex_fits_h
 
+#include "revolved_arc.h"
 #include "smooth_pieces.h"
-#include "vertex_quadric.h"
 
 #include <signorini/surface/smooth_surface.h>
 
+#include <map>
 #include <vector>
 
 namespace Signorini
@@ -41,11 +42,14 @@ namespace Signorini
     const Quadric &own_fit(const unsigned int piece_vertex);
     bool           is_fitted(const unsigned int piece_vertex);
     bool           fit_vertex(Quadric &quadric, const unsigned int piece_vertex);
-    /// Takes a sphere or a cone in place of a fit that leaves something over, if it leaves nothing over.
+    /// Takes a sphere, a cone or a torus in place of a fit that leaves something over, if it leaves nothing
+    /// over.
     void fit_exactly(Quadric &quadric, const unsigned int piece_vertex);
-    /// The vectors to the neighbours.
-    std::vector<dealii::Tensor<1, 3>> ways_to_neighbours(const unsigned int piece_vertex,
-                                                         const unsigned int n_rings);
+    /// Without itself.
+    std::vector<unsigned int> neighbours(const unsigned int piece_vertex, const unsigned int n_rings) const;
+    /// The vectors to others.
+    std::vector<dealii::Tensor<1, 3>> ways(const unsigned int               piece_vertex,
+                                           const std::vector<unsigned int> &others) const;
     /// The direction in which the surface is straight around a piece vertex, as those of extruded bodies are:
     /// the normals of the triangles nearby lie across it. Nothing if there is none, or many.
     dealii::Tensor<1, 3> find_straight_direction(const unsigned int piece_vertex);
@@ -64,9 +68,11 @@ namespace Signorini
     const SmoothPieces  &pieces;
     const SmoothingRule &rule;
     /// By piece vertex.
-    std::vector<Quadric>              quadrics;
-    std::vector<dealii::Tensor<1, 3>> normals;
-    std::vector<bool>                 was_tried, has_fit;
+    std::vector<Quadric> quadrics;
+    /// What vertices of tori and cones lie on.
+    std::map<unsigned int, RevolvedArc> arcs;
+    std::vector<dealii::Tensor<1, 3>>   normals;
+    std::vector<bool>                   was_tried, has_fit;
     /// By triangle, once it has been asked for.
     std::vector<unsigned int>     lenders;
     static constexpr unsigned int unknown = SurfaceTopology::none - 1;

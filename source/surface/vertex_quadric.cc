@@ -47,21 +47,15 @@ namespace Signorini
 
   namespace
   {
-    template <int n>
-    using Unknowns = Eigen::Matrix<double, n, 1>;
-    template <int n>
-    using Columns = Eigen::Matrix<double, Eigen::Dynamic, n>;
-
-    /// How far two values determine unknowns that others determine fully.
-    constexpr double rank_threshold = 1e-4;
-
     /// Solves for the two slopes and the three curvatures of a quadratic surface. Two rows of vertices, a
     /// strip of one cell, leave the curvature across them open: it is nothing. Returns false if the values
     /// leave more open, or something else.
-    bool solve_for_quadric(Unknowns<5> &x, const Columns<5> &a, const Eigen::VectorXd &b)
+    bool solve_for_quadric(Eigen::Matrix<double, 5, 1> &x, const Eigen::Matrix<double, Eigen::Dynamic, 5> &a,
+                           const Eigen::VectorXd &b)
     {
-      Eigen::ColPivHouseholderQR<Columns<5>> qr(a);
-      qr.setThreshold(rank_threshold);
+      using Columns = Eigen::Matrix<double, Eigen::Dynamic, 5>;
+      Eigen::ColPivHouseholderQR<Columns> qr(a);
+      qr.setThreshold(1e-4);
       if (qr.rank() < 4)
         return false;
       if (qr.rank() == 5)
@@ -75,7 +69,7 @@ namespace Signorini
       for (Eigen::Index i = 0; i < 4; ++i)
         x += parts[i] / svd.singularValues()[i] * svd.matrixV().col(i);
       // The direction in which curvature is open: there it is none.
-      const Unknowns<5> open = svd.matrixV().col(4);
+      const Eigen::Matrix<double, 5, 1> open = svd.matrixV().col(4);
       // Neighbours on another conic than two lines leave something else open.
       constexpr double two_lines = 1e-3;
       const double     trace     = open[2] + open[4];
@@ -83,23 +77,12 @@ namespace Signorini
         return false;
       const double angle =
           .5 * std::atan2(2. * open[3], open[2] - open[4]) + (trace < 0. ? .5 * numbers::PI : 0.);
-      const auto along = [angle](const Unknowns<5> &y) {
+      const auto along = [angle](const Eigen::Matrix<double, 5, 1> &y) {
         return y[2] * std::cos(angle) * std::cos(angle) + y[3] * std::sin(2. * angle) +
                y[4] * std::sin(angle) * std::sin(angle);
       };
       if (const double curvature = along(open); std::abs(curvature) > 0.)
         x -= along(x) / curvature * open;
-      return true;
-    }
-
-    /// The same with the two changes of curvature; nothing may be left open.
-    bool solve_for_quadric(Unknowns<7> &x, const Columns<7> &a, const Eigen::VectorXd &b)
-    {
-      Eigen::ColPivHouseholderQR<Columns<7>> qr(a);
-      qr.setThreshold(rank_threshold);
-      if (qr.rank() < 7)
-        return false;
-      x = qr.solve(b);
       return true;
     }
 
@@ -114,95 +97,62 @@ namespace Signorini
 
 
 
-  namespace
-  {
-    /// Fits with five unknowns, or seven: the changes of curvature, too.
-    template <int n_unknowns>
-    bool fit_unknowns(Quadric &q, const std::vector<Tensor<1, 3>> &neighbours)
-    {
-      constexpr unsigned int n_steps = 20;
-      constexpr bool         is_cone = n_unknowns == 7;
-      const Eigen::Index     n       = static_cast<Eigen::Index>(neighbours.size());
-      if (n < n_unknowns)
-        return false;
-      double size = 0.;
-      for (const auto &x : neighbours)
-        size = std::max(size, x.norm());
-      Columns<n_unknowns> a(n, n_unknowns);
-      Eigen::VectorXd     b(n);
-      // What the curvature of a cone is less by in the direction of z.
-      double less      = 0.;
-      double curvature = 0., bend_before = 0., last = std::numeric_limits<double>::max();
-      // The share of c, d, e in the curvature k: along its direction. Nothing where k has been cut.
-      std::array<double, 3> share = {{0., 0., 0.}};
-      for (unsigned int step = 0; step < n_steps; ++step)
-        {
-          double highest = 0.;
-          for (Eigen::Index i = 0; i < n; ++i)
-            {
-              const Tensor<1, 3> x = neighbours[i] / size;
-              const double       s = x * q.u, t = x * q.v, z = x * q.normal;
-              highest             = std::max(highest, std::abs(z));
-              const double weight = 1. / x.norm_square();
-              const double h      = .5 * z * z;
-              a.template block<1, 5>(i, 0) << s, t, .5 * s * s + share[0] * h, s * t + share[1] * h,
-                  .5 * t * t + share[2] * h;
-              if constexpr (is_cone)
-                a.template block<1, 2>(i, 5) << -s * z, -t * z;
-              a.row(i) *= weight;
-              b[i] = weight * (z - (curvature - less) * h);
-            }
-          Unknowns<n_unknowns> x;
-          if (!solve_for_quadric(x, a, b))
-            return false;
-          q.c = x[2];
-          q.d = x[3];
-          q.e = x[4];
-          if constexpr (is_cone)
-            {
-              q.p = x[5];
-              q.q = x[6];
-            }
-          const double turn    = std::hypot(x[0], x[1]);
-          const double heights = (b - a.template leftCols<2>() * x.template head<2>()).norm();
-          q.left_over          = (b - a * x).norm();
-          q.residual           = heights > 0. ? q.left_over / heights : 0.;
-          turn_frame(q, q.normal - x[0] * q.u - x[1] * q.v);
-          // Where the surface is wild k may do harm: beyond three quarters of a sphere it reaches nothing.
-          const double limit = 1.5 / highest, k = q.largest_curvature();
-          less                = k - q.curvature_across();
-          const double bend   = std::max(-limit, std::min(limit, k));
-          const double change = std::max(turn, std::abs(bend - bend_before));
-          bend_before         = bend;
-          curvature           = bend == k ? 0. : bend;
-          share               = bend == k ? share_in_curvature(q) : std::array<double, 3>{{0., 0., 0.}};
-          if (change < 1e-13 || (step > 2 && change > .7 * last))
-            break;
-          last = change;
-        }
-      q.c /= size;
-      q.d /= size;
-      q.e /= size;
-      q.p /= size;
-      q.q /= size;
-      q.n_checks = static_cast<unsigned int>(n - n_unknowns);
-      q.left_over *= 2. / (size * std::sqrt(std::max(1., static_cast<double>(q.n_checks))));
-      return true;
-    }
-  } // namespace
-
-
-
   bool fit(Quadric &q, const std::vector<Tensor<1, 3>> &neighbours)
   {
-    return fit_unknowns<5>(q, neighbours);
-  }
-
-
-
-  bool fit_cone(Quadric &q, const std::vector<Tensor<1, 3>> &neighbours)
-  {
-    return fit_unknowns<7>(q, neighbours);
+    constexpr unsigned int n_steps = 20;
+    const Eigen::Index     n       = static_cast<Eigen::Index>(neighbours.size());
+    if (n < 5)
+      return false;
+    double size = 0.;
+    for (const auto &x : neighbours)
+      size = std::max(size, x.norm());
+    Eigen::Matrix<double, Eigen::Dynamic, 5> a(n, 5);
+    Eigen::VectorXd                          b(n);
+    double curvature = 0., bend_before = 0., last = std::numeric_limits<double>::max();
+    // The share of c, d, e in the curvature k: along its direction. Nothing where k has been cut.
+    std::array<double, 3> share = {{0., 0., 0.}};
+    for (unsigned int step = 0; step < n_steps; ++step)
+      {
+        double highest = 0.;
+        for (Eigen::Index i = 0; i < n; ++i)
+          {
+            const Tensor<1, 3> x = neighbours[i] / size;
+            const double       s = x * q.u, t = x * q.v, z = x * q.normal;
+            highest             = std::max(highest, std::abs(z));
+            const double weight = 1. / x.norm_square();
+            const double h      = .5 * z * z;
+            a.row(i) << s, t, .5 * s * s + share[0] * h, s * t + share[1] * h, .5 * t * t + share[2] * h;
+            a.row(i) *= weight;
+            b[i] = weight * (z - curvature * h);
+          }
+        Eigen::Matrix<double, 5, 1> x;
+        if (!solve_for_quadric(x, a, b))
+          return false;
+        q.c                  = x[2];
+        q.d                  = x[3];
+        q.e                  = x[4];
+        const double turn    = std::hypot(x[0], x[1]);
+        const double heights = (b - a.leftCols<2>() * x.head<2>()).norm();
+        q.left_over          = (b - a * x).norm();
+        q.residual           = heights > 0. ? q.left_over / heights : 0.;
+        turn_frame(q, q.normal - x[0] * q.u - x[1] * q.v);
+        // Where the surface is wild k may do harm: beyond three quarters of a sphere it reaches nothing.
+        const double limit = 1.5 / highest, k = q.largest_curvature();
+        const double bend   = std::max(-limit, std::min(limit, k));
+        const double change = std::max(turn, std::abs(bend - bend_before));
+        bend_before         = bend;
+        curvature           = bend == k ? 0. : bend;
+        share               = bend == k ? share_in_curvature(q) : std::array<double, 3>{{0., 0., 0.}};
+        if (change < 1e-13 || (step > 2 && change > .7 * last))
+          break;
+        last = change;
+      }
+    q.c /= size;
+    q.d /= size;
+    q.e /= size;
+    q.n_checks = static_cast<unsigned int>(n - 5);
+    q.left_over *= 2. / (size * std::sqrt(std::max(1., static_cast<double>(q.n_checks))));
+    return true;
   }
 
 

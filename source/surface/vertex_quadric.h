@@ -11,16 +11,13 @@
 
 namespace Signorini
 {
-  /// A quadratic surface through a vertex: z = (c u² + 2 d u v + e v² + k z²) / 2 - (p u + q v) z in a frame
-  /// whose third axis is the normal there. With the larger principal curvature K and k = K - (p² + q²) / K
-  /// these are spheres, cylinders and circular cones, exactly: towards the apex of a cone, at the distance
-  /// 1 / |(p, q)|, curvature grows.
+  /// A quadratic surface through a vertex: z = (c u² + 2 d u v + e v² + k z²) / 2 in a frame whose third
+  /// axis is the normal there. With the larger principal curvature for k these are spheres and cylinders,
+  /// exactly.
   struct Quadric
   {
     dealii::Tensor<1, 3> u, v, normal;
     double               c = 0., d = 0., e = 0.;
-    /// How curvature changes along the surface (1/length).
-    double p = 0., q = 0.;
     /// Root mean square of what the fit leaves over that of the heights of the neighbours.
     double residual = 0.;
     /// The former as a curvature (1/length): where the surface is nearly flat the ratio says little.
@@ -35,18 +32,11 @@ namespace Signorini
       return mean < 0. ? mean - difference : mean + difference;
     }
 
-    /// That of z².
-    double curvature_across() const
-    {
-      const double k = largest_curvature();
-      return std::abs(k) > 0. ? k - (p * p + q * q) / k : 0.;
-    }
-
     /// The quadratic form of a vector from the vertex.
     double along(const dealii::Tensor<1, 3> &x) const
     {
       const double s = x * u, t = x * v, z = x * normal;
-      return c * s * s + 2. * d * s * t + e * t * t + (curvature_across() * z - 2. * (p * s + q * t)) * z;
+      return c * s * s + 2. * d * s * t + e * t * t + largest_curvature() * z * z;
     }
 
     /// The quadratic form with the magnitudes of the principal curvatures.
@@ -63,9 +53,8 @@ namespace Signorini
     /// Its unit normal where it comes nearest to the place with this vector from the vertex.
     dealii::Tensor<1, 3> normal_at(const dealii::Tensor<1, 3> &x) const
     {
-      const double               s = x * u, t = x * v, z = x * normal;
-      const dealii::Tensor<1, 3> gradient = (1. - curvature_across() * z + p * s + q * t) * normal -
-                                            (c * s + d * t - p * z) * u - (d * s + e * t - q * z) * v;
+      const double               s = x * u, t = x * v, k = largest_curvature() * (x * normal);
+      const dealii::Tensor<1, 3> gradient = (1. - k) * normal - (c * s + d * t) * u - (d * s + e * t) * v;
       return gradient.norm() > 0. ? gradient / gradient.norm() : normal;
     }
   };
@@ -80,11 +69,7 @@ namespace Signorini
   /// turns the frame to the normal found until it rests. Returns false if they do not determine one.
   bool fit(Quadric &q, const std::vector<dealii::Tensor<1, 3>> &neighbours);
 
-  /// The same for a circular cone, from the sphere or cylinder that has been fitted. Returns false if the
-  /// neighbours do not determine one.
-  bool fit_cone(Quadric &q, const std::vector<dealii::Tensor<1, 3>> &neighbours);
-
-  /// As fit() for points of a surface that is straight along an axis: no curvature along it, and a normal
+  /// The same for points of a surface that is straight along an axis: no curvature along it, and a normal
   /// across it, whatever the points leave open.
   bool fit_extruded(Quadric &q, const std::vector<dealii::Tensor<1, 3>> &neighbours,
                     const dealii::Tensor<1, 3> &axis);

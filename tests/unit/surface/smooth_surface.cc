@@ -237,6 +237,45 @@ TEST(SmoothSurface, KnowsConesAndWhereTheyEnd)
 
 
 
+// A shaft with a fillet at its end, 3 faces and more around that: a part of a torus between a cylinder and a
+// plane.
+TEST(SmoothSurface, KnowsToriAndWhereTheyEnd)
+{
+  constexpr double radius = .4, shaft = 2.;
+  for (const unsigned int n_chords : {3, 4, 6})
+    for (const double jitter : {0., .1})
+      {
+        constexpr unsigned int n         = 14;
+        const SurfaceMesh      mesh      = bent(n, jitter, [&](const double s, const double t) {
+          // Rows of vertices: n_chords over the fillet, the others on the cylinder and the plane; those
+          // between them stay in place.
+          const double place = n * t - 4., nearest = std::round(place),
+                       row   = nearest == 0. || nearest == n_chords ? nearest : place,
+                       angle = .5 * M_PI * std::max(0., std::min(1., row / n_chords)),
+                       r = shaft - radius * (1. - std::cos(angle)) - .1 * std::max(0., row - n_chords);
+          return Point<3>(r * std::cos(s), r * std::sin(s),
+                          .2 * std::min(0., row) + radius * std::sin(angle));
+        });
+        const SmoothSurface surface = smooth(mesh);
+        EXPECT_EQ(std::count(surface.creases().begin(), surface.creases().end(), true), 0);
+        for (unsigned int t = 0; t < mesh.triangles.size(); ++t)
+          {
+            EXPECT_TRUE(surface.patch(t).is_smooth || surface.patch(t).is_flat) << n_chords;
+            for (unsigned int i = 0; i < 3; ++i)
+              {
+                const Point<3>    &x = mesh.vertices[mesh.triangles[t][i]];
+                const double       r = std::hypot(x[0], x[1]), outwards = std::max(0., r - (shaft - radius));
+                const Tensor<1, 3> normal = Tensor<1, 3>({x[0] / r * outwards, x[1] / r * outwards, 0.}) +
+                                            Tensor<1, 3>({0., 0., outwards > 0. ? std::max(0., x[2]) : 1.});
+                EXPECT_NEAR(std::abs(surface.patch(t).normals[i] * normal) / normal.norm(), 1., 1e-9)
+                    << n_chords << ' ' << jitter << " at " << x;
+              }
+          }
+      }
+}
+
+
+
 // Where a cylinder goes on as a sphere, or as two planes, curvature jumps: a surface fitted to both is
 // neither.
 TEST(SmoothSurface, IsExactOnBothSidesOfSeams)
