@@ -66,8 +66,8 @@ namespace Signorini
   /// |N|)), of fourth order on quadratic surfaces, nothing on flat ones, continuous across edges but at
   /// creases. Normals come from a quadratic surface through each vertex, fitted to two rings of neighbours,
   /// which is exact on spheres, cylinders, cones and tori; where the curvature jumps, as where a fillet goes
-  /// over into a sphere, to one through a vertex nearby on the same side. Creases, and the borders of flat parts,
-  /// are borders of the smooth pieces and keep a normal on either side.
+  /// over into a sphere, to one through a vertex nearby on the same side. Creases, and the borders of flat
+  /// parts, are borders of the smooth pieces and keep a normal on either side.
   class SmoothSurface
   {
   public:

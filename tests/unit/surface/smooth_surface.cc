@@ -245,8 +245,8 @@ TEST(SmoothSurface, KnowsToriAndWhereTheyEnd)
   for (const unsigned int n_chords : {3, 4, 6})
     for (const double jitter : {0., .1})
       {
-        constexpr unsigned int n         = 14;
-        const SurfaceMesh      mesh      = bent(n, jitter, [&](const double s, const double t) {
+        constexpr unsigned int n       = 14;
+        const SurfaceMesh      mesh    = bent(n, jitter, [&](const double s, const double t) {
           // Rows of vertices: n_chords over the fillet, the others on the cylinder and the plane; those
           // between them stay in place.
           const double place = n * t - 4., nearest = std::round(place),
@@ -256,7 +256,7 @@ TEST(SmoothSurface, KnowsToriAndWhereTheyEnd)
           return Point<3>(r * std::cos(s), r * std::sin(s),
                           .2 * std::min(0., row) + radius * std::sin(angle));
         });
-        const SmoothSurface surface = smooth(mesh);
+        const SmoothSurface    surface = smooth(mesh);
         EXPECT_EQ(std::count(surface.creases().begin(), surface.creases().end(), true), 0);
         for (unsigned int t = 0; t < mesh.triangles.size(); ++t)
           {
