@@ -137,8 +137,29 @@ namespace Signorini
         }
     }
 
-    /// A face with its centre, its size and what acts on it.
-    RigidFace make_face(const unsigned int index, const RigidFaceCondition &condition,
+    /// Collective. Turns with the body, as the middle of a box would not.
+    Point<3> centre_of_area(const NodalSpace &space, const std::set<types::boundary_id> &ids)
+    {
+      std::vector<double> sums(dim + 1, 0.);
+      for (const NodalSpace::BoundaryFace &face : space.boundary_faces())
+        if (space.cells()[face.cell].is_owned && ids.count(face.id) > 0)
+          {
+            const Element     element(space, space.cells()[face.cell]);
+            const ElementFace shape(element, face.face);
+            for (unsigned int q = 0; q < shape.n_points(); ++q)
+              {
+                const double area = shape.point(q).area.norm();
+                for (unsigned int c = 0; c < dim; ++c)
+                  sums[c] += area * shape.point(q).position[c];
+                sums[dim] += area;
+              }
+          }
+      Utilities::MPI::sum(std::vector<double>(sums), space.communicator(), sums);
+      return Point<3>(sums[0], sums[1], sums[2]) / sums[dim];
+    }
+
+    /// Collective. A face with its centre, its size and what acts on it.
+    RigidFace make_face(const unsigned int index, const RigidFaceCondition &condition, const NodalSpace &space,
                         const std::map<NodeIndex, Point<3>> &nodes, const double time)
     {
       RigidFace face{index, condition.body, Point<3>(), 0., {}, {}, {}, {}};
@@ -150,7 +171,7 @@ namespace Signorini
             high[c] = std::max(high[c], x[c]);
           }
       face.length = .5 * low.distance(high);
-      face.centre = condition.about ? *condition.about : Point<3>(.5 * (Vector3(low) + Vector3(high)));
+      face.centre = condition.about ? *condition.about : centre_of_area(space, condition.ids);
       if (condition.force)
         face.force = condition.force(face.centre, time);
       if (condition.moment)
@@ -211,7 +232,7 @@ namespace Signorini
       {
         const RigidFaceCondition &condition  = loads.rigid_faces[f];
         const auto                nodes      = nodes_of_face(space, condition.ids);
-        RigidFace                 face       = make_face(f, condition, nodes, loads.time);
+        RigidFace                 face       = make_face(f, condition, space, nodes, loads.time);
         Conditions                conditions = conditions_of_nodes(face, nodes, space, data);
         add_conditions_of_face(conditions, face, condition, static_cast<double>(nodes.size()), loads.time);
         solve(face, conditions, condition.where);

@@ -141,6 +141,37 @@ def beside_rigid_face(p):
         near(swapped['pairs'][0]['load'], chosen['pairs'][0]['load'], 1e-10, 'load')
 
 
+# A bar with three edges on a plane, pressed by its other end.
+TRIANGLE = '''set Bodies        = bar
+set Contact pairs = floor
+subsection Body bar
+  set Mesh            = prism
+  set Corners         = (10, 0); (-5, 8.660254037844386); (-5, -8.660254037844386)
+  set Height          = 10
+  set Round divisions = 4, 0, 8
+  set Young modulus   = 1000
+  set Rotation axis   = 0, 0, 1
+  set Rigid           = end: force (0, 0, -100)
+end
+subsection Pair floor
+  set First    = bar: start
+  set Obstacle = plane: (0, 0, 0), (0, 0, 1)
+end
+'''
+
+
+def rigid_triangle(p):
+    """A force acts at the centre of the area, which turns with the body: not at the middle of a box."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, 'triangle.prm')
+        with open(path, 'w') as f:
+            f.write(TRIANGLE)
+        pressures = [p.solve(path, f'Body bar/Rotation angle={angle}')['pairs'][0]['max_pressure'] for angle in (0, 20, 45)]
+        near(pressures[0], 100 / (75 * math.sqrt(3)), 0.05, 'pressure')
+        for pressure in pressures[1:]:
+            near(pressure, pressures[0], 1e-8, 'pressure of a turned bar')
+
+
 def rigid_faces(p):
     """A stamp by force and moment does what one by displacement and rotation does; alone, with symmetry planes, guided."""
     few = p.command[0] == 'mpirun'

@@ -61,7 +61,7 @@ namespace Signorini
       std::string boundary;
       /// On the whole of it (their values at the centre count); the moment is about the centre. Empty: none.
       VectorField force, moment;
-      /// The centre: that of the bounding box of the boundary, if it is not given.
+      /// The centre: that of the area of the boundary, if it is not given.
       std::optional<dealii::Point<3>> about = std::nullopt;
       /// Prescribed displacement of the centre and prescribed rotation (radian); free components are empty.
       std::array<ScalarField, 3> displacement = {}, rotation = {};
