@@ -113,9 +113,10 @@ namespace Signorini
             std::max(c.force_balance, (pair.force + pair.force_on_mortar).norm() / scale_of_forces);
       if (pair.approach > 0.)
         {
-          c.geometric_penetration = std::max(c.geometric_penetration, pair.max_penetration / pair.approach);
-          c.loaded_gap            = std::max(c.loaded_gap, pair.loaded_gap / pair.approach);
-          c.gap_doubt             = std::max(c.gap_doubt, pair.gap_doubt / pair.approach);
+          c.geometric_penetration =
+              std::max(c.geometric_penetration, pair.spot_penetration / pair.spot_approach);
+          c.loaded_gap = std::max(c.loaded_gap, pair.loaded_gap / pair.approach);
+          c.gap_doubt  = std::max(c.gap_doubt, pair.gap_doubt / pair.approach);
         }
       c.moment_balance = std::max(c.moment_balance, pair.moment_balance);
     }
@@ -274,17 +275,15 @@ namespace Signorini
       const SurfaceKind     surface = model.definition.surface;
       const CertificateRule rule;
       const std::string     name = "pair " + pair.name + ": ";
+      if (pair.missed_penetration > rule.missed_penetration * scales.approach)
+        c.objections.push_back(
+            name + "the true surfaces penetrate by " + text_of(pair.missed_penetration) + " at " +
+            place_text(pair.missed_at) +
+            ", and no contact force acts there: the contact is narrower than the faces; "
+            "refine the contact surfaces" +
+            (model.definition.obstacle ? "" : ", or choose the other side as \"Nonmortar\""));
       if (!(pair.approach > 0.) || scales.is_idle(pair))
-        {
-          if (pair.missed_penetration > rule.missed_penetration * scales.approach)
-            c.objections.push_back(
-                name + "the true surfaces penetrate by " + text_of(pair.missed_penetration) + " at " +
-                place_text(pair.min_gap_at) +
-                ", and no contact force acts there: the contact is narrower than the faces; "
-                "refine the contact surfaces" +
-                (model.definition.obstacle ? "" : ", or choose the other side as \"Nonmortar\""));
-          return;
-        }
+        return;
       if (pair.gap_doubt > rule.gap_doubt * pair.approach)
         c.objections.push_back(
             name + "the gap may be wrong by " + text_of(pair.gap_doubt) + ", " +
@@ -294,11 +293,11 @@ namespace Signorini
             (surface == SurfaceKind::smooth      ? " or a finer start mesh"
              : surface == SurfaceKind::automatic ? ", a finer start mesh, or Surface = smooth"
                                                  : ", a finer start mesh, or Surface = automatic"));
-      if (pair.max_penetration > rule.geometric_penetration * pair.approach)
+      if (pair.spot_penetration > rule.geometric_penetration * pair.spot_approach)
         c.objections.push_back(
-            name + "between the nodes the true surfaces penetrate by " + text_of(pair.max_penetration) +
-            ", " + text_of(pair.max_penetration / pair.approach) + " of what contact does there, at " +
-            place_text(pair.min_gap_at) + "; refine the contact surfaces");
+            name + "between the nodes the true surfaces penetrate by " + text_of(pair.spot_penetration) +
+            ", " + text_of(pair.spot_penetration / pair.spot_approach) + " of what contact does there, at " +
+            place_text(pair.spot_at) + "; refine the contact surfaces");
       if (pair.loaded_gap > rule.loaded_gap * pair.approach)
         c.objections.push_back(
             name + "contact forces act where the true surfaces are " + text_of(pair.loaded_gap) + " apart, " +

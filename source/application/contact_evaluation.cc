@@ -6,6 +6,7 @@
 #include <signorini/algebra/collectives.h>
 #include <signorini/algebra/gathered_lists.h>
 #include <signorini/application/contact_evaluation.h>
+#include <signorini/application/contact_spots.h>
 #include <signorini/application/nodal_sums.h>
 #include <signorini/application/pair_fields.h>
 #include <signorini/discretization/elasticity.h>
@@ -54,21 +55,25 @@ namespace Signorini
                                               covered_overlay(pair), is_near, comm);
     }
 
+    /// PairResult::approach over that of a load on an area in Hertz' contact, from the mean pressure: single
+    /// peaks of a wrong one must not hide it. Halves and quarters have the approach of the whole.
+    double approach_of(const double load, const double area, const ContactPair &pair, const double images)
+    {
+      return 4. / 3. * load / std::sqrt(area) * std::sqrt(images) *
+             (pair.nonmortar.material.contact_compliance() +
+              (pair.obstacle ? 0. : pair.mortar.material.contact_compliance()));
+    }
+
     /// What contact does where bodies touch.
-    /// @param is_active per vertex of the nonmortar surface
+    /// @param images of the contact, by symmetry planes
     /// @param moments sum of those on both sides
-    void measure_contact(PairResult &result, const ContactPair &pair, const std::vector<bool> &is_active,
-                         const Vector3 &moments, const MPI_Comm comm)
+    void measure_contact(PairResult &result, const ContactPair &pair, const double images,
+                         const Vector3 &moments)
     {
       if (!(result.contact_area > 0.) || pair.is_tied)
         return;
-      // As in Hertz' contact, from the mean pressure: single peaks of a wrong one must not hide it. Halves
-      // and quarters have the approach of the whole.
-      const double width  = std::sqrt(result.contact_area);
-      const double images = std::exp2(count_symmetry_planes(pair.nonmortar.surface, is_active, comm));
-      result.approach     = 4. / 3. * result.load / width * std::sqrt(images) *
-                        (pair.nonmortar.material.contact_compliance() +
-                         (pair.obstacle ? 0. : pair.mortar.material.contact_compliance()));
+      const double width = std::sqrt(result.contact_area);
+      result.approach    = approach_of(result.load, result.contact_area, pair, images);
       // With a prescribed gap the surfaces need not lie where they touch.
       if (!pair.obstacle && !pair.prescribed_gap && result.load > 0.)
         result.moment_balance = moments.norm() / (result.load * width);
@@ -178,12 +183,11 @@ namespace Signorini
   namespace
   {
     /// Collective. PairResult::missed_penetration, of the place where the gap is least.
-    double missed_penetration(const PairResult &result, const ContactPair &pair, const PairCoupling &coupling,
+    double missed_penetration(const LeastGap &gap, const ContactPair &pair, const PairCoupling &coupling,
                               const MPI_Comm comm)
     {
       const MissedContactRule rule;
-      if (pair.is_tied || pair.prescribed_gap || coupling.n_rows_of_all == 0 ||
-          !(result.max_penetration > 0.) || result.approach > rule.idle * result.max_penetration)
+      if (pair.is_tied || pair.prescribed_gap || coupling.n_rows_of_all == 0 || !(gap.value() < 0.))
         return 0.;
       const double width   = std::sqrt(coupling.area / static_cast<double>(coupling.n_rows_of_all));
       const auto  &surface = pair.nonmortar.surface;
@@ -195,12 +199,38 @@ namespace Signorini
           double          reach = 0.;
           for (const unsigned int v : face.corners)
             reach = std::max(reach, 2. * first.distance(surface.mesh.vertices[v]));
-          if (first.distance(result.min_gap_at) <= reach)
+          if (first.distance(gap.place()) <= reach)
             for (const unsigned int v : face.corners)
               is_near[v] = true;
         }
-      const double missed = result.max_penetration - doubt_of_gap(pair, is_near, comm);
+      const double missed = -gap.value() - doubt_of_gap(pair, is_near, comm);
       return missed > rule.rounding * width ? missed : 0.;
+    }
+
+    /// Collective. Penetrations by the spots that a pair touches in, and away from them.
+    void look_at_spots(PairResult &result, const ContactPair &pair, const PairCoupling &coupling,
+                       const ContactSpots &spots, const double images, const MPI_Comm comm)
+    {
+      // Forces that are rounding are none.
+      LeastGap missed = spots.elsewhere;
+      if (result.approach <= MissedContactRule().idle * result.max_penetration)
+        missed.add(result.min_gap, result.min_gap_at);
+      result.missed_penetration = missed_penetration(missed, pair, coupling, comm);
+      if (result.missed_penetration > 0.)
+        result.missed_at = missed.place();
+      const bool is_elsewhere = result.missed_penetration > 0. && missed.value() <= result.min_gap;
+      result.spot_penetration = is_elsewhere ? 0. : result.max_penetration;
+      result.spot_approach    = result.approach;
+      result.spot_at          = result.min_gap_at;
+      for (const ContactSpot &spot : spots.spots)
+        if (const double approach = approach_of(spot.load, spot.area, pair, images);
+            spot.load > ContactSpotRule().least_load * result.load &&
+            -spot.gap.value() * result.spot_approach > result.spot_penetration * approach)
+          {
+            result.spot_penetration = -spot.gap.value();
+            result.spot_approach    = approach;
+            result.spot_at          = spot.gap.place();
+          }
     }
   } // namespace
 
@@ -231,17 +261,21 @@ namespace Signorini
     result.force           = sum(forces.nonmortar.force, comm);
     result.force_on_mortar = pair.obstacle ? -result.force : sum(forces.mortar.force, comm);
     result.moment          = sum(forces.nonmortar.moment, comm);
-    measure_contact(result, pair, is_active, sum(forces.nonmortar.moment + forces.mortar.moment, comm), comm);
+    const double images    = std::exp2(count_symmetry_planes(pair.nonmortar.surface, is_active, comm));
+    measure_contact(result, pair, images, sum(forces.nonmortar.moment + forces.mortar.moment, comm));
     const auto penetration     = penetration_of(d, p, solution.displacement, stress.pressure, is_active);
     result.min_gap             = penetration.min_gap;
     result.min_gap_at          = penetration.min_gap_at;
     result.max_penetration     = std::max(0., penetration.max_penetration());
-    result.missed_penetration  = missed_penetration(result, pair, coupling, comm);
     result.loaded_gap          = pair.prescribed_gap ? 0. : penetration.loaded_gap;
     result.gap_doubt           = penetration.gap_doubt;
     result.gap_doubt_at        = penetration.gap_doubt_at;
     result.mean_pressure       = result.contact_area > 0. ? result.load / result.contact_area : 0.;
     result.initial_penetration = std::max(0., -penetration.min_initial_gap);
+    if (!pair.is_tied)
+      look_at_spots(result, pair, coupling,
+                    find_contact_spots(pair, coupling, stress.pressure, is_active, penetration.of_faces),
+                    images, comm);
     return result;
   }
 

@@ -8,6 +8,7 @@ signorini_add_layer(application COLD
   contact_evaluation.cc
   contact_model.cc
   contact_solve.cc
+  contact_spots.cc
   cycle_words.cc
   deck_adjust.cc
   deck_amplitudes.cc

@@ -81,6 +81,7 @@ namespace Signorini
       r.max_pressure_at, r.min_gap_at, r.gap_doubt_at);
     a(r.slip, r.slip_in_faces, r.mean_pressure, r.max_recovered_pressure, r.max_recovered_pressure_at,
       r.pressure_scatter, r.narrow_share, r.share_on_edges, r.missed_penetration);
+    a(r.missed_at, r.spot_penetration, r.spot_approach, r.spot_at);
   }
 
   template <typename Archive>

@@ -159,8 +159,9 @@ namespace Signorini
     }
 
     /// Collective. A face with its centre, its size and what acts on it.
-    RigidFace make_face(const unsigned int index, const RigidFaceCondition &condition, const NodalSpace &space,
-                        const std::map<NodeIndex, Point<3>> &nodes, const double time)
+    RigidFace make_face(const unsigned int index, const RigidFaceCondition &condition,
+                        const NodalSpace &space, const std::map<NodeIndex, Point<3>> &nodes,
+                        const double time)
     {
       RigidFace face{index, condition.body, Point<3>(), 0., {}, {}, {}, {}};
       Point<3>  low = nodes.begin()->second, high = low;

@@ -133,19 +133,19 @@ namespace Signorini
     : surface(surface)
     , pressure(pressure)
     , area(surface.faces.size(), 0.)
-    , least(surface.faces.size(), std::numeric_limits<double>::infinity())
+    , least(surface.faces.size())
   {
   }
 
 
 
-  void GapUnderLoad::add(const unsigned int triangle, const double part, const double gap)
+  void GapUnderLoad::add(const unsigned int triangle, const double part, const LeastGap &gap)
   {
     const unsigned int face = surface.triangle_face[triangle];
-    if (!(gap < std::numeric_limits<double>::infinity()))
+    if (!(gap.value() < std::numeric_limits<double>::infinity()))
       return;
     area[face] += part;
-    least[face] = std::min(least[face], gap);
+    least[face].add(gap.value(), gap.place());
   }
 
 
@@ -162,7 +162,7 @@ namespace Signorini
         for (unsigned int a = 0; a < face.n_corners; ++a)
           if (!face.leaves(a))
             force += std::max(0., pressure[face.corners[a]]) * area[f] / face.n_corners;
-        sum += force * std::max(0., least[f]);
+        sum += force * std::max(0., least[f].value());
         load += force;
       }
     sum  = Utilities::MPI::sum(sum, communicator);
@@ -241,7 +241,7 @@ namespace Signorini
     DoubtOfGaps         doubts(nonmortar);
     for (const OverlayTriangle &cell : overlay)
       {
-        double                least = std::numeric_limits<double>::infinity();
+        LeastGap              least;
         std::optional<double> at_centre;
         for (const std::array<double, 3> &sample : samples)
           {
@@ -263,12 +263,12 @@ namespace Signorini
             const double gap     = initial - n * relative;
             initially.add(initial, x);
             deformed.add(gap, x);
-            least     = std::min(least, gap);
+            least.add(gap, x);
             at_centre = gap;
           }
         if (has_corner(nonmortar, cell.nonmortar_triangle, contact.doubted))
           doubts.add(cell.nonmortar_triangle, std::abs(cell.share()), gap_doubt(nonmortar, mortar, cell),
-                     at_centre.value_or(least));
+                     at_centre.value_or(least.value()));
         under_load.add(cell.nonmortar_triangle,
                        std::abs(cell.share()) * triangle_area(nonmortar.mesh, cell.nonmortar_triangle),
                        least);
@@ -276,8 +276,8 @@ namespace Signorini
     initially.reduce(communicator);
     deformed.reduce(communicator);
     const auto [doubt, doubt_at] = doubts.largest(communicator);
-    return {initially.value(), deformed.value(), deformed.place(), under_load.mean(communicator), doubt,
-            doubt_at};
+    return {initially.value(), deformed.value(),     deformed.place(), under_load.mean(communicator), doubt,
+            doubt_at,          under_load.of_faces()};
   }
 
 

@@ -306,7 +306,7 @@ namespace Signorini
     for (unsigned int t = 0; t < surface.mesh.triangles.size(); ++t)
       if (faces[surface.triangle_face[t]])
         {
-          double                least = std::numeric_limits<double>::infinity();
+          LeastGap              least;
           std::optional<double> at_centre;
           for (const auto &w : samples)
             {
@@ -332,19 +332,19 @@ namespace Signorini
                   if (obstacle.gap(gap, Point<3>(x + u), n, size))
                     {
                       deformed.add(gap, Point<3>(x));
-                      least     = std::min(least, gap);
+                      least.add(gap, Point<3>(x));
                       at_centre = gap;
                     }
                 }
             }
           if (has_corner(surface, t, contact.doubted))
-            doubts.add(t, 1., gap_doubt(surface, t), at_centre.value_or(least));
+            doubts.add(t, 1., gap_doubt(surface, t), at_centre.value_or(least.value()));
           under_load.add(t, triangle_area(surface.mesh, t), least);
         }
     initially.reduce(communicator);
     deformed.reduce(communicator);
     const auto [doubt, doubt_at] = doubts.largest(communicator);
-    return {initially.value(), deformed.value(), deformed.place(), under_load.mean(communicator), doubt,
-            doubt_at};
+    return {initially.value(), deformed.value(),     deformed.place(), under_load.mean(communicator), doubt,
+            doubt_at,          under_load.of_faces()};
   }
 } // namespace Signorini

@@ -165,6 +165,10 @@ namespace Signorini
       json.number("narrow_share", pair.narrow_share);
       json.number("share_on_edges", pair.share_on_edges);
       json.number("missed_penetration", pair.missed_penetration);
+      json.vector("missed_at", Vector3(pair.missed_at));
+      json.number("spot_penetration", pair.spot_penetration);
+      json.number("spot_approach", pair.spot_approach);
+      json.vector("spot_at", Vector3(pair.spot_at));
       json.boolean("is_narrow", pair.is_narrow());
       json.number("contact_area", pair.contact_area);
       json.number("coverage", pair.coverage);

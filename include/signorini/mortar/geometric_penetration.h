@@ -12,6 +12,35 @@
 
 namespace Signorini
 {
+  /// The least gap of a surface and where it is; infinite without any.
+  class LeastGap
+  {
+  public:
+    /// A gap somewhere.
+    void add(const double gap, const dealii::Point<3> &place);
+
+    /// Collective. Those of all ranks.
+    void reduce(const MPI_Comm communicator);
+
+    /// The gap.
+    double value() const
+    {
+      return least;
+    }
+
+    /// Where it is.
+    const dealii::Point<3> &place() const
+    {
+      return where;
+    }
+
+  private:
+    bool is_before(const double gap, const dealii::Point<3> &place) const;
+
+    double           least = std::numeric_limits<double>::infinity();
+    dealii::Point<3> where;
+  };
+
   /// How far the deformed true surfaces are apart pointwise, not in the weighted sense of the constraint
   /// (lengths).
   struct GeometricPenetration
@@ -28,6 +57,8 @@ namespace Signorini
     double gap_doubt;
     /// The middle of that triangle.
     dealii::Point<3> gap_doubt_at;
+    /// Least gaps after deformation by face of the nonmortar surface, of what this rank has sampled.
+    std::vector<LeastGap> of_faces;
 
     /// Largest n(x)·(u_non(x) - u_mor(Phi(x))) - initial_gap()·n(x): negative if the surfaces are apart.
     double max_penetration() const
@@ -70,35 +101,6 @@ namespace Signorini
     double apart = 10.;
   };
 
-  /// The least gap of a surface and where it is; infinite without any.
-  class LeastGap
-  {
-  public:
-    /// A gap somewhere.
-    void add(const double gap, const dealii::Point<3> &place);
-
-    /// Collective. Those of all ranks.
-    void reduce(const MPI_Comm communicator);
-
-    /// The gap.
-    double value() const
-    {
-      return least;
-    }
-
-    /// Where it is.
-    const dealii::Point<3> &place() const
-    {
-      return where;
-    }
-
-  private:
-    bool is_before(const double gap, const dealii::Point<3> &place) const;
-
-    double           least = std::numeric_limits<double>::infinity();
-    dealii::Point<3> where;
-  };
-
   /// By how much the weighted gaps of a surface may be wrong: the mean over each of its triangles of what
   /// gap_doubt() says of its parts, nothing of those that are far apart.
   class DoubtOfGaps
@@ -128,16 +130,23 @@ namespace Signorini
     GapUnderLoad(const ContactSurface &surface, const std::vector<double> &pressure);
 
     /// Part of a face with its least gap.
-    void add(const unsigned int triangle, const double area, const double gap);
+    void add(const unsigned int triangle, const double area, const LeastGap &gap);
 
     /// Collective. See GeometricPenetration::loaded_gap.
     double mean(const MPI_Comm communicator) const;
 
+    /// By face; the gap is infinite without a part.
+    const std::vector<LeastGap> &of_faces() const
+    {
+      return least;
+    }
+
   private:
     const ContactSurface      &surface;
     const std::vector<double> &pressure;
-    /// By face; the gap is infinite without a part.
-    std::vector<double> area, least;
+    /// By face.
+    std::vector<double>   area;
+    std::vector<LeastGap> least;
   };
 
   /// Collective. Samples seven points (corners, middles of edges, centre) of every overlay triangle of all

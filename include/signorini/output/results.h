@@ -110,9 +110,14 @@ namespace Signorini
     {
       return narrow_share > NarrowContactRule().told;
     }
-    /// By how much the true surfaces penetrate each other although the pair carries no force (length), beyond
-    /// what is not known of them (MissedContactRule): a contact that is narrower than the faces.
-    double missed_penetration = 0.;
+    /// By how much the true surfaces penetrate each other where no force of the pair is near (length), beyond
+    /// what is not known of them (MissedContactRule): a contact narrower than the faces. Where it is.
+    double           missed_penetration = 0.;
+    dealii::Point<3> missed_at;
+    /// Largest penetration and approach of the part of the contact where their ratio is worst (lengths), or
+    /// of all of it (ContactSpotRule); where it is.
+    double           spot_penetration = 0., spot_approach = 0.;
+    dealii::Point<3> spot_at;
     /// How far the surfaces slide on each other where they touch, or end up apart by less than that (length),
     /// and in multiples of the width of the faces there.
     double slip = 0., slip_in_faces = 0.;

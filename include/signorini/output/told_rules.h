@@ -24,14 +24,22 @@ namespace Signorini
     double told = .5;
   };
 
-  /// When a pair without forces has missed a contact. Pure numbers.
+  /// When a pair has missed a contact. Pure numbers.
   struct MissedContactRule
   {
-    /// Of the penetration, the approach up to which it carries no force.
+    /// Of the penetration, the approach up to which all of the pair carries no force.
     double idle = 1e-3;
     /// Of the width of the faces, the penetration that is rounding: meshes have five digits and more. Faces 6
     /// wide under a roller of radius 10 miss penetrations of up to 0.05 of it.
     double rounding = 1e-3;
+  };
+
+  /// Which parts of the contact of a pair are looked at on their own. Pure number.
+  struct ContactSpotRule
+  {
+    /// Of the load of the pair, what they carry at least. A block on a wide and a narrow roller in one pair,
+    /// where the narrow one carried .055 of the load, half of the right one.
+    double least_load = .03;
   };
 
   /// Below which part of the integral of the pressure its resultant is not what a contact carries. Pure

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Signorini authors
+
+#include <signorini/algebra/gathered_lists.h>
+#include <signorini/application/contact_spots.h>
+
+#include <map>
+#include <numeric>
+#include <unordered_map>
+
+namespace Signorini
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Things that are joined, by number; the smallest number stands for all of them.
+    class JoinedNodes
+    {
+    public:
+      NodeIndex first(const NodeIndex node)
+      {
+        NodeIndex result = node;
+        for (auto it = parent.find(result); it != parent.end(); it = parent.find(result))
+          result = it->second;
+        if (result != node)
+          parent[node] = result;
+        return result;
+      }
+
+      void join(const NodeIndex one, const NodeIndex other)
+      {
+        const NodeIndex a = first(one), b = first(other);
+        if (a != b)
+          parent[std::max(a, b)] = std::min(a, b);
+      }
+
+    private:
+      std::unordered_map<NodeIndex, NodeIndex> parent;
+    };
+
+    struct JoinedPair
+    {
+      NodeIndex one, other;
+    };
+
+    /// The active corners of a face, and for those that hang their active parents.
+    std::vector<unsigned int> active_vertices(const ContactSurface &surface, const ContactSurface::Face &face,
+                                              const std::vector<bool> &is_active)
+    {
+      std::vector<unsigned int> result;
+      const auto                add = [&](const unsigned int v) {
+        if (is_active[v])
+          result.push_back(v);
+      };
+      for (unsigned int a = 0; a < face.n_corners; ++a)
+        {
+          const unsigned int v = face.corners[a];
+          add(v);
+          for (const auto &[parent, weight] : surface.hanging[v])
+            if (weight != 0.)
+              add(parent);
+        }
+      return result;
+    }
+
+    /// Collective. Joins the active nodes of every face; nodes of the faces of several ranks join what these
+    /// have found.
+    JoinedNodes join_active_nodes(const ContactPair &pair, const std::vector<bool> &is_active,
+                                  const MPI_Comm comm)
+    {
+      const ContactSurface          &surface = pair.nonmortar.surface;
+      JoinedNodes                    joined;
+      std::map<NodeIndex, NodeIndex> of_others;
+      for (unsigned int f = 0; f < surface.faces.size(); ++f)
+        if (pair.halo->owns_face(f))
+          {
+            const auto vertices = active_vertices(surface, surface.faces[f], is_active);
+            for (const unsigned int v : vertices)
+              {
+                joined.join(surface.vertex_node[vertices[0]], surface.vertex_node[v]);
+                if (!pair.halo->owns(v))
+                  of_others[surface.vertex_node[v]] = 0;
+              }
+          }
+      std::vector<JoinedPair> pairs;
+      for (const auto &[node, unused] : of_others)
+        pairs.push_back({node, joined.first(node)});
+      pairs = gather_lists(std::move(pairs), comm, Receivers::all);
+      // The owner of a node joins what it has itself.
+      std::vector<JoinedPair>           own;
+      std::map<NodeIndex, unsigned int> vertices;
+      for (unsigned int v = 0; v < surface.vertex_node.size(); ++v)
+        if (pair.halo->owns(v))
+          vertices[surface.vertex_node[v]] = v;
+      for (const JoinedPair &one : pairs)
+        if (vertices.count(one.one) > 0)
+          own.push_back({one.one, joined.first(one.one)});
+      for (const auto &list : {pairs, gather_lists(std::move(own), comm, Receivers::all)})
+        for (const auto &[one, other] : list)
+          joined.join(one, other);
+      return joined;
+    }
+
+    /// What a rank knows of a spot.
+    struct PartOfSpot
+    {
+      NodeIndex   first;
+      ContactSpot part;
+    };
+
+    /// By face of this rank and ghost face: whether it or a face beside it has an active corner.
+    std::vector<bool> faces_near_contact(const ContactSurface &surface, const std::vector<bool> &is_active)
+    {
+      std::vector<bool> is_near(is_active);
+      for (const ContactSurface::Face &face : surface.faces)
+        if (!active_vertices(surface, face, is_active).empty())
+          for (const unsigned int v : face.corners)
+            {
+              is_near[v] = true;
+              for (const auto &[parent, weight] : surface.hanging[v])
+                is_near[parent] = true;
+            }
+      std::vector<bool> result;
+      for (const ContactSurface::Face &face : surface.faces)
+        result.push_back(!active_vertices(surface, face, is_near).empty());
+      return result;
+    }
+  } // namespace
+
+
+
+  ContactSpots find_contact_spots(const ContactPair &pair, const PairCoupling &coupling,
+                                  const std::vector<double> &pressure, const std::vector<bool> &is_active,
+                                  const std::vector<LeastGap> &gaps)
+  {
+    const MPI_Comm                   comm    = pair.halo->communicator();
+    const ContactSurface            &surface = pair.nonmortar.surface;
+    JoinedNodes                      joined  = join_active_nodes(pair, is_active, comm);
+    std::map<NodeIndex, ContactSpot> parts;
+    for (std::size_t row = 0; row < coupling.vertices.size(); ++row)
+      if (is_active[coupling.vertices[row]])
+        {
+          ContactSpot &spot = parts[joined.first(coupling.coupling.rows[row])];
+          spot.load += coupling.areas[row] * pressure[row];
+          spot.area += coupling.areas[row];
+        }
+    ContactSpots            result;
+    const std::vector<bool> is_near = faces_near_contact(surface, is_active);
+    for (unsigned int f = 0; f < surface.faces.size(); ++f)
+      if (pair.halo->owns_face(f))
+        {
+          if (const auto vertices = active_vertices(surface, surface.faces[f], is_active); !vertices.empty())
+            parts[joined.first(surface.vertex_node[vertices[0]])].gap.add(gaps[f].value(), gaps[f].place());
+          else if (!is_near[f])
+            result.elsewhere.add(gaps[f].value(), gaps[f].place());
+        }
+    std::vector<PartOfSpot> list;
+    for (const auto &[first, part] : parts)
+      list.push_back({first, part});
+    parts.clear();
+    for (const auto &[first, part] : gather_lists(std::move(list), comm, Receivers::all))
+      {
+        ContactSpot &spot = parts[first];
+        spot.load += part.load;
+        spot.area += part.area;
+        spot.gap.add(part.gap.value(), part.gap.place());
+      }
+    for (const auto &[first, spot] : parts)
+      result.spots.push_back(spot);
+    result.elsewhere.reduce(comm);
+    return result;
+  }
+} // namespace Signorini
