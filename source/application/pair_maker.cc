@@ -181,7 +181,9 @@ namespace Signorini
       if (Utilities::MPI::max(static_cast<int>(meets), comm) == 0)
         throw InputError("Pair " + pair.name + ": the surface \"" + pair.nonmortar.name +
                          "\" does not face the obstacle \"" + pair.mortar.name +
-                         "\" anywhere: no outward normal meets it from outside.");
+                         "\" anywhere: no outward normal meets it from outside. If its faces are wider than "
+                         "the obstacle, refine it "
+                         "first (Initial levels).");
     }
   } // namespace
 

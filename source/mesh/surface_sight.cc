@@ -24,8 +24,6 @@ namespace Signorini
   bool SurfaceSight::find(Place &place, const Point<3> &p, const Vector3 &n, const double same_place,
                           const std::function<bool(double)> &is_open) const
   {
-    // As where a mapping ends (incidence.cc).
-    constexpr double facing_cosine = -.5;
     found.clear();
     tree.find_along_line(found, p, n);
     bool is_seen = false;
@@ -43,7 +41,7 @@ namespace Signorini
             one.distance       = std::abs(one.distance);
             nearest            = std::min(nearest, one.distance);
             const Vector3 area = area_vector(surface, surface.faces[surface.triangle_face[t]]);
-            if (area * n < facing_cosine * area.norm() && one.distance < facing.distance)
+            if (area * n < touching_cosine * area.norm() && one.distance < facing.distance)
               facing = one;
           }
         if (std::isfinite(facing.distance) && facing.distance <= nearest + same_place &&

@@ -28,8 +28,6 @@ namespace Signorini
     /// Pure numbers.
     struct EdgeRule
     {
-      /// Of what is seen at all.
-      double facing = .5;
       /// By what part of its slope against the other side a face must rise from an edge that presses on that.
       double least_rise = .1;
       /// How much of the first one the turn from own to new normals may change by as these spread: where a
@@ -102,7 +100,7 @@ namespace Signorini
         std::map<unsigned int, Vector3> sums;
         for (const auto &[v, normal] : normals)
           for_facets(v, [&, n = normal](const unsigned int a, const unsigned int b, const unsigned int t) {
-            if (n * facet_normal(surface, t) >= EdgeRule().facing)
+            if (n * facet_normal(surface, t) > -touching_cosine)
               for (const unsigned int w : {a, b})
                 if (!corner(w).meets_anything() && corner(w).may_turn())
                   sums[w] += n;
@@ -313,7 +311,7 @@ namespace Signorini
     std::vector<bool> is_turned(surface.mesh.vertices.size(), false);
     surface.has_partner_normal.resize(is_turned.size(), false);
     for (unsigned int v = 0; v < is_turned.size(); ++v)
-      if (surface.hanging[v].empty() && -plane_normal * surface.mesh.vertex_normals[v] >= EdgeRule().facing)
+      if (surface.hanging[v].empty() && plane_normal * surface.mesh.vertex_normals[v] < touching_cosine)
         {
           surface.mesh.vertex_normals[v] = -plane_normal;
           surface.has_partner_normal[v]  = true;

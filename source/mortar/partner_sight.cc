@@ -21,8 +21,6 @@ namespace Signorini
     /// Pure numbers.
     struct PartnerSightRule
     {
-      /// Cosine between a direction of sight and what is seen at all.
-      double facing = .5;
       /// Distances of one place (SurfaceSight), in widths of the facet that is looked from.
       double same_place = 1e-6;
       /// How far edges are looked for, in these widths.
@@ -85,7 +83,7 @@ namespace Signorini
                                  PartnerSightRule().near_edge * width);
           met.beyond_edge   = edge.beyond;
           met.edge_distance = edge.distance;
-          return met.normal * normal >= PartnerSightRule().facing;
+          return met.normal * normal > -touching_cosine;
         };
   }
 } // namespace Signorini

@@ -15,14 +15,6 @@ namespace Signorini
 
   namespace
   {
-    struct FacingRule
-    {
-      /// The gap along a normal grows like 1 / cosine; the weighted gaps of nodes beside faces across which
-      /// it grows many times over are negative by multiples of the size of the body. Vertices of a cube that
-      /// stands on a plane have .58.
-      double cosine = .5;
-    };
-
     /// The root of a t^2 + 2 b t + c where it falls, of smaller rounding error.
     bool falling_root(double &t, const double a, const double b, const double c)
     {
@@ -217,8 +209,11 @@ namespace Signorini
 
   bool RigidObstacle::is_faced(const Point<3> &y, const Vector3 &n, const double size) const
   {
+    // The gap along a normal grows like 1 / cosine; the weighted gaps of nodes beside faces across which it
+    // grows many times over are negative by multiples of the size of the body. Vertices of a cube that stands
+    // on a plane have .58.
     const Vector3 outward = gradient(y, size);
-    return n * outward < -FacingRule().cosine * outward.norm();
+    return n * outward < touching_cosine * outward.norm();
   }
 
 

@@ -67,7 +67,6 @@ namespace Signorini
 
   bool may_touch(const Vector3 &normal, const Vector3 &other)
   {
-    constexpr double touching_cosine = -.5;
     return normal * other < touching_cosine;
   }
 

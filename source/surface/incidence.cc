@@ -13,9 +13,6 @@ namespace Signorini
 
   namespace
   {
-    /// Rigid obstacles are met up to this one, too.
-    constexpr double touching_cosine = -.5;
-
     bool has_cosine_below(const double cosine, const Tensor<1, 3> &a, const Tensor<1, 3> &b)
     {
       const double product = a * b;

@@ -1,6 +1,7 @@
 """Surfaces that fit into each other: the gap is that of the true bodies. The meshes come from files, do not match, and no option says what they stand
 for unless a case gives shapes."""
 import json
+import math
 import os
 import tempfile
 
@@ -192,6 +193,46 @@ def missed_contact(p):
         for settings in (['Pair c/Nonmortar=second'], ['Refinement/Initial global levels=2']):
             pair = p.solve(path, *settings)['pairs'][0]
             check(pair['load'] > 8e4 and pair['missed_penetration'] == 0, f'{settings}: {pair}')
+
+
+# A block of one layer on a wide roller and one of radius 1 at x, higher by h than the block.
+TWO_ROLLERS = '''set Bodies        = block
+set Contact pairs = c
+subsection Body block
+  set Lower corner  = -10, 0, 0
+  set Upper corner  = 10, 1, 6
+  set Divisions     = 20, 1, 6
+  set Dirichlet     = front: (*, 0, *); back: (*, 0, *); top: (0, *, -0.1)
+  set Young modulus = 1000
+end
+subsection Pair c
+  set First    = block: bottom
+  set Obstacle = function: if(x<0, (sqrt((x+5)^2+(z+200)^2)-200), (sqrt((x-{x})^2+(z+{h})^2)-1))
+end
+subsection Refinement
+  set Global cycles = 0
+end
+'''
+
+
+def two_rollers(p):
+    """One pair with two contacts of which the mesh is fine enough for one: the other one is judged by what it carries itself, whether it is missed or carries half."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, 'rollers.prm')
+        for x, h, words, share in ((5.5, 1.075, 'no contact force', 0), (5.25, 1.05, 'between the nodes', 1.9)):
+            with open(path, 'w') as f:
+                f.write(TWO_ROLLERS.format(x=x, h=h))
+            s = p.solve(path, codes=(3,))
+            pair, objections = s['pairs'][0], s['certificate']['objections']
+            check(len(objections) == 1 and words in objections[0], f'{objections}')
+            check(pair['max_penetration'] < 0.5 * pair['approach'], f'of the whole pair: {pair}')
+            if share > 0:
+                near(pair['spot_penetration'] / pair['spot_approach'], share, 0.05, 'penetration of the spot')
+                near(s['certificate']['geometric_penetration'], share, 0.05, 'the same')
+            check(math.dist(pair['spot_at' if share > 0 else 'missed_at'], (x, 0, 0)) < 0.5, f'{pair}')
+        # Fine enough for both.
+        s = p.solve(path, 'Refinement/Initial global levels=3')
+        check(s['pairs'][0]['missed_penetration'] == 0, f'{s["pairs"][0]}')
 
 
 FILLETS = '''set Bodies        = block, pocket

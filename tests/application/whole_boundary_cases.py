@@ -756,3 +756,46 @@ def tipping_block(p):
                 near(s['bodies'][0]['largest_displacement'], sole, .03, f'{layers} layers, {angle} degrees, {side}: displacement')
                 check(abs(pair['force'][0]) < 1e-3, f'{layers} layers, {angle} degrees, {side}: pushed sideways by {pair["force"][0]}')
                 check(s['displacements_are_small'] and s['certificate']['contact_conditions_hold'], f'{s["certificate"]["objections"]}')
+
+
+# A block stands on its edge, of which the one face rises from the plate by an angle and the other one by the rest of 90 degrees.
+ON_EDGE = '''set Bodies        = block, plate
+set Contact pairs = seat
+subsection Body block
+  set Lower corner   = 0, 0, 0
+  set Upper corner   = 4, 2, 3
+  set Divisions      = 8, 4, 6
+  set Young modulus  = 1000
+  set Rotation axis  = 0, 1, 0
+  set Dirichlet      = right: (0, 0, -0.05)
+end
+subsection Body plate
+  set Lower corner  = -3, -1, -3
+  set Upper corner  = 3, 3, 0
+  set Divisions     = 12, 8, 6
+  set Young modulus = 1000
+  set Dirichlet     = bottom: (0, 0, 0)
+end
+subsection Pair seat
+  set First  = block: bottom+left
+  set Second = plate: top
+end
+subsection Refinement
+  set Global cycles = 1
+end
+'''
+
+
+def standing_on_edge(p):
+    """At exactly 60 degrees from the other surface a face touches it or not, whatever rounding says."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, 'edge.prm')
+        with open(path, 'w') as f:
+            f.write(ON_EDGE)
+        loads = []
+        for angle in (-29.999, -30, -30.001):
+            pair = p.solve(path, f'Body block/Rotation angle={angle}')['pairs'][0]
+            check(abs(pair['force'][0]) <= 1e-6 * abs(pair['force'][2]), f'sideways: {pair["force"]}')
+            loads.append(pair['force'][2])
+        for load in loads[1:]:
+            near(load, loads[0], 1e-3, 'force')

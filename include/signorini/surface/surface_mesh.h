@@ -13,6 +13,11 @@
 
 namespace Signorini
 {
+  /// Surfaces touch where their normals are less than 60 degrees from being opposite: where the cosine is
+  /// below this. By a hair less, for 60 degrees are the angle of many bodies, and rounding must not decide of
+  /// them.
+  constexpr double touching_cosine = -.500001;
+
   /// A triangulated surface in space as plain arrays. Triangles are oriented: the normal
   /// (b - a) x (c - a) of a triangle (a, b, c) points out of the body.
   struct SurfaceMesh
