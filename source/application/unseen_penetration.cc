@@ -446,7 +446,8 @@ namespace Signorini
     text << std::setprecision(3) << model.bodies().part_name(one.part) << " lies " << one.depth << " deep in "
          << model.bodies().part_name(one.other) << " at " << place_text(one.place)
          << (one.has_pair ? ", where their pair does not look: are there faces that do not belong to it, or "
-                            "edges that meet edges? Give these faces to it or to another pair."
+                            "edges that meet edges? Give these faces to it or to another pair; "
+                            "where an edge meets a face, choose the other side as \"Nonmortar\"."
                           : ", and no contact pair keeps them apart.");
     return text.str();
   }

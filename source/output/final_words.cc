@@ -79,6 +79,13 @@ namespace Signorini
       return text.str();
     }
 
+    /// Ties alone do, but for rounding.
+    bool pulls(const PairResult &pair)
+    {
+      constexpr double told = 1e-3;
+      return pair.min_pressure < -told * std::abs(pair.max_pressure);
+    }
+
     void print_pair(std::ostream &out, const PairResult &pair)
     {
       out << "pair " << pair.name << ": ";
@@ -95,8 +102,12 @@ namespace Signorini
           << text(pair.force, pair.load);
       if (pair.pressures_cancel())
         out << "; pressures cancel in it, their integral is " << pair.load;
-      out << "\n  contact area " << pair.contact_area << ", largest pressure " << pair.max_pressure << " at "
-          << place_text(pair.max_pressure_at) << smoothed_text(pair);
+      out << "\n  contact area " << pair.contact_area;
+      if (pulls(pair))
+        out << ", pressure from " << pair.min_pressure << " to " << pair.max_pressure << ": the tie pulls";
+      else
+        out << ", largest pressure " << pair.max_pressure << " at " << place_text(pair.max_pressure_at)
+            << smoothed_text(pair);
       out << scatter_text(pair) << narrow_text(pair);
       out << '\n';
     }

@@ -788,7 +788,9 @@ def chamfered_block(p):
         near(peak['second'], peak['first'], .25, 'pressure')
         for side in area:
             near(area[side], 86., .1, f'nonmortar {side}: area')
-        check(p.solve(path, *TILTED)['certificate']['loaded_gap'] < .05, 'tilted')
+        # On its edge: forces act where the surfaces touch, but faces of 1.3 are too wide for that (4405 to 3580 on three meshes).
+        c = p.solve(path, *TILTED, codes=(3,))['certificate']
+        check(c['loaded_gap'] < .05 and all('penetrate' in text for text in c['objections']), f'tilted: {c}')
 
 
 def lead_in_chamfer(p):
