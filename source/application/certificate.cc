@@ -274,8 +274,9 @@ namespace Signorini
     {
       const SurfaceKind     surface = model.definition.surface;
       const CertificateRule rule;
-      const std::string     name = "pair " + pair.name + ": ";
-      if (pair.missed_penetration > rule.missed_penetration * scales.approach)
+      const std::string     name      = "pair " + pair.name + ": ";
+      const bool            is_missed = pair.missed_penetration > rule.missed_penetration * scales.approach;
+      if (is_missed)
         c.objections.push_back(
             name + "the true surfaces penetrate by " + text_of(pair.missed_penetration) + " at " +
             place_text(pair.missed_at) +
@@ -293,7 +294,8 @@ namespace Signorini
             (surface == SurfaceKind::smooth      ? " or a finer start mesh"
              : surface == SurfaceKind::automatic ? ", a finer start mesh, or Surface = smooth"
                                                  : ", a finer start mesh, or Surface = automatic"));
-      if (pair.spot_penetration > rule.geometric_penetration * pair.spot_approach)
+      if (pair.spot_penetration > rule.geometric_penetration * pair.spot_approach &&
+          !(is_missed && pair.spot_at == pair.missed_at))
         c.objections.push_back(
             name + "between the nodes the true surfaces penetrate by " + text_of(pair.spot_penetration) +
             ", " + text_of(pair.spot_penetration / pair.spot_approach) + " of what contact does there, at " +

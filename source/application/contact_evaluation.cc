@@ -218,13 +218,15 @@ namespace Signorini
       result.missed_penetration = missed_penetration(missed, pair, coupling, comm);
       if (result.missed_penetration > 0.)
         result.missed_at = missed.place();
-      const bool is_elsewhere = result.missed_penetration > 0. && missed.value() <= result.min_gap;
-      result.spot_penetration = is_elsewhere ? 0. : result.max_penetration;
+      result.spot_penetration = result.max_penetration;
       result.spot_approach    = result.approach;
       result.spot_at          = result.min_gap_at;
+      double largest          = 0.;
+      for (const ContactSpot &spot : spots.spots)
+        largest = std::max(largest, spot.load);
       for (const ContactSpot &spot : spots.spots)
         if (const double approach = approach_of(spot.load, spot.area, pair, images);
-            spot.load > ContactSpotRule().least_load * result.load &&
+            spot.load > ContactSpotRule().least_load * largest &&
             -spot.gap.value() * result.spot_approach > result.spot_penetration * approach)
           {
             result.spot_penetration = -spot.gap.value();

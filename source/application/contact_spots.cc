@@ -109,21 +109,21 @@ namespace Signorini
       ContactSpot part;
     };
 
-    /// By face of this rank and ghost face: whether it or a face beside it has an active corner.
-    std::vector<bool> faces_near_contact(const ContactSurface &surface, const std::vector<bool> &is_active)
+    /// Collective. By face: whether it, if it is one of this rank, or a face beside it has an active corner.
+    std::vector<bool> faces_near_contact(const ContactPair &pair, const std::vector<bool> &is_active)
     {
-      std::vector<bool> is_near(is_active);
+      const ContactSurface      &surface = pair.nonmortar.surface;
+      std::vector<unsigned char> is_near(is_active.begin(), is_active.end());
       for (const ContactSurface::Face &face : surface.faces)
         if (!active_vertices(surface, face, is_active).empty())
           for (const unsigned int v : face.corners)
-            {
-              is_near[v] = true;
-              for (const auto &[parent, weight] : surface.hanging[v])
-                is_near[parent] = true;
-            }
-      std::vector<bool> result;
+            is_near[v] = 1;
+      // The owner of a vertex knows all faces around it.
+      pair.halo->update(is_near);
+      const std::vector<bool> is_known(is_near.begin(), is_near.end());
+      std::vector<bool>       result;
       for (const ContactSurface::Face &face : surface.faces)
-        result.push_back(!active_vertices(surface, face, is_near).empty());
+        result.push_back(!active_vertices(surface, face, is_known).empty());
       return result;
     }
   } // namespace
@@ -146,7 +146,7 @@ namespace Signorini
           spot.area += coupling.areas[row];
         }
     ContactSpots            result;
-    const std::vector<bool> is_near = faces_near_contact(surface, is_active);
+    const std::vector<bool> is_near = faces_near_contact(pair, is_active);
     for (unsigned int f = 0; f < surface.faces.size(); ++f)
       if (pair.halo->owns_face(f))
         {

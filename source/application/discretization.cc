@@ -210,6 +210,28 @@ namespace Signorini
         throw InputError(text.str() + "; \"Initial penetration = refuse\" does not allow it.");
       journal.note(text.str() + ", resolved as an interference fit.");
     }
+
+    /// What is tied across a gap moves as if there were none.
+    void note_tied_gap(const CoupledPairs &coupled, const unsigned int p, Journal &journal)
+    {
+      // Of the width of a face; curved facets that do not match are apart by a few hundredths.
+      constexpr double   told = .1;
+      const ContactPair &pair = coupled.pairs[p];
+      if (!pair.is_tied || coupled.couplings[p].n_rows_of_all == 0)
+        return;
+      const MappingQuality quality = assess_mapping(*pair.mapping, pair.nonmortar.surface.mesh,
+                                                    pair.mortar.surface.mesh, coupled.model.communicator());
+      const double         gap     = std::max(std::abs(quality.min_gap), std::abs(quality.max_gap)),
+                   width           = std::sqrt(coupled.couplings[p].area /
+                                               static_cast<double>(coupled.couplings[p].n_rows_of_all));
+      if (!(gap > told * width))
+        return;
+      std::ostringstream text;
+      text << "pair " << pair.name << ": its tied surfaces are up to " << gap
+           << " apart. They move together as if they touched; moments of the forces across that gap are not "
+              "carried.";
+      journal.note(text.str());
+    }
   } // namespace
 
 
@@ -235,7 +257,10 @@ namespace Signorini
         if (model.pairs()[p].definition.gap == GapKind::nodal)
           use_nodal_gaps(couplings[p], pairs[p]);
         if (cycle == 0)
-          note_overlap(coupled, p, journal);
+          {
+            note_overlap(coupled, p, journal);
+            note_tied_gap(coupled, p, journal);
+          }
       }
     for (unsigned int p = 0; p < pairs.size(); ++p)
       keep_piece(pairs[p], couplings[p], model.communicator());

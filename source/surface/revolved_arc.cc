@@ -24,6 +24,8 @@ namespace Signorini
       /// At the place: away from the axis, and 1/distance from that.
       Tensor<1, 3> outwards;
       double       over_distance;
+      /// The distance from the axis over that of the vertex.
+      double radius;
 
       InProfile(const RevolvedArc &arc, const Tensor<1, 3> &x)
       {
@@ -31,12 +33,12 @@ namespace Signorini
         const double by_normal = size > 0. ? -arc.across / size : 1., by_v = size > 0. ? arc.tilt / size : 0.;
         const Tensor<1, 3> from_axis = by_normal * arc.normal + by_v * arc.v,
                            axis      = by_normal * arc.v - by_v * arc.normal;
-        const double s = x * arc.u, r = x * from_axis, h = x * axis,
-                     ratio = std::hypot(size * s, 1. + size * r);
+        const double s = x * arc.u, r = x * from_axis, h = x * axis;
+        radius = std::hypot(size * s, 1. + size * r);
         // The distance from the axis less that of the vertex, also where both are large.
-        const double farther = (size * (s * s + r * r) + 2. * r) / (1. + ratio);
-        outwards             = (size * s * arc.u + (1. + size * r) * from_axis) / ratio;
-        over_distance        = size / ratio;
+        const double farther = (size * (s * s + r * r) + 2. * r) / (1. + radius);
+        outwards             = (size * s * arc.u + (1. + size * r) * from_axis) / radius;
+        over_distance        = size / radius;
         height               = by_normal * farther - by_v * h;
         way                  = by_v * farther + by_normal * h;
         of_height            = by_normal * outwards - by_v * axis;
@@ -66,6 +68,14 @@ namespace Signorini
   double RevolvedArc::distance(const Tensor<1, 3> &x) const
   {
     return InProfile(*this, x).distance_from_arc(along);
+  }
+
+
+
+  bool RevolvedArc::reaches(const Tensor<1, 3> &x) const
+  {
+    constexpr double least_radius = .25;
+    return InProfile(*this, x).radius >= least_radius;
   }
 
 
@@ -114,14 +124,15 @@ namespace Signorini
     /// the two curvatures, the tilt.
     void approach(RevolvedArc &arc, const std::vector<Tensor<1, 3>> &points)
     {
-      // Vertices of cones and tori end after three to six steps, and leave less than 1e-3 after three.
-      constexpr unsigned int n_steps = 8, n_first = 3;
-      constexpr double       difference = 1e-6, large = 1e3, hopeless = .02;
+      // Vertices of cones and tori end after three to six steps, each of which leaves a fraction of what
+      // there was.
+      constexpr unsigned int n_steps    = 8;
+      constexpr double       difference = 1e-6, large = 1e3, hopeless = .5, nothing = 1e-9;
       const auto             n = static_cast<Eigen::Index>(points.size());
       // With columns known when it is compiled, g++ 14 warns of a copy of negative length.
       Eigen::MatrixXd a(n, n_unknowns);
       Eigen::VectorXd b(n), heights(n);
-      arc.residual = std::numeric_limits<double>::max();
+      double          before = std::numeric_limits<double>::max();
       for (unsigned int step = 0; step < n_steps; ++step)
         {
           RevolvedArc bent = arc, tilted = arc;
@@ -141,11 +152,14 @@ namespace Signorini
             }
           arc.left_over = b.norm();
           arc.residual  = heights.norm() > 0. ? b.norm() / heights.norm() : 0.;
+          if (arc.residual > nothing && arc.residual > hopeless * before)
+            return;
+          before = arc.residual;
           Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(a);
           qr.setThreshold(1e-6);
           const Eigen::VectorXd x    = qr.solve(b);
           const double          size = x.norm();
-          if (!(size < large) || size < 1e-12 || (step >= n_first && arc.residual > hopeless))
+          if (!(size < large) || size < 1e-12)
             return;
           turn(arc, x.head<3>());
           arc.across += x[3];
@@ -203,7 +217,8 @@ namespace Signorini
     approach(first, points);
     approach(second, points);
     arc = second.residual < first.residual ? second : first;
-    if (!std::isfinite(arc.residual))
+    if (!std::isfinite(arc.residual) ||
+        std::any_of(points.begin(), points.end(), [&](const Tensor<1, 3> &x) { return !arc.reaches(x); }))
       return false;
     const unsigned int n_rows = count_rows(arc, points);
     arc.across /= size;

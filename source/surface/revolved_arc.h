@@ -25,6 +25,13 @@ namespace Signorini
     /// About how far a place is from the surface, along its normal (length); a zero is exact.
     double distance(const dealii::Tensor<1, 3> &x) const;
 
+    /// Whether a place is not much nearer to the axis than the vertex is: at the apex of a cone curvature has
+    /// no bound.
+    bool reaches(const dealii::Tensor<1, 3> &x) const;
+
+    /// How far a place is from the axis, over how far the vertex is.
+    double relative_radius(const dealii::Tensor<1, 3> &x) const;
+
     /// The quadratic surface that touches it near a place.
     Quadric at(const dealii::Tensor<1, 3> &x) const;
   };

@@ -4,6 +4,7 @@
 #include "smooth_pieces.h"
 #include "vertex_fits.h"
 
+#include <signorini/surface/contact_mapping.h>
 #include <signorini/surface/crease_edges.h>
 #include <signorini/surface/smooth_surface.h>
 
@@ -19,6 +20,25 @@ namespace Signorini
 
   namespace
   {
+    Tensor<1, 3> offset_of(const SmoothSurface::Patch &p, const SurfaceMesh &surface,
+                           const unsigned int triangle, const std::array<double, 3> &weights)
+    {
+      if (p.is_flat)
+        return Tensor<1, 3>();
+      const auto  &corners = surface.triangles[triangle];
+      Tensor<1, 3> x, normal;
+      for (unsigned int a = 0; a < 3; ++a)
+        {
+          x += weights[a] * surface.vertices[corners[a]];
+          normal += weights[a] * p.normals[a];
+        }
+      double height = 0.;
+      for (unsigned int a = 0; a < 3; ++a)
+        height += .5 * weights[a] * ((surface.vertices[corners[a]] - x) * p.normals[a]);
+      const double length = normal.norm();
+      return length > 0. ? 2. * height / (length * (1. + length)) * normal : Tensor<1, 3>();
+    }
+
     /// Makes the patches of a surface.
     class PatchMaker
     {
@@ -72,7 +92,7 @@ namespace Signorini
                     touch_flat_part(at_vertex, pieces.vertices[p]);
                     turn_frame(fit.corners[i], at_vertex.normal);
                   }
-              finish(patches[t], t, fit);
+              finish(patches[t], t, fit, fits.arc_of(t));
             }
       }
 
@@ -175,7 +195,9 @@ namespace Signorini
           turn_frame(quadric, nearest);
       }
 
-      void finish(SmoothSurface::Patch &patch, const unsigned int t, const TriangleFit &fit) const
+      /// @param arc what is known to be the true surface
+      void finish(SmoothSurface::Patch &patch, const unsigned int t, const TriangleFit &fit,
+                  const std::optional<PlacedArc> &arc) const
       {
         for (unsigned int i = 0; i < 3; ++i)
           patch.normals[i] = fit.corners[i].normal;
@@ -197,11 +219,27 @@ namespace Signorini
             longest   = std::max(longest, edge.norm());
             residual  = std::max(residual, a.residual);
           }
+        // Curvatures at both ends of an edge differ on cones and tori.
+        if (arc)
+          patch.doubt = distance_from(*arc, patch, t);
         patch.is_smooth = fit.is_complete && residual <= rule.largest_residual &&
                           patch.doubt <= rule.largest_disagreement * curvature * longest * longest / 8.;
         patch.doubt = std::max(patch.doubt, residual * typical);
         if (!fit.is_complete)
           patch.doubt = std::max(patch.doubt, patch.height);
+      }
+
+      /// Of a patch, at its middle and those of its edges.
+      double distance_from(const PlacedArc &arc, const SmoothSurface::Patch &patch,
+                           const unsigned int t) const
+      {
+        constexpr std::array<std::array<double, 3>, 4> places = {
+            {{{1. / 3., 1. / 3., 1. / 3.}}, {{0., .5, .5}}, {{.5, 0., .5}}, {{.5, .5, 0.}}}};
+        double result = 0.;
+        for (const auto &w : places)
+          result =
+              std::max(result, std::abs(arc.distance(evaluate(mesh, t, w) + offset_of(patch, mesh, t, w))));
+        return result;
       }
 
       const SurfaceMesh        &mesh;
@@ -230,20 +268,6 @@ namespace Signorini
 
   Tensor<1, 3> SmoothSurface::offset(const unsigned int triangle, const std::array<double, 3> &weights) const
   {
-    const Patch &p = patches[triangle];
-    if (p.is_flat)
-      return Tensor<1, 3>();
-    const auto  &corners = surface.triangles[triangle];
-    Tensor<1, 3> x, normal;
-    for (unsigned int a = 0; a < 3; ++a)
-      {
-        x += weights[a] * surface.vertices[corners[a]];
-        normal += weights[a] * p.normals[a];
-      }
-    double height = 0.;
-    for (unsigned int a = 0; a < 3; ++a)
-      height += .5 * weights[a] * ((surface.vertices[corners[a]] - x) * p.normals[a]);
-    const double length = normal.norm();
-    return length > 0. ? 2. * height / (length * (1. + length)) * normal : Tensor<1, 3>();
+    return offset_of(patches[triangle], surface, triangle, weights);
   }
 } // namespace Signorini

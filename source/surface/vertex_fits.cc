@@ -48,10 +48,10 @@ namespace Signorini
         const unsigned int p = pieces.of_corner[3 * triangle + i];
         result.corners[i]    = taken_at(triangle, i);
         // Exact surfaces may meet at less than the angle of a crease: each has its own normal there.
-        if (lender(triangle) != SurfaceTopology::none)
-          continue;
-        turn_frame(result.corners[i], normal(p));
-        result.is_complete = result.is_complete && is_fitted(p);
+        if (!meet_exactly(p))
+          turn_frame(result.corners[i], normal(p));
+        result.is_complete =
+            result.is_complete && (lender(triangle) != SurfaceTopology::none || is_fitted(p));
       }
     return result;
   }
@@ -63,6 +63,46 @@ namespace Signorini
     Quadric result = own_fit(piece_vertex);
     turn_frame(result, normal(piece_vertex));
     return result;
+  }
+
+
+
+  bool VertexFits::is_exact(const unsigned int triangle)
+  {
+    const auto own_is_exact = [&](const unsigned int i) {
+      const unsigned int p = pieces.of_corner[3 * triangle + i];
+      return is_fitted(p) && own_fit(p).residual <= rule.exact;
+    };
+    return lender(triangle) != SurfaceTopology::none ||
+           (own_is_exact(0) && own_is_exact(1) && own_is_exact(2));
+  }
+
+
+
+  bool VertexFits::meet_exactly(const unsigned int piece_vertex)
+  {
+    const std::vector<unsigned int> &around = pieces.vertices[piece_vertex].triangles;
+    return std::all_of(around.begin(), around.end(), [&](const unsigned int t) { return is_exact(t); });
+  }
+
+
+
+  std::optional<PlacedArc> VertexFits::arc_of(const unsigned int triangle)
+  {
+    const auto arc_at = [&](const unsigned int p) -> std::optional<PlacedArc> {
+      const auto arc = arcs.find(p);
+      if (arc == arcs.end() || !lies_on(triangle, p))
+        return {};
+      return PlacedArc{arc->second, mesh.vertices[pieces.vertices[p].vertex]};
+    };
+    if (!is_exact(triangle))
+      return {};
+    if (const unsigned int from = lender(triangle); from != SurfaceTopology::none)
+      return arc_at(from);
+    for (unsigned int i = 0; i < 3; ++i)
+      if (auto arc = arc_at(pieces.of_corner[3 * triangle + i]))
+        return arc;
+    return {};
   }
 
 
@@ -155,11 +195,13 @@ namespace Signorini
     for (const unsigned int v : mesh.triangles[triangle])
       {
         const Tensor<1, 3> x = mesh.vertices[v] - centre;
-        most                 = std::max(most, std::abs(arc != arcs.end() ? arc->second.distance(x)
-                                                                         : x * quadric.normal - .5 * quadric.along(x)));
-        size                 = std::max(size, .5 * std::abs(quadric.largest_curvature()) * x.norm_square());
+        if (arc != arcs.end() && !arc->second.reaches(x))
+          return false;
+        most = std::max(most, std::abs(arc != arcs.end() ? arc->second.distance(x)
+                                                         : x * quadric.normal - .5 * quadric.along(x)));
+        size = std::max(size, .5 * std::abs(quadric.largest_curvature()) * x.norm_square());
       }
-    return most <= 2. * rule.exact * size;
+    return most <= 2. * (arc != arcs.end() ? rule.exact_arc : rule.exact) * size;
   }
 
 

@@ -10,10 +10,24 @@
 #include <signorini/surface/smooth_surface.h>
 
 #include <map>
+#include <optional>
 #include <vector>
 
 namespace Signorini
 {
+  /// A surface of revolution and its vertex.
+  struct PlacedArc
+  {
+    RevolvedArc      arc;
+    dealii::Point<3> vertex;
+
+    /// About how far a point is from it, along its normal (length).
+    double distance(const dealii::Point<3> &x) const
+    {
+      return arc.distance(x - vertex);
+    }
+  };
+
   /// What is known of the surface at the corners of a triangle.
   struct TriangleFit
   {
@@ -24,15 +38,18 @@ namespace Signorini
 
   /// The quadratic surfaces through the vertices, as the triangles around them see them. Where a cylinder
   /// goes on as a sphere or a torus, a fit through a vertex at the seam is neither: curvature jumps. Then a
-  /// triangle takes the surface through a vertex nearby that lies on one side alone, if that is exact (a
-  /// cylinder or a sphere), and the normal at a vertex is the mean of what the triangles around it took: both
-  /// sides of a seam have the same there.
+  /// triangle takes the surface through a vertex nearby that lies on one side alone, if that is exact
+  /// (sphere, cylinder, cone, torus). The normal at a vertex is the mean of what the triangles around it
+  /// took, but where all of them are exact: there each has its own.
   class VertexFits
   {
   public:
     VertexFits(const SurfaceMesh &mesh, const SmoothPieces &pieces, const SmoothingRule &rule);
 
     TriangleFit at_corners(const unsigned int triangle);
+
+    /// The torus or cone on which the corners of a triangle lie, if it takes one.
+    std::optional<PlacedArc> arc_of(const unsigned int triangle);
 
     /// The fit through a piece vertex alone, with the normal that it has there.
     Quadric at_vertex(const unsigned int piece_vertex);
@@ -59,6 +76,9 @@ namespace Signorini
     unsigned int find_lender(const unsigned int triangle);
     /// Whether the corners of a triangle lie on the surface fitted to a piece vertex.
     bool lies_on(const unsigned int triangle, const unsigned int piece_vertex);
+    /// Whether a triangle takes a surface that is the true one, and whether all around a piece vertex do.
+    bool is_exact(const unsigned int triangle);
+    bool meet_exactly(const unsigned int piece_vertex);
     /// The surface that a triangle takes, at one of its corners.
     Quadric taken_at(const unsigned int triangle, const unsigned int corner);
     /// The mean of what the triangles around a piece vertex took.

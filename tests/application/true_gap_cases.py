@@ -215,6 +215,53 @@ end
 '''
 
 
+BIG = '''subsection Body big
+  set Lower corner  = -100, 100, 0
+  set Upper corner  = 100, 300, 100
+  set Divisions     = 8, 8, 4
+  set Dirichlet     = top: (0, 0, -3)
+  set Young modulus = 1000
+end
+subsection Pair big
+  set First    = big: bottom
+  set Obstacle = plane: (0, 0, 0), (0, 0, 1)
+end
+'''
+
+
+# A plate on a shallow dome with bumps between its nodes.
+BUMPS = '''set Bodies        = block
+set Contact pairs = c
+subsection Body block
+  set Lower corner  = -10, -10, 0
+  set Upper corner  = 10, 10, 6
+  set Divisions     = 20, 20, 3
+  set Dirichlet     = top: (0, 0, -0.05)
+  set Young modulus = 1000
+end
+subsection Pair c
+  set First    = block: bottom
+  set Obstacle = function: z+((x-2)^2+(y-1)^2)/200-0.06*(sin(pi*x)*sin(pi*y))^4
+end
+subsection Refinement
+  set Global cycles = 0
+end
+'''
+
+
+def bumps_beside_contact(p):
+    """What penetrates beside the contact, and what away from it, is the same on any number of ranks."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, 'bumps.prm')
+        with open(path, 'w') as f:
+            f.write(BUMPS)
+        pair = p.solve(path, codes=(0, 3))['pairs'][0]
+        near(pair['missed_penetration'], 0.00436711, 1e-5, 'missed penetration')
+        near(pair['spot_penetration'], 0.06803275, 1e-5, 'penetration of the spot')
+        near(pair['spot_approach'], 0.05665768, 1e-5, 'approach of the spot')
+        check(math.dist(pair['missed_at'], (-2.5, 0.5, 0)) < 1e-9 and math.dist(pair['spot_at'], (3.5, 2.5, 0)) < 1e-9, f'{pair}')
+
+
 def two_rollers(p):
     """One pair with two contacts of which the mesh is fine enough for one: the other one is judged by what it carries itself, whether it is missed or carries half."""
     with tempfile.TemporaryDirectory() as folder:
@@ -233,6 +280,13 @@ def two_rollers(p):
         # Fine enough for both.
         s = p.solve(path, 'Refinement/Initial global levels=3')
         check(s['pairs'][0]['missed_penetration'] == 0, f'{s["pairs"][0]}')
+        # A body that is pressed far more is none of its business.
+        with open(path, 'a') as f:
+            f.write(BIG)
+        for h in (1.0, 0.95):
+            s = p.solve(path, 'Bodies=block, big', 'Contact pairs=c, big', f'Pair c/Obstacle=function: if(x<0, sqrt((x+5)^2+(z+200)^2)-200, sqrt((x-5.5)^2+(z+{h})^2)-1)',
+                        'Body block/Dirichlet=front: (*, 0, *); back: (*, 0, *); top: (0, *, -0.04)', codes=(3,))
+            check(s['certificate']['geometric_penetration'] > 0.5, f'{s["certificate"]}')
 
 
 FILLETS = '''set Bodies        = block, pocket

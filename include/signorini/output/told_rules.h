@@ -37,8 +37,8 @@ namespace Signorini
   /// Which parts of the contact of a pair are looked at on their own. Pure number.
   struct ContactSpotRule
   {
-    /// Of the load of the pair, what they carry at least. A block on a wide and a narrow roller in one pair,
-    /// where the narrow one carried .055 of the load, half of the right one.
+    /// Of the load of the strongest one, what they carry at least. A block on a wide and a narrow roller in
+    /// one pair, where the narrow one carried .059 of the wide one, half of what is right.
     double least_load = .03;
   };
 

@@ -35,10 +35,10 @@ namespace Signorini
     /// How many points more than unknowns there must be: at corners of a surface fits with two are exact by
     /// chance.
     unsigned int least_checks = 3;
-    /// The same for tori and cones, which have one unknown more and fit what is something else: cylinders
-    /// with fillets, 2 to 7 faces around these, had 836 vertices whose fits left over less than 1e-8, and
-    /// five by chance that left over 1e-3; of a stem of an implant 1200 left over 1e-5 to 1e-3, and gaps were
-    /// wrong.
+    /// Residual up to which tori and cones are the surface itself. With six unknowns instead of five they fit
+    /// what is something else: cylinders with fillets, 2 to 7 faces around these, had 836 vertices whose fits
+    /// left over less than 1e-8, and five by chance that left over 1e-3; of a stem of an implant 1200 left
+    /// over 1e-5 to 1e-3, and gaps were wrong.
     double exact_arc = 1e-5;
     /// What a quadratic surface leaves over at most where a torus or cone is looked for: 0.22 on coarse ones.
     double may_be_arc = .3;
@@ -64,10 +64,11 @@ namespace Signorini
   ///
   /// exact on spheres and cylinders (where x - centre = R N, the sum is R (1 - |N|²) and the height R (1 -
   /// |N|)), of fourth order on quadratic surfaces, nothing on flat ones, continuous across edges but at
-  /// creases. Normals come from a quadratic surface through each vertex, fitted to two rings of neighbours,
-  /// which is exact on spheres, cylinders, cones and tori; where the curvature jumps, as where a fillet goes
-  /// over into a sphere, to one through a vertex nearby on the same side. Creases, and the borders of flat
-  /// parts, are borders of the smooth pieces and keep a normal on either side.
+  /// creases and where exact surfaces meet. Normals come from a quadratic surface through each vertex, fitted
+  /// to two rings of neighbours, which is exact on spheres, cylinders, cones and tori; where the curvature
+  /// jumps, as where a fillet goes over into a sphere, to one through a vertex nearby on the same side.
+  /// Creases, and the borders of flat parts, are borders of the smooth pieces and keep a normal on either
+  /// side.
   class SmoothSurface
   {
   public:

@@ -237,6 +237,48 @@ TEST(SmoothSurface, KnowsConesAndWhereTheyEnd)
 
 
 
+// At the apex of a cone curvature has no bound: what is known farther out is not taken there.
+TEST(SmoothSurface, ApexOfACone)
+{
+  for (const double half_angle : {30., 60., 75.})
+    {
+      constexpr unsigned int n_around = 16, n_rings = 6;
+      const double sine = std::sin(half_angle * M_PI / 180.), cosine = std::cos(half_angle * M_PI / 180.);
+      SurfaceMesh  mesh;
+      mesh.vertices.emplace_back();
+      for (unsigned int ring = 1; ring <= n_rings; ++ring)
+        for (unsigned int i = 0; i < n_around; ++i)
+          {
+            const double angle = 2. * M_PI * (i + .5 * (ring % 2)) / n_around;
+            mesh.vertices.emplace_back(ring * sine * std::cos(angle), ring * sine * std::sin(angle),
+                                       ring * cosine);
+          }
+      const auto at = [](const unsigned int ring, const unsigned int i) {
+        return 1 + (ring - 1) * n_around + i % n_around;
+      };
+      for (unsigned int i = 0; i < n_around; ++i)
+        {
+          mesh.triangles.push_back({{0, at(1, i + 1), at(1, i)}});
+          for (unsigned int ring = 1; ring < n_rings; ++ring)
+            {
+              const unsigned int shift = ring % 2;
+              mesh.triangles.push_back({{at(ring, i), at(ring, i + 1), at(ring + 1, i + shift)}});
+              mesh.triangles.push_back({{at(ring, i + 1 - shift), at(ring + 1, i + 1), at(ring + 1, i)}});
+            }
+        }
+      const SmoothSurface surface = smooth(mesh);
+      for (unsigned int t = 0; t < mesh.triangles.size(); ++t)
+        {
+          const SmoothSurface::Patch &patch = surface.patch(t);
+          EXPECT_LT(patch.doubt, 1.) << half_angle << ' ' << t;
+          EXPECT_LT(patch.height, 1.) << half_angle << ' ' << t;
+          EXPECT_TRUE(std::isfinite(surface.offset(t, samples[0]).norm())) << half_angle << ' ' << t;
+        }
+    }
+}
+
+
+
 // A shaft with a fillet at its end, 3 faces and more around that: a part of a torus between a cylinder and a
 // plane.
 TEST(SmoothSurface, KnowsToriAndWhereTheyEnd)
