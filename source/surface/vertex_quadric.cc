@@ -223,6 +223,13 @@ namespace Signorini
   {
     if (neighbours.size() < 3)
       return false;
+    // A circle around the vertex lies on a sphere with it, whatever the surface is: the apex of a cone.
+    constexpr double same  = 1e-3;
+    const auto [near, far] = std::minmax_element(
+        neighbours.begin(), neighbours.end(),
+        [](const Tensor<1, 3> &a, const Tensor<1, 3> &b) { return a.norm_square() < b.norm_square(); });
+    if (near->norm() >= (1. - same) * far->norm())
+      return false;
     // |x|² = 2 x·m at all points, with the vector m to the centre.
     Eigen::Matrix<double, Eigen::Dynamic, 3> a(neighbours.size(), 3);
     for (std::size_t i = 0; i < neighbours.size(); ++i)
