@@ -29,9 +29,6 @@ namespace Signorini
     /// no bound.
     bool reaches(const dealii::Tensor<1, 3> &x) const;
 
-    /// How far a place is from the axis, over how far the vertex is.
-    double relative_radius(const dealii::Tensor<1, 3> &x) const;
-
     /// The quadratic surface that touches it near a place.
     Quadric at(const dealii::Tensor<1, 3> &x) const;
   };

@@ -295,12 +295,9 @@ namespace Signorini
   void VertexFits::fit_exactly(Quadric &quadric, const unsigned int piece_vertex)
   {
     const bool is_closed = pieces.vertices[piece_vertex].is_closed;
-    const auto is_exact  = [&](const auto &found) {
-      return found.residual <= rule.exact && found.n_checks >= rule.least_checks;
-    };
     if (is_closed)
-      if (Quadric sphere = quadric;
-          fit_sphere(sphere, ways(piece_vertex, neighbours(piece_vertex, 1))) && is_exact(sphere))
+      if (Quadric sphere = quadric; fit_sphere(sphere, ways(piece_vertex, neighbours(piece_vertex, 1))) &&
+                                    sphere.residual <= rule.exact && sphere.n_checks >= rule.least_checks)
         {
           quadric = sphere;
           return;
@@ -317,7 +314,7 @@ namespace Signorini
     };
     if (take_arc(ways(piece_vertex, neighbours(piece_vertex, is_closed ? 2 : 3))) || !is_closed)
       return;
-    // Of a fillet of two faces only the vertices between them have all neighbours on it.
+    // Two rings reach beyond a fillet of few faces, those of two neighbours on it may not.
     const std::vector<unsigned int> ring = neighbours(piece_vertex, 1);
     for (const unsigned int other : ring)
       if (pieces.vertices[other].is_closed)
