@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/algebra/disjoint_sets.h>
 #include <signorini/algebra/gathered_lists.h>
 #include <signorini/application/contact_spots.h>
 
 #include <map>
-#include <numeric>
-#include <unordered_map>
+#include <set>
 
 namespace Signorini
 {
@@ -14,34 +14,10 @@ namespace Signorini
 
   namespace
   {
-    /// Things that are joined, by number; the smallest number stands for all of them.
-    class JoinedNodes
-    {
-    public:
-      NodeIndex first(const NodeIndex node)
-      {
-        NodeIndex result = node;
-        for (auto it = parent.find(result); it != parent.end(); it = parent.find(result))
-          result = it->second;
-        if (result != node)
-          parent[node] = result;
-        return result;
-      }
-
-      void join(const NodeIndex one, const NodeIndex other)
-      {
-        const NodeIndex a = first(one), b = first(other);
-        if (a != b)
-          parent[std::max(a, b)] = std::min(a, b);
-      }
-
-    private:
-      std::unordered_map<NodeIndex, NodeIndex> parent;
-    };
-
+    /// A node and the first one of those that it is joined with.
     struct JoinedPair
     {
-      NodeIndex one, other;
+      NodeIndex node, first;
     };
 
     /// The active corners of a face, and for those that hang their active parents.
@@ -66,39 +42,38 @@ namespace Signorini
 
     /// Collective. Joins the active nodes of every face; nodes of the faces of several ranks join what these
     /// have found.
-    JoinedNodes join_active_nodes(const ContactPair &pair, const std::vector<bool> &is_active,
-                                  const MPI_Comm comm)
+    SparseDisjointSets<NodeIndex> join_active_nodes(const ContactPair       &pair,
+                                                    const std::vector<bool> &is_active, const MPI_Comm comm)
     {
-      const ContactSurface          &surface = pair.nonmortar.surface;
-      JoinedNodes                    joined;
-      std::map<NodeIndex, NodeIndex> of_others;
+      const ContactSurface         &surface = pair.nonmortar.surface;
+      SparseDisjointSets<NodeIndex> joined;
+      std::set<NodeIndex>           of_others, own;
+      for (unsigned int v = 0; v < surface.vertex_node.size(); ++v)
+        if (pair.halo->owns(v))
+          own.insert(surface.vertex_node[v]);
       for (unsigned int f = 0; f < surface.faces.size(); ++f)
         if (pair.halo->owns_face(f))
           {
             const auto vertices = active_vertices(surface, surface.faces[f], is_active);
             for (const unsigned int v : vertices)
               {
-                joined.join(surface.vertex_node[vertices[0]], surface.vertex_node[v]);
+                joined.unite(surface.vertex_node[vertices[0]], surface.vertex_node[v]);
                 if (!pair.halo->owns(v))
-                  of_others[surface.vertex_node[v]] = 0;
+                  of_others.insert(surface.vertex_node[v]);
               }
           }
-      std::vector<JoinedPair> pairs;
-      for (const auto &[node, unused] : of_others)
-        pairs.push_back({node, joined.first(node)});
-      pairs = gather_lists(std::move(pairs), comm, Receivers::all);
+      std::vector<JoinedPair> shared;
+      for (const NodeIndex node : of_others)
+        shared.push_back({node, joined.find(node)});
+      shared = gather_lists(std::move(shared), comm, Receivers::all);
       // The owner of a node joins what it has itself.
-      std::vector<JoinedPair>           own;
-      std::map<NodeIndex, unsigned int> vertices;
-      for (unsigned int v = 0; v < surface.vertex_node.size(); ++v)
-        if (pair.halo->owns(v))
-          vertices[surface.vertex_node[v]] = v;
-      for (const JoinedPair &one : pairs)
-        if (vertices.count(one.one) > 0)
-          own.push_back({one.one, joined.first(one.one)});
-      for (const auto &list : {pairs, gather_lists(std::move(own), comm, Receivers::all)})
-        for (const auto &[one, other] : list)
-          joined.join(one, other);
+      std::vector<JoinedPair> of_owners;
+      for (const JoinedPair &one : shared)
+        if (own.count(one.node) > 0)
+          of_owners.push_back({one.node, joined.find(one.node)});
+      for (const auto &list : {shared, gather_lists(std::move(of_owners), comm, Receivers::all)})
+        for (const auto &[node, first] : list)
+          joined.unite(node, first);
       return joined;
     }
 
@@ -136,12 +111,12 @@ namespace Signorini
   {
     const MPI_Comm                   comm    = pair.halo->communicator();
     const ContactSurface            &surface = pair.nonmortar.surface;
-    JoinedNodes                      joined  = join_active_nodes(pair, is_active, comm);
+    SparseDisjointSets<NodeIndex>    joined  = join_active_nodes(pair, is_active, comm);
     std::map<NodeIndex, ContactSpot> parts;
     for (std::size_t row = 0; row < coupling.vertices.size(); ++row)
       if (is_active[coupling.vertices[row]])
         {
-          ContactSpot &spot = parts[joined.first(coupling.coupling.rows[row])];
+          ContactSpot &spot = parts[joined.find(coupling.coupling.rows[row])];
           spot.load += coupling.areas[row] * pressure[row];
           spot.area += coupling.areas[row];
         }
@@ -151,7 +126,7 @@ namespace Signorini
       if (pair.halo->owns_face(f))
         {
           if (const auto vertices = active_vertices(surface, surface.faces[f], is_active); !vertices.empty())
-            parts[joined.first(surface.vertex_node[vertices[0]])].gap.add(gaps[f].value(), gaps[f].place());
+            parts[joined.find(surface.vertex_node[vertices[0]])].gap.add(gaps[f].value(), gaps[f].place());
           else if (!is_near[f])
             result.elsewhere.add(gaps[f].value(), gaps[f].place());
         }

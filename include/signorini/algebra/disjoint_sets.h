@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
+#include <unordered_map>
 #include <vector>
 
 namespace Signorini
@@ -40,6 +41,35 @@ namespace Signorini
 
   private:
     std::vector<std::size_t> parent;
+  };
+
+  /// The same for a few of very many numbers.
+  template <typename Number>
+  class SparseDisjointSets
+  {
+  public:
+    /// The smallest number of the set of a number.
+    Number find(const Number number)
+    {
+      Number result = number;
+      for (auto it = parent.find(result); it != parent.end(); it = parent.find(result))
+        result = it->second;
+      if (result != number)
+        parent[number] = result;
+      return result;
+    }
+
+    /// Puts the sets of two numbers together.
+    void unite(const Number i, const Number j)
+    {
+      const Number a = find(i), b = find(j);
+      if (a != b)
+        parent[std::max(a, b)] = std::min(a, b);
+    }
+
+  private:
+    /// Of numbers that are not the smallest of their sets.
+    std::unordered_map<Number, Number> parent;
   };
 } // namespace Signorini
 
