@@ -182,7 +182,7 @@ namespace Signorini
 
   namespace
   {
-    /// Collective. PairResult::missed_penetration, of the place where the gap is least.
+    /// Collective. PairResult::missed_penetration, of a gap and the place where it is.
     double missed_penetration(const LeastGap &gap, const ContactPair &pair, const PairCoupling &coupling,
                               const MPI_Comm comm)
     {

@@ -214,7 +214,7 @@ namespace Signorini
     /// What is tied across a gap moves as if there were none.
     void note_tied_gap(const CoupledPairs &coupled, const unsigned int p, Journal &journal)
     {
-      // Of the width of a face; curved facets that do not match are apart by a few hundredths.
+      // Of the width of a face; the facets of a circle of n faces lie inside of it by π/4n of that.
       constexpr double   told = .1;
       const ContactPair &pair = coupled.pairs[p];
       if (!pair.is_tied || coupled.couplings[p].n_rows_of_all == 0)

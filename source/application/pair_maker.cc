@@ -182,8 +182,7 @@ namespace Signorini
         throw InputError("Pair " + pair.name + ": the surface \"" + pair.nonmortar.name +
                          "\" does not face the obstacle \"" + pair.mortar.name +
                          "\" anywhere: no outward normal meets it from outside. If its faces are wider than "
-                         "the obstacle, refine it "
-                         "first (Initial levels).");
+                         "the obstacle, refine it first (Initial levels).");
     }
   } // namespace
 

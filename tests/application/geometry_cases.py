@@ -562,6 +562,10 @@ def tied(p):
             constant_pressure(s, -2.5 if more else -5.)
             certificate(s)
             check(s['cycles'][-1]['nonlinear']['iterations'] <= 15, f'iterations: {s["cycles"][-1]["nonlinear"]["iterations"]}')
+    with tempfile.TemporaryDirectory() as folder:
+        words = p.call(os.path.join(TOP, 'prm', PATCH_TEST), '--output', os.path.join(folder, 'out'), '--set', 'Pair interface/Contact=tied',
+                       '--set', 'Body upper/Dirichlet=left: (0, *, *); front: (*, 0, *); top: (*, *, 0.01)').stdout
+        check('pressure from -5 to -5: the tie pulls' in words and 'largest pressure' not in words, f'last words: {words}')
     # A body that nothing but the tie holds, under a load across and along the interface.
     for method, bound in (('accelerated', 15), ('multigrid', 30), ('multigrid cg', 15)):
         s = p.solve(PATCH_TEST, 'Pair interface/Contact=tied', 'Body upper/Dirichlet=', 'Body upper/Tractions=top: (1, 0.5, -2)',

@@ -36,7 +36,7 @@ namespace Signorini
     /// chance.
     unsigned int least_checks = 3;
     /// Residual up to which tori and cones are the surface itself. With six unknowns instead of five they fit
-    /// what is something else: cylinders with fillets, 2 to 7 faces around these, had 836 vertices whose fits
+    /// what is something else: cylinders with fillets, 2 to 4 faces around these, had 836 vertices whose fits
     /// left over less than 1e-8, and five by chance that left over 1e-3; of a stem of an implant 1200 left
     /// over 1e-5 to 1e-3, and gaps were wrong.
     double exact_arc = 1e-5;
