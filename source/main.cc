@@ -12,8 +12,11 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <cerrno>
+#include <cstring>
 #include <iostream>
 #include <optional>
+#include <sstream>
 
 #if defined(__GLIBC__)
 #  include <malloc.h>
@@ -90,11 +93,32 @@ namespace
     return line;
   }
 
+  /// What was asked for on standard output. A reader who has seen enough may go. Errors: InputError where it
+  /// cannot be written.
+  void print(const std::string &text)
+  {
+    // What lines on the way have met, this one meets again.
+    std::cout.clear();
+    errno = 0;
+    std::cout << text << std::flush;
+    const int reason = errno;
+    if (!std::cout && reason != EPIPE)
+      throw InputError("standard output cannot be written" +
+                       (reason != 0 ? std::string(": ") + std::strerror(reason) : "") + ".");
+  }
+
+  std::string parameters_with_documentation(const ParameterFile &file)
+  {
+    std::ostringstream text;
+    file.print(text, true);
+    return text.str();
+  }
+
   /// A parameter file with one body and one pair, for people who start from nothing.
-  void print_default_parameters()
+  std::string default_parameters()
   {
     const std::vector<std::string> bodies = {"first", "second"}, pairs = {"contact"};
-    ParameterFile(bodies, pairs).print(std::cout, true);
+    return parameters_with_documentation(ParameterFile(bodies, pairs));
   }
 
   /// Returns the exit code.
@@ -111,7 +135,7 @@ namespace
     if (line.print)
       {
         if (is_root)
-          file.print(std::cout, true);
+          print(parameters_with_documentation(file));
         return 0;
       }
     const dealii::Timer         time;
@@ -133,8 +157,10 @@ namespace
         const auto space = std::make_shared<const ConstrainedSpace>(model);
         note_turning_faces(model, *space, journal);
         check_probes(model, space->nodal(), parameters.probes);
-        std::ostream nowhere(nullptr);
-        describe(is_root ? std::cout : nowhere, model, *discretize(model, space, {}, 0, journal));
+        std::ostringstream description;
+        describe(description, model, *discretize(model, space, {}, 0, journal));
+        if (is_root)
+          print(description.str());
         return 0;
       }
     const std::vector<double> times  = file.load_steps();
@@ -197,12 +223,8 @@ main(int argc, char **argv)
       const CommandLine line = parse(argc, argv);
       if (line.help || line.version || (line.print && line.file.empty()))
         {
-          if (is_root && line.help)
-            std::cout << usage;
-          else if (is_root && line.version)
-            std::cout << version_text() << std::endl;
-          else if (is_root)
-            print_default_parameters();
+          if (is_root)
+            print(line.help ? usage : line.version ? version_text() + "\n" : default_parameters());
           return 0;
         }
       if (line.file.empty())

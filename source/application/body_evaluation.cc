@@ -118,48 +118,41 @@ namespace Signorini
 
 
 
+  std::vector<Distortion> largest_distortions(const ContactModel &model, const Discretization &d,
+                                              const Vector &displacement)
+  {
+    const Bodies           &bodies = model.bodies();
+    std::vector<Distortion> result(bodies.n_bodies());
+    for (const NodalSpace::Cell &cell : d.nodal().cells())
+      if (cell.is_owned)
+        {
+          std::array<Vector3, CellShape::max_vertices> u;
+          for (unsigned int v = 0; v < cell.n_vertices; ++v)
+            u[v] = nodal_value(displacement, d.partition().to_local(d.nodal().nodes(cell)[v]));
+          const Element  element(d.nodal(), cell);
+          const Point<3> middle =
+              cell.n_vertices == CellShape::hexahedron ? Point<3>(.5, .5, .5) : Point<3>(.25, .25, .25);
+          const Block g = CellDisplacement(element, bodies.material(cell.material), u).gradient(middle);
+          SymmetricTensor<2, dim> strain;
+          for (unsigned int i = 0; i < dim; ++i)
+            for (unsigned int j = i; j < dim; ++j)
+              strain[i][j] = .5 * (g[i][j] + g[j][i]);
+          const Vector3 axis({g[2][1] - g[1][2], g[0][2] - g[2][0], g[1][0] - g[0][1]});
+          Distortion   &largest = result[bodies.body_of_material(cell.material)];
+          largest.rotation      = std::max(largest.rotation, .5 * axis.norm());
+          for (const double e : eigenvalues(strain))
+            largest.strain = std::max(largest.strain, std::abs(e));
+        }
+    for (Distortion &one : result)
+      one = {Utilities::MPI::max(one.rotation, model.communicator()),
+             Utilities::MPI::max(one.strain, model.communicator())};
+    return result;
+  }
+
+
+
   namespace
   {
-    /// What the cells of a body say, at their centres.
-    struct CellExtrema
-    {
-      double rotation = 0., strain = 0.;
-    };
-
-    /// Angle of the rotation (radians, of a small one) and the largest entry of the strain.
-    void add(CellExtrema &extrema, const Block &gradient)
-    {
-      const Vector3 axis({gradient[2][1] - gradient[1][2], gradient[0][2] - gradient[2][0],
-                          gradient[1][0] - gradient[0][1]});
-      extrema.rotation = std::max(extrema.rotation, .5 * axis.norm());
-      for (unsigned int i = 0; i < dim; ++i)
-        for (unsigned int j = 0; j < dim; ++j)
-          extrema.strain = std::max(extrema.strain, .5 * std::abs(gradient[i][j] + gradient[j][i]));
-    }
-
-    std::vector<CellExtrema> cell_extrema(const ContactModel &model, const Discretization &d,
-                                          const Vector &displacement)
-    {
-      const Bodies            &bodies = model.bodies();
-      std::vector<CellExtrema> result(bodies.n_bodies());
-      for (const NodalSpace::Cell &cell : d.nodal().cells())
-        if (cell.is_owned)
-          {
-            std::array<Vector3, CellShape::max_vertices> u;
-            for (unsigned int v = 0; v < cell.n_vertices; ++v)
-              u[v] = nodal_value(displacement, d.partition().to_local(d.nodal().nodes(cell)[v]));
-            const Element  element(d.nodal(), cell);
-            const Point<3> middle =
-                cell.n_vertices == CellShape::hexahedron ? Point<3>(.5, .5, .5) : Point<3>(.25, .25, .25);
-            add(result[bodies.body_of_material(cell.material)],
-                CellDisplacement(element, bodies.material(cell.material), u).gradient(middle));
-          }
-      for (CellExtrema &e : result)
-        e = {Utilities::MPI::max(e.rotation, model.communicator()),
-             Utilities::MPI::max(e.strain, model.communicator())};
-      return result;
-    }
-
     void add_forces(std::vector<BodyResult> &bodies, const ContactModel &model, const Discretization &d,
                     const Results &results)
     {
@@ -207,7 +200,7 @@ namespace Signorini
             von_mises[b].add(Signorini::von_mises(stress[d.nodal().relevant().index_within_set(node)]),
                              d.nodal().position(node));
           }
-    const auto extrema = cell_extrema(model, d, displacement);
+    const auto distortions = largest_distortions(model, d, displacement);
     for (unsigned int b = 0; b < result.size(); ++b)
       {
         movement[b].gather(model.communicator());
@@ -217,8 +210,8 @@ namespace Signorini
         result[b].displacement_at      = movement[b].place;
         result[b].largest_von_mises    = von_mises[b].value;
         result[b].von_mises_at         = von_mises[b].place;
-        result[b].largest_rotation     = extrema[b].rotation;
-        result[b].largest_strain       = extrema[b].strain;
+        result[b].largest_rotation     = distortions[b].rotation;
+        result[b].largest_strain       = distortions[b].strain;
         result[b].stress_error         = errors[b].relative();
       }
     add_forces(result, model, d, results);

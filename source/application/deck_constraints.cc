@@ -142,7 +142,7 @@ namespace Signorini
         const Words words = deck_words(line.text);
         const long  first = deck.text().label(words.empty() ? "" : words[0], line.place);
         const long  last  = words.size() > 1 ? deck.text().label(words[1], line.place) : first;
-        for (long c = first; c <= std::min(last, 3l); ++c)
+        for (long c = std::max(first, 1l); c <= std::min(last, 3l); ++c)
           held |= 1u << (c - 1);
       }
     if ((held & 7) != 7)

@@ -258,11 +258,12 @@ namespace Signorini
       }
     if (!condition.values[0] && !condition.values[1] && !condition.values[2])
       return;
-    // Lines of one set, and of single nodes with the same values, are one condition.
+    // Lines of one set, and of single nodes with the same values, are one condition. A set of a part is
+    // another one in each instance.
     if (!state.boundaries.empty())
       {
         DeckBoundary &last = state.boundaries.back();
-        if (!condition.set.empty() && last.set == condition.set)
+        if (!condition.set.empty() && last.set == condition.set && last.nodes == condition.nodes)
           {
             for (unsigned int c = 0; c < dim; ++c)
               if (condition.values[c])
@@ -339,6 +340,7 @@ namespace Signorini
   {
     DeckVolumeLoad    load;
     const std::string kind = deck_upper(words[1]);
+    load.kind              = kind;
     load.place             = line.place;
     load.step              = step;
     if (words[0].empty())
@@ -363,8 +365,8 @@ namespace Signorini
     auto &list = state.volume_loads;
     list.erase(std::remove_if(list.begin(), list.end(),
                               [&](const DeckVolumeLoad &other) {
-                                return other.step < step && other.elements == load.elements &&
-                                       other.is_acceleration == load.is_acceleration;
+                                return other.step < step && other.kind == load.kind &&
+                                       other.elements == load.elements;
                               }),
                list.end());
     list.push_back(load);
@@ -416,6 +418,7 @@ namespace Signorini
         const std::string kind = deck_upper(words[1]);
         DeckSurfaceLoad   load;
         load.surface      = &deck.surface(words[0], line.place, instance);
+        load.kind         = kind;
         load.step         = step;
         load.place        = line.place;
         const double size = number(words, 2, line) * factor(keyword);
@@ -430,7 +433,8 @@ namespace Signorini
           }
         list.erase(std::remove_if(list.begin(), list.end(),
                                   [&](const DeckSurfaceLoad &other) {
-                                    return other.step < step && other.surface == load.surface;
+                                    return other.step < step && other.kind == load.kind &&
+                                           other.surface == load.surface;
                                   }),
                    list.end());
         list.push_back(load);

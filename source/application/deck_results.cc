@@ -3,15 +3,14 @@
 
 #include <signorini/algebra/gathered_lists.h>
 #include <signorini/algebra/input_error.h>
+#include <signorini/application/body_evaluation.h>
 #include <signorini/application/deck_results.h>
 #include <signorini/application/journal.h>
 #include <signorini/application/nodal_sums.h>
 #include <signorini/application/pair_fields.h>
-#include <signorini/discretization/element.h>
 #include <signorini/output/field_output.h>
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/base/symmetric_tensor.h>
 
 #include <algorithm>
 #include <array>
@@ -154,17 +153,21 @@ namespace Signorini
                const Gathered &gathered)
     {
       const auto &[rows, cells, contact] = gathered;
-      const auto labels                  = label_nodes(deck, model.bodies(), rows);
-      bool       is_refined              = false;
+      auto labels                        = label_nodes(deck, model.bodies(), rows);
+      bool is_refined                    = false;
       for (const NodeRow &row : rows)
         is_refined = is_refined || row.start_vertex == StartNodes::none;
+      // Not those that only our cells have: centres of faces of quadratic elements.
+      for (auto it = labels.begin(); it != labels.end();)
+        it = !is_refined && it->second > deck.largest_node_label ? labels.erase(it) : std::next(it);
       FrdMesh  mesh;
       FrdField displacement{"DISP", {}, {}}, stress{"STRESS", {}, {}};
       for (const NodeRow &row : rows)
         {
-          const long label = labels.at(row.node);
-          if (!is_refined && label > deck.largest_node_label)
+          const auto labelled = labels.find(row.node);
+          if (labelled == labels.end())
             continue;
+          const long label = labelled->second;
           mesh.labels.push_back(label);
           mesh.positions.emplace_back(row.values[0], row.values[1], row.values[2]);
           displacement.labels.push_back(label);
@@ -188,42 +191,6 @@ namespace Signorini
       if (!contact.empty())
         fields.push_back(contact_field(contact, labels));
       write_frd(out, mesh, fields, 1.);
-    }
-
-    /// The largest rotation (radians) and principal strain of the cells at their centres.
-    struct Kinematics
-    {
-      double rotation = 0., strain = 0.;
-    };
-
-    Kinematics measure_kinematics(const ContactModel &model, const Discretization &d,
-                                  const ContactSolution &solution)
-    {
-      Kinematics result;
-      for (const NodalSpace::Cell &cell : d.nodal().cells())
-        if (cell.is_owned)
-          {
-            std::array<Vector3, CellShape::max_vertices> u;
-            const auto                                   nodes = d.nodal().nodes(cell);
-            for (unsigned int v = 0; v < nodes.size(); ++v)
-              for (unsigned int c = 0; c < dim; ++c)
-                u[v][c] = solution.displacement.local_element(dim * d.partition().to_local(nodes[v]) + c);
-            const Block h =
-                CellDisplacement(Element(d.nodal(), cell), model.bodies().material(cell.material), u)
-                    .gradient(Point<3>(.5, .5, .5));
-            const Vector3 turn(
-                {.5 * (h[2][1] - h[1][2]), .5 * (h[0][2] - h[2][0]), .5 * (h[1][0] - h[0][1])});
-            SymmetricTensor<2, 3> strain;
-            for (unsigned int i = 0; i < 3; ++i)
-              for (unsigned int j = i; j < 3; ++j)
-                strain[i][j] = .5 * (h[i][j] + h[j][i]);
-            result.rotation = std::max(result.rotation, turn.norm());
-            for (const double e : eigenvalues(strain))
-              result.strain = std::max(result.strain, std::abs(e));
-          }
-      result.rotation = Utilities::MPI::max(result.rotation, model.communicator());
-      result.strain   = Utilities::MPI::max(result.strain, model.communicator());
-      return result;
     }
   } // namespace
 
@@ -253,7 +220,10 @@ namespace Signorini
   {
     if (!deck.nonlinear_geometry)
       return;
-    const Kinematics   k       = measure_kinematics(model, *nested.discretization, nested.solution);
+    Distortion k;
+    for (const Distortion &body :
+         largest_distortions(model, *nested.discretization, nested.solution.displacement))
+      k = {std::max(k.rotation, body.rotation), std::max(k.strain, body.strain)};
     const double       degrees = k.rotation * 180. / numbers::PI;
     std::ostringstream text;
     // Green's strain has ½ HᵀH beside the linear one: ½ θ² of a rotation, ½ ε² of a strain.

@@ -170,7 +170,8 @@ namespace Signorini
       for (unsigned int p = 0; p < coupled.pairs.size(); ++p)
         if (const PairCoupling &coupling = coupled.couplings[p]; coupling.lost_area > 1e-12 * coupling.area)
           journal.note("pair " + coupled.pairs[p].name + ": an area of " +
-                       std::to_string(coupling.lost_area) + " is covered but carries no multiplier.");
+                       Patterns::Tools::to_string(coupling.lost_area) +
+                       " is covered but carries no multiplier.");
     }
 
     void note_overlap(const CoupledPairs &coupled, const unsigned int p, Journal &journal)

@@ -151,9 +151,10 @@ namespace Signorini
   void refuse_opposed_motions(const NodeBlockMatrix &matrix, const std::vector<Vector> &motions,
                               const ContactModel &model, const Discretization &d)
   {
-    for (const Vector &motion : motions)
+    for (std::size_t m = 0; m < motions.size(); ++m)
       {
-        Vector product;
+        const Vector &motion = motions[m];
+        Vector        product;
         product.reinit(motion);
         matrix.vmult(product, motion);
         double if_alone = 0.;
@@ -164,10 +165,10 @@ namespace Signorini
         if_alone = Utilities::MPI::sum(if_alone, matrix.partition().communicator());
         if (motion * product <= FreedomRule().opposed_by_ties * if_alone)
           continue;
-        const auto tied = std::find_if(d.free_motions().begin(), d.free_motions().end(),
-                                       [](const FreeMotion &one) { return one.parts.size() > 1; });
+        const FreeMotion &moving = d.free_motions()[m];
         throw InputError(
-            "Contact alone should hold " + name_of_moving(*tied, model.bodies()) +
+            "Contact alone should hold " + name_of_moving(moving, model.bodies()) +
+            (moving.parts.size() == 1 ? " (tied to itself)" : "") +
             ", but the tied surfaces are apart in places (a layer between them, or curved ones on "
             "meshes that do not match), and such ties oppose rotations that they should not. Hold "
             "one of these bodies by Dirichlet conditions, or make the tied meshes match.");

@@ -147,6 +147,8 @@ namespace Signorini
   {
     if (model.point_holds().empty())
       return 0.;
+    if (solution.displacement.size() == 0)
+      return std::numeric_limits<double>::infinity();
     const std::vector<HoldForce> forces = forces_of_holds(model, d, solution);
     double                       result = 0.;
     for (std::size_t i = 0; i < forces.size(); ++i)

@@ -111,7 +111,7 @@ namespace Signorini
             journal.print(describe(steps.back()));
             converged = solution.report.converged;
             if (!converged)
-              journal.note("the step t = " + std::to_string(times[k]) + " was not solved: " +
+              journal.note("the step t = " + Patterns::Tools::to_string(times[k]) + " was not solved: " +
                            solution.report.note + ". The steps after it are left out, but for the last.");
             observe(static_cast<unsigned int>(k), *discretization, solution);
             if (checkpoints != nullptr && checkpoints->are_wanted())
@@ -153,8 +153,8 @@ namespace Signorini
             solver->change_loads(*discretization, foretell(time));
           }
         ContactSolution solution = solve_with_pretension(model, *solver, *discretization, journal);
-        settle_holds(solution, time);
         leave_drift(model, *discretization, solution, journal);
+        settle_holds(solution, time);
         needed_patches = needed_patches || solution.report.needed_patches;
         before.swap(previous);
         previous      = solution.displacement;

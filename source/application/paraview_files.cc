@@ -8,16 +8,30 @@
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
+#include <array>
+#include <functional>
 #include <set>
 
 namespace Signorini
 {
   using namespace dealii;
 
-  std::string file_name(const std::string &pair)
+  namespace
   {
-    return Utilities::replace_in_string(pair, " ", "-");
-  }
+    std::string without_spaces(const std::string &name)
+    {
+      return Utilities::replace_in_string(name, " ", "-");
+    }
+
+    /// The name, or the first one with a number behind it that is not used.
+    std::string unused(const std::string &name, const std::function<bool(const std::string &)> &is_used)
+    {
+      std::string other = name;
+      for (unsigned int i = 2; is_used(other); ++i)
+        other = name + "-" + std::to_string(i);
+      return other;
+    }
+  } // namespace
 
 
 
@@ -25,12 +39,30 @@ namespace Signorini
   {
     std::vector<std::string> files;
     for (unsigned int b = 0; b < bodies.n_bodies(); ++b)
+      files.push_back(
+          unused("body-" + without_spaces(bodies.body_name(b)), [&files](const std::string &name) {
+            return std::find(files.begin(), files.end(), name) != files.end();
+          }));
+    return files;
+  }
+
+
+
+  std::vector<PairFiles> pair_files(const std::vector<ContactPair> &pairs)
+  {
+    std::vector<PairFiles> files;
+    std::set<std::string>  used;
+    const auto             sides = [](const std::string &name) {
+      return std::array<std::string, 2>{{"contact-" + name, "contact-" + name + "-mortar"}};
+    };
+    for (const ContactPair &pair : pairs)
       {
-        const std::string name  = "body-" + file_name(bodies.body_name(b));
-        std::string       other = name;
-        for (unsigned int i = 2; std::find(files.begin(), files.end(), other) != files.end(); ++i)
-          other = name + "-" + std::to_string(i);
-        files.push_back(other);
+        const std::string name   = unused(without_spaces(pair.name), [&](const std::string &other) {
+          return used.count(sides(other)[0]) + used.count(sides(other)[1]) > 0;
+        });
+        const auto [non, mortar] = sides(name);
+        used.insert({non, mortar});
+        files.push_back({non, mortar, "mapping-" + name});
       }
     return files;
   }
@@ -48,14 +80,18 @@ namespace Signorini
           blocks.push_back({"body " + bodies.body_name(b), files[b]});
       }
     if (output.surfaces)
-      for (const ContactPair &pair : d.pairs)
-        {
-          const std::string file = "contact-" + file_name(pair.name);
-          blocks.push_back({"contact " + pair.name + ", nonmortar side (" + pair.nonmortar.name + ")", file});
-          if (!pair.obstacle)
-            blocks.push_back(
-                {"contact " + pair.name + ", mortar side (" + pair.mortar.name + ")", file + "-mortar"});
-        }
+      {
+        const auto files = pair_files(d.pairs);
+        for (unsigned int p = 0; p < files.size(); ++p)
+          {
+            const ContactPair &pair = d.pairs[p];
+            blocks.push_back({"contact " + pair.name + ", nonmortar side (" + pair.nonmortar.name + ")",
+                              files[p].nonmortar});
+            if (!pair.obstacle)
+              blocks.push_back(
+                  {"contact " + pair.name + ", mortar side (" + pair.mortar.name + ")", files[p].mortar});
+          }
+      }
     return blocks;
   }
 

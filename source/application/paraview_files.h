@@ -20,11 +20,17 @@ namespace Signorini
     std::string name, file;
   };
 
-  /// The name of a pair in names of files.
-  std::string file_name(const std::string &pair);
+  /// Names of the files of a pair, without suffix of the step and ending.
+  struct PairFiles
+  {
+    std::string nonmortar, mortar, mapping;
+  };
 
   /// By body: the name of its file, each another one.
   std::vector<std::string> body_files(const Bodies &bodies);
+
+  /// By pair: the names of its files, each another one.
+  std::vector<PairFiles> pair_files(const std::vector<ContactPair> &pairs);
 
   /// All bodies and contact surfaces that are written.
   std::vector<ParaviewBlock> paraview_blocks(const Bodies &bodies, const Discretization &discretization,

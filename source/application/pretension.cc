@@ -88,13 +88,15 @@ namespace Signorini
       Eigen::VectorXd forces;
       bool            is_small = true;
 
-      Missing(const ContactModel &model, const Eigen::VectorXd &present)
+      Missing(const ContactModel &model, const std::vector<Shank> &shanks, const Eigen::VectorXd &present,
+              const Vector &displacement)
         : forces(present)
       {
         const auto &bolts   = model.loads().pretensions;
         double      largest = 0.;
         for (const Pretension &bolt : bolts)
           largest = std::max(largest, bolt.wanted(model.loads().time));
+        const double moved = displacement.linfty_norm();
         for (std::size_t i = 0; i < bolts.size(); ++i)
           {
             if (bolts[i].is_locked(model.loads().time))
@@ -104,8 +106,11 @@ namespace Signorini
               }
             const double wanted = bolts[i].wanted(model.loads().time);
             forces[i]           = wanted - present[i];
-            // Bolts that should be loose are compared with the others.
-            const double scale = wanted > 0. ? wanted : largest;
+            // Bolts that should be loose are compared with the others; where all should be, with what the
+            // displacements would be for them if their ends had them against each other.
+            const double scale = wanted > 0.    ? wanted
+                                 : largest > 0. ? largest
+                                                : shanks[i].stiffness() * moved / shanks[i].length();
             is_small           = is_small && std::abs(forces[i]) <= PretensionRule().tolerance * scale;
           }
       }
@@ -148,7 +153,7 @@ namespace Signorini
       {
         const double wanted = bolts[i].wanted(model.loads().time);
         if (!(wanted >= 0.))
-          throw InputError(bolts[i].where + ": the force " + std::to_string(wanted) +
+          throw InputError(bolts[i].where + ": the force " + Patterns::Tools::to_string(wanted) +
                            " is negative; a bolt is under tension.");
         missing[i] = bolts[i].is_locked(model.loads().time) ? 0. : wanted - bolts[i].reached;
         if (bolts[i].slopes.empty())
@@ -180,7 +185,7 @@ namespace Signorini
     const std::vector<Shank>  shanks     = find_shanks(model, d);
     Vector                    before;
     Eigen::VectorXd           forces = forces_of(shanks, solution.displacement), last_step;
-    Missing                   missing(model, forces);
+    Missing                   missing(model, shanks, forces, solution.displacement);
     while (solution.report.converged && !missing.is_small && iterations.size() < rule.solutions)
       {
         const Eigen::VectorXd step = secant_step(model, missing.forces);
@@ -205,7 +210,7 @@ namespace Signorini
         const Eigen::VectorXd present = forces_of(shanks, solution.displacement);
         update_slopes(bolts, step, present - forces);
         forces  = present;
-        missing = Missing(model, forces);
+        missing = Missing(model, shanks, forces, solution.displacement);
       }
     for (std::size_t i = 0; i < bolts.size(); ++i)
       if (!bolts[i].is_locked(model.loads().time))

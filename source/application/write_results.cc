@@ -150,11 +150,11 @@ namespace Signorini
   {
     void write_mappings(const Discretization &d, const OutputFolder &folder)
     {
-      const unsigned int rank = Utilities::MPI::this_mpi_process(d.nodal().communicator());
-      for (const ContactPair &pair : d.pairs)
-        if (pair.mapping)
-          write_file(folder.path() + "mapping-" + file_name(pair.name) + "." +
-                         Utilities::int_to_string(rank) + ".vtu",
+      const unsigned int rank  = Utilities::MPI::this_mpi_process(d.nodal().communicator());
+      const auto         files = pair_files(d.pairs);
+      for (unsigned int p = 0; p < files.size(); ++p)
+        if (const ContactPair &pair = d.pairs[p]; pair.mapping)
+          write_file(folder.path() + files[p].mapping + "." + Utilities::int_to_string(rank) + ".vtu",
                      [&](std::ostream &o) {
                        const ContactSurface &non = pair.nonmortar.surface, &mor = pair.mortar.surface;
                        write_overlay(
@@ -278,16 +278,16 @@ namespace Signorini
                                 const std::string &folder, const std::string &suffix, const unsigned int p)
     {
       const ContactPair &pair  = state.d.pairs[p];
-      const std::string  name  = "contact-" + file_name(pair.name);
+      const PairFiles    files = pair_files(state.d.pairs)[p];
       const auto         write = [&](const std::string &file, const ContactSurface &surface,
                              std::vector<OutputField> fields) {
         for (OutputField &field : node_numbers(state.model.bodies(), state.d, surface))
           fields.push_back(std::move(field));
         write_surface(folder, file + suffix, surface, fields, state.model.communicator(), output.format());
       };
-      write(name, pair.nonmortar.surface, nonmortar_fields(state.d, state.solution, p));
+      write(files.nonmortar, pair.nonmortar.surface, nonmortar_fields(state.d, state.solution, p));
       if (!pair.obstacle)
-        write(name + "-mortar", pair.mortar.surface, mortar_fields(state.d, state.solution, p));
+        write(files.mortar, pair.mortar.surface, mortar_fields(state.d, state.solution, p));
     }
 
     void write_state(const WrittenState &state, const OutputParameters &output, const OutputFolder &folder,

@@ -223,4 +223,16 @@ namespace Signorini
       add_rigid_faces(data, space, loads, rigid.empty() ? find_rigid_faces(space, loads, data) : rigid);
     return data;
   }
+
+
+
+  std::vector<FixedDirections> fixed_of_owned(const NodalSpace &space, const DirichletData &dirichlet)
+  {
+    std::vector<FixedDirections> masks;
+    for (const NodeIndex node : space.owned())
+      masks.push_back(space.hanging_nodes().is_constrained(node)
+                          ? all_fixed
+                          : dirichlet.fixed[space.relevant().index_within_set(node)]);
+    return masks;
+  }
 } // namespace Signorini

@@ -239,18 +239,6 @@ namespace Signorini
 
 
 
-    std::vector<FixedDirections> owned_masks(const NodalSpace &space, const DirichletData &dirichlet)
-    {
-      std::vector<FixedDirections> masks;
-      for (const NodeIndex node : space.owned())
-        masks.push_back(space.hanging_nodes().is_constrained(node)
-                            ? all_fixed
-                            : dirichlet.fixed[space.relevant().index_within_set(node)]);
-      return masks;
-    }
-
-
-
     /// Adds the owned cells.
     void assemble_cells(LinearSystem &system, const CellAssembler &assembler, const NodalSpace &space,
                         const DirichletData &dirichlet, const VertexExpansion &expansion)
@@ -306,7 +294,7 @@ namespace Signorini
     system.matrix.reinit(space.owned(), make_pattern(space, expansion), IndexSet(space.n_nodes()),
                          space.communicator());
     system.matrix.partition().reinit(system.rhs);
-    system.fixed = import_ghost_masks(system.matrix.partition(), owned_masks(space, dirichlet));
+    system.fixed = import_ghost_masks(system.matrix.partition(), fixed_of_owned(space, dirichlet));
 
     const CellAssembler assembler(bodies, space, loads);
     std::string         error;

@@ -142,17 +142,6 @@ namespace Signorini
 
   namespace
   {
-    /// Fixed masks of the owned nodes; hanging ones are fixed.
-    std::vector<FixedDirections> fixed_masks(const NodalSpace &space, const DirichletData &dirichlet)
-    {
-      std::vector<FixedDirections> masks;
-      for (const NodeIndex node : space.owned())
-        masks.push_back(space.hanging_nodes().is_constrained(node)
-                            ? all_fixed
-                            : dirichlet.fixed[space.relevant().index_within_set(node)]);
-      return masks;
-    }
-
     /// Carriers have nodes of their own under a mesh, and those have no place.
     std::vector<FixedDirections> without_carriers(std::vector<FixedDirections>  fixed,
                                                   const std::vector<NodeIndex> &carriers,
@@ -183,7 +172,7 @@ namespace Signorini
       rigid = evaluate_dirichlet(finest, loads, true).rigid->faces();
     const auto add = [&](const NodalSpace &space) {
       const DirichletData          dirichlet = evaluate_dirichlet(space, loads, false, rigid);
-      std::vector<FixedDirections> fixed     = fixed_masks(space, dirichlet);
+      std::vector<FixedDirections> fixed     = fixed_of_owned(space, dirichlet);
       if (below != nullptr)
         rows.push_back(interpolation_rows(space, *below, bodies.tetrahedra()));
       else if (coarse_levels == CoarseLevels::background ||

@@ -3,6 +3,8 @@
 
 #include <signorini/output/load_curve.h>
 
+#include "csv_text.h"
+
 #include <iomanip>
 #include <limits>
 #include <ostream>
@@ -53,7 +55,7 @@ namespace Signorini
     bool is_first = true;
     if (!results.steps.empty())
       for_columns(results.steps[0], [&](const std::string &name, const double) {
-        out << (is_first ? "" : ",") << name;
+        out << (is_first ? "" : ",") << csv_text(name);
         is_first = false;
       });
     for (const StepResult &step : results.steps)

@@ -5,6 +5,8 @@
 #include <signorini/output/json_writer.h>
 #include <signorini/output/summary.h>
 
+#include "csv_text.h"
+
 #include <iomanip>
 
 namespace Signorini
@@ -399,17 +401,6 @@ namespace Signorini
 
 
 
-  namespace
-  {
-    /// A text in a table with commas.
-    std::string quoted(const std::string &text)
-    {
-      return text.find(',') == std::string::npos ? text : "\"" + text + "\"";
-    }
-  } // namespace
-
-
-
   void write_pressure(std::ostream &out, const Results &results)
   {
     out << "x,y,z,area,pressure,recovered_pressure,gap,active,nx,ny,nz,node,mesh_node,side,pair\n"
@@ -421,7 +412,7 @@ namespace Signorini
         out << row.position[0] << ',' << row.position[1] << ',' << row.position[2] << ',' << row.area << ','
             << row.pressure << ',' << row.recovered_pressure << ',' << row.gap << ',' << row.active << ','
             << row.normal[0] << ',' << row.normal[1] << ',' << row.normal[2] << ',' << row.node << ','
-            << row.mesh_node << ',' << side << ',' << quoted(results.pairs[row.pair].name) << '\n';
+            << row.mesh_node << ',' << side << ',' << csv_text(results.pairs[row.pair].name) << '\n';
   }
 
 

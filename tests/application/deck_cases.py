@@ -91,6 +91,7 @@ def exact(s, frd, blocks, pressure=5., energy=True):
             check(abs(fields['STRESS'][label][2] + pressure) < 1e-4 * pressure, f'stress at node {label}: {fields["STRESS"][label]}')
         for label, element in block.elements.items():
             check(sorted(elements[label][1]) == sorted(element), f'element {label}: {elements[label]}')
+    check(fields['CONTACT'] and set(fields['CONTACT']) <= set(nodes), f'nodes of CONTACT: {sorted(set(fields["CONTACT"]) - set(nodes))}')
     for label, value in fields['CONTACT'].items():
         check(abs(value[3] - pressure) < 1e-4 * pressure, f'pressure at node {label}: {value}')
 
@@ -319,6 +320,21 @@ def deck_parts(d):
     check(any('passed over: OUTPUT, RESTART' in note for note in s['notes']), f'notes: {s["notes"]}')
     check(len(nodes) == 2 * len(block.nodes) and len(elements) == 2 * len(block.elements), 'nodes of both instances')
     d.refuses(part + history, 'NLGEOM', '--strict', arguments=['--strict'])
+    # A condition of the part holds in each instance: two punches on a floor.
+    floor = Block('C3D8', (-1, -1, -1), (7, 2, 0), (4, 2, 1))
+    punch = '*PART, NAME=Punch\n' + block.text_nodes() + block.text_elements('ALL')
+    for name, plane in (('X0', (0, 0)), ('Y0', (1, 0)), ('TOP', (2, 1))):
+        punch += nset(name, block.plane(*plane))
+    punch += surface('BOT', block.sides(2, 0)) + '*SOLID SECTION, ELSET=ALL, MATERIAL=steel\n*BOUNDARY\nTOP, 3, 3, -0.01\n*END PART\n'
+    base = ('*PART, NAME=Floor\n' + floor.text_nodes() + floor.text_elements('ALL') + nset('LOW', floor.plane(2, -1)) + surface('UP', floor.sides(2, 0)) +
+            '*SOLID SECTION, ELSET=ALL, MATERIAL=steel\n*BOUNDARY\nLOW, 1, 3\n*END PART\n')
+    assembly = ('*ASSEMBLY, NAME=A\n*INSTANCE, NAME=Left, PART=Punch\n*END INSTANCE\n*INSTANCE, NAME=Right, PART=Punch\n5., 0., 0.\n*END INSTANCE\n'
+                '*INSTANCE, NAME=Base, PART=Floor\n*END INSTANCE\n*END ASSEMBLY\n')
+    s, _ = d.solve('*HEADING\nPunches\n' + punch + base + assembly + MATERIAL + INTERACTION +
+                   '*CONTACT PAIR, INTERACTION=hard\nLeft.BOT, Base.UP\nRight.BOT, Base.UP\n*BOUNDARY\nLeft.X0, 1\nRight.X0, 1\nLeft.Y0, 2\nRight.Y0, 2\n*STEP\n*STATIC\n*END STEP\n')
+    left, right = (pair['load'] for pair in s['pairs'])
+    check(left > 8., f'force of the left punch {left}')
+    near(right, left, .01, 'force of the right punch')
 
 
 @in_folder
@@ -329,6 +345,24 @@ def deck_ties(d):
         s, (_, _, fields) = d.solve(text.replace('*CONTACT PAIR, INTERACTION=hard, TYPE=SURFACE TO SURFACE\nSU, SL\n', tie))
         near(s['cycles'][-1]['energy'], -.025, 1e-8, 'energy')
         near(fields['DISP'][upper.plane(2, 1)[0]][2], .01, 1e-5, 'displacement')
+    # A C whose lips are glued to each other across the slit, on a floor that alone should hold it.
+    heights, node = (0, 1, 1.3, 2.3), lambda i, j, k: 1 + i + 5 * (j + 2 * k)
+    deck = '*HEADING\nC\n*NODE\n' + ''.join(f'{node(i, j, k)}, {i}., {j}., {heights[k]}\n' for k in range(4) for j in range(2) for i in range(5))
+    deck += '*ELEMENT, TYPE=C3D8, ELSET=C\n'
+    sides = {'Low': [], 'Up': [], 'Bottom': [], 'Top': []}
+    cells = [(i, k) for k in range(3) for i in range(4) if k != 1 or i == 0]
+    for e, (i, k) in enumerate(cells, 1):
+        deck += f'{e}, ' + ', '.join(str(node(i + a, b, k + c)) for c in (0, 1) for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))) + '\n'
+        if k != 1:
+            sides['Bottom' if k == 0 else 'Top'].append((e, 1 if k == 0 else 2))
+            if i > 0:
+                sides['Low' if k == 0 else 'Up'].append((e, 2 if k == 0 else 1))
+    floor = Block('C3D8', (-1, -1, -1), (5, 2, 0), (6, 3, 1), 10000, 10000)
+    deck += floor.text_nodes() + floor.text_elements('Floor') + nset('HELD', floor.plane(2, -1)) + surface('FTOP', floor.sides(2, 0))
+    deck += ''.join(surface(name, of_name) for name, of_name in sides.items())
+    deck += MATERIAL + '*SOLID SECTION, ELSET=C, MATERIAL=steel\n*SOLID SECTION, ELSET=Floor, MATERIAL=steel\n' + INTERACTION
+    deck += '*CONTACT PAIR, INTERACTION=hard\nBottom, FTOP\n*TIE, NAME=lips\nUp, Low\n*BOUNDARY\nHELD, 1, 3\n*STEP\n*STATIC\n*DSLOAD\nTop, P, 1.\n*END STEP\n'
+    d.refuses(deck, 'body C (tied to itself)', 'the tied surfaces are apart')
 
 
 @in_folder
@@ -352,6 +386,12 @@ def deck_steps(d):
     for force, expected in zip(loads(), (5, 10, 11, 1)):
         near(force, expected, 1e-9, 'load of a step')
     near(s['pairs'][0]['load'], 1, 1e-9, 'last load')
+    # A load of a later step replaces that of the same kind alone: P 5 and TRVEC stay beside BX, BX does not end BZ.
+    both = '*STATIC\n*DSLOAD\nSTOP, P, 5.\nSTOP, TRVEC, 1., 0., 0., -1.\n*DLOAD\nUpper, BZ, -2.\nUpper, BX, 1.\n*END STEP\n*STEP\n*STATIC\n'
+    s, _ = d.solve(head + both + '*DSLOAD\nSTOP, P, 6.\n*DLOAD\nUpper, BX, 0.5\n*END STEP\n')
+    for force, expected in zip(loads(), (8, 9)):
+        near(force, expected, 1e-9, 'load beside others')
+    check(len(loads()) == 2, f'steps: {loads()}')
     # By displacement; other directions than in the last step: that alone.
     push = head + '*STATIC\n*BOUNDARY\nTOP, 3, 3, -0.01\n*END STEP\n*STEP\n*STATIC\n*BOUNDARY\nTOP, 3, 3, {}\n' + tail
     s, _ = d.solve(push.format(-.02))

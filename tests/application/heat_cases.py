@@ -293,6 +293,13 @@ def pretension(p):
                         near(float(row['bolt: shank: section force']), 500 * float(row['t']), 1e-6, 'section force of a step')
                         near(abs(float(row['joint: force z'])), 500 * float(row['t']), 1e-6, 'clamping force of a step')
             # Other plates were softer in compression: the strain at which the section would carry the force between rigid plates is known.
+        # A bolt that should carry nothing while others load the joint.
+        for force, wanted in (('0', 0), ('500*max(0, 2*t - 1)', 500)):
+            s = p.solve(prm, f'Body bolt/Pretension=shank: axis (0, 0, 1), force {force}', 'Body upper/Forces=side: (0, 0, -300)', 'Refinement/Global cycles=0',
+                        *(['Load steps=2'] if wanted else []))
+            bolt = s['pretension'][0]
+            check(abs(bolt['force'] - wanted) < 1e-6 * 300, f'force {force}: {bolt}')
+            check(s['converged'] and len(bolt['iterations']) <= 6, f'force {force}: {bolt["iterations"]}')
         # Ends that are no planes: stairs of hexahedra, also with hanging nodes, and the rugged ends of a region among tetrahedra.
         for settings in (['Body bolt/Pretension=rugged: axis (0, 0, 1), force 500, region 1 - (z + 0.4*x - 0.3*y)^2'],
                          ['Body bolt/Pretension=rugged: axis (0, 0, -1), force 500, region 1 - (z + 0.4*x - 0.3*y)^2', 'Refinement/Global cycles=0', 'Refinement/Adaptive cycles=1'],

@@ -1,6 +1,7 @@
 """How the program behaves as a tool: results are never lost, input that makes no sense is refused, and the end of a run
 says what a person looks for."""
 import base64
+import csv
 import json
 import math
 import os
@@ -161,6 +162,71 @@ def lost_readers(p):
             if os.path.exists(os.path.join(folder, 'out')):
                 with open(os.path.join(folder, 'out', 'summary.json')) as f:
                     check(json.load(f)['converged'], f'{command}: not converged')
+
+
+    # What is asked for on standard output may be cut short, but not be lost without a word.
+    for option in (['--print-parameters'], ['--version'], ['--help'], ['--check', PATCH_TEST], ['--print-parameters', PATCH_TEST]):
+        words = ' '.join(p.command + option)
+        run = subprocess.run(words + ' > /dev/full', shell=True, env=p.environment, stderr=subprocess.PIPE, universal_newlines=True, timeout=300)
+        check(run.returncode == 1 and 'error: standard output cannot be written: No space left' in run.stderr, f'{option}: {run.returncode}, {run.stderr}')
+        run = subprocess.run(f'({words}; echo $? >&2) | true', shell=True, env=p.environment, stderr=subprocess.PIPE, universal_newlines=True, timeout=300)
+        check(run.stderr.strip() == '0', f'{option} into a pipe that nobody reads: {run.stderr}')
+
+
+FOUR_BLOCKS = """
+set Bodies = a, b, c, d
+set Contact pairs = fit, fit-mortar, fit mortar
+set Load steps = 2
+subsection Body a
+  set Upper corner = 1, 1, 1
+  set Dirichlet = -z: (0, 0, 0)
+  set Probes = tip, "left": (0, 0, 1)
+end
+subsection Body b
+  set Lower corner = 0, 0, 1
+  set Upper corner = 1, 1, 2
+  set Dirichlet = -x: (0, *, *); -y: (*, 0, *)
+end
+subsection Body c
+  set Lower corner = 0, 0, 2
+  set Upper corner = 1, 1, 3
+  set Dirichlet = -x: (0, *, *); -y: (*, 0, *)
+end
+subsection Body d
+  set Lower corner = 0, 0, 3
+  set Upper corner = 1, 1, 4
+  set Dirichlet = -x: (0, *, *); -y: (*, 0, *); +z: (*, *, -0.001*t)
+end
+subsection Pair fit
+  set First = b: -z
+  set Second = a: +z
+end
+subsection Pair fit-mortar
+  set First = c: -z
+  set Second = b: +z
+end
+subsection Pair fit mortar
+  set First = d: -z
+  set Second = c: +z
+end
+"""
+
+
+def names_of_files(p):
+    """Pairs whose names differ by a space, or by what sides are called, have files of their own; names with commas do not shift columns."""
+    with tempfile.TemporaryDirectory() as folder:
+        path, out = os.path.join(folder, 'four.prm'), os.path.join(folder, 'out')
+        with open(path, 'w') as f:
+            f.write(FOUR_BLOCKS)
+        s = p.solve(path, keep=out)
+        with open(os.path.join(out, 'results.pvd')) as f:
+            files = re.findall(r'file="(contact-[^"]*)"', f.read())
+        print(files)
+        check(len(files) == len(set(files)) == 2 * len(s['pairs']), f'files of {len(s["pairs"])} pairs: {files}')
+        with open(os.path.join(out, 'curve.csv')) as f:
+            heading, *rows = csv.reader(f)
+        check(len(rows) == 2 and all(len(row) == len(heading) for row in rows), f'{len(heading)} headings, {[len(row) for row in rows]} numbers')
+        check('a: tip, "left": displacement z' in heading, f'headings: {heading}')
 
 
 def full_disk(p):

@@ -26,6 +26,17 @@ namespace Signorini
   /// Collective. Those of the model, with those of its rigid faces.
   std::vector<Resultant> all_loads(const ContactModel &model, const Discretization &discretization);
 
+  /// How far the displacements of a body are from infinitesimal ones.
+  struct Distortion
+  {
+    /// Angle of the rotation of a small one (radians), and absolute value of the principal strain.
+    double rotation = 0., strain = 0.;
+  };
+
+  /// Collective. The largest of each body, at the centres of cells.
+  std::vector<Distortion> largest_distortions(const ContactModel &model, const Discretization &discretization,
+                                              const Vector &displacement);
+
   /// Collective. Extrema of displacement, stress, strain and rotation of each body, and what acts on it.
   /// @param results with boundaries and pairs
   std::vector<BodyResult> evaluate_bodies(const ContactModel &model, const Discretization &discretization,

@@ -75,12 +75,15 @@ namespace Signorini
   /// Loads on a surface or on elements.
   struct DeckSurfaceLoad
   {
-    /// The surface; pressure against the outward normal, or force per area.
-    const DeckSurface *surface  = nullptr;
-    double             pressure = 0.;
-    Vector3            traction;
-    unsigned int       step = 0;
-    DeckPlace          place;
+    const DeckSurface *surface = nullptr;
+    /// P or TRVEC: with the surface what a later step replaces.
+    std::string kind;
+    /// Against the outward normal.
+    double pressure = 0.;
+    /// Force per area.
+    Vector3      traction;
+    unsigned int step = 0;
+    DeckPlace    place;
   };
 
   /// Acceleration or force per volume of some elements.
@@ -88,6 +91,8 @@ namespace Signorini
   {
     /// Indices into Deck::elements().
     std::vector<unsigned int> elements;
+    /// GRAV, BX, BY or BZ: with the elements what a later step replaces.
+    std::string kind;
     /// Whether to be multiplied by the density.
     bool         is_acceleration = true;
     Vector3      value;

@@ -33,7 +33,8 @@ namespace Signorini
                                            const Vector &displacement);
 
   /// Collective. The largest force that a point hold carries, as a share of what it may carry at most; points
-  /// of motions that contact opposes after all carry more where they are settled.
+  /// of motions that contact opposes after all carry more where they are settled. Infinite for a solution
+  /// that is a flight, without displacements.
   double strain_of_point_holds(const ContactModel &model, const Discretization &discretization,
                                const ContactSolution &solution);
 

@@ -230,6 +230,9 @@ namespace Signorini
   /// @param rigid how rigid faces may move, for a coarser mesh (of the finest); empty to find out
   DirichletData evaluate_dirichlet(const NodalSpace &space, const Loads &loads, const bool with_values,
                                    const std::vector<RigidFace> &rigid = {});
+
+  /// Of the owned nodes, in their order; hanging ones are fixed.
+  std::vector<FixedDirections> fixed_of_owned(const NodalSpace &space, const DirichletData &dirichlet);
 } // namespace Signorini
 
 #endif

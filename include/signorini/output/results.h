@@ -137,7 +137,7 @@ namespace Signorini
     /// Sums of what acts on it: loads (and their moment about the origin), reactions of prescribed
     /// displacements, contact.
     Vector3 load, load_moment, reaction, contact;
-    /// Largest angle (radians) and largest entry of the strain, at the centres of cells.
+    /// Largest angle (radians) and absolute value of the principal strains, at the centres of cells.
     double largest_rotation = 0., largest_strain = 0.;
     /// Estimated error of the stresses as a part of their energy norm (NodalStress::errors()).
     double stress_error = 0.;

@@ -11,7 +11,7 @@
 
 namespace Signorini
 {
-  /// Primal-dual active set steps (doc/algorithm.md, chapter 13) from an iterate and the active set that it
+  /// Primal-dual active set steps (doc/solvers.md, safety net) from an iterate and the active set that it
   /// has, each linear problem by conjugate gradients with a PlaneSolver.
   ///
   /// Such steps end in few or, the active set going round in a circle, never. So there are only so many of

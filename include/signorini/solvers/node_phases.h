@@ -10,7 +10,7 @@
 
 namespace Signorini
 {
-  /// In which phase of a sweep a node is visited (doc/algorithm.md, chapter 5, many ranks): one of three, of
+  /// In which phase of a sweep a node is visited (doc/algorithm.md, chapter 8): one of three, of
   /// six where ranks have few nodes. All
   /// ranks work in each phase. Nodes that ranks share get phases such that few and weak couplings between
   /// ranks join nodes of the same one; the inner nodes of a rank fill up the phases until all ranks take
