@@ -238,6 +238,18 @@ namespace Signorini
 
 
 
+  double approach_without_images(const Discretization &d, const ContactSolution &solution,
+                                 const unsigned int p)
+  {
+    const ContactPair &pair = d.pairs[p];
+    PairResult         result;
+    sum_active(result, pair, d.couplings[p], stress_of_pair(d, solution.stress, p), d.nodal().communicator());
+    return result.contact_area > 0. && !pair.is_tied ? approach_of(result.load, result.contact_area, pair, 1.)
+                                                     : 0.;
+  }
+
+
+
   PairResult evaluate_pair(const Discretization &d, const ContactSolution &solution, const unsigned int p)
   {
     const ContactPair  &pair     = d.pairs[p];

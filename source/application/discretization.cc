@@ -22,11 +22,11 @@ namespace Signorini
   Discretization::Discretization(std::shared_ptr<const ConstrainedSpace> space,
                                  std::vector<ContactPair>                some_pairs,
                                  std::vector<PairCoupling>               some_couplings,
-                                 std::vector<NonmortarSide>              some_sides)
+                                 std::vector<PairChoice>                 some_choices)
     : constrained(std::move(space))
     , pairs(std::move(some_pairs))
     , couplings(std::move(some_couplings))
-    , sides(std::move(some_sides))
+    , choices(std::move(some_choices))
   {
     std::vector<std::string> names;
     for (const ContactPair &pair : pairs)
@@ -82,7 +82,7 @@ namespace Signorini
 
 
   Discretization::Discretization(const Discretization &other, std::shared_ptr<const ConstrainedSpace> space)
-    : Discretization(std::move(space), other.pairs, other.couplings, other.sides)
+    : Discretization(std::move(space), other.pairs, other.couplings, other.choices)
   {
   }
 
@@ -239,7 +239,7 @@ namespace Signorini
 
   std::unique_ptr<const Discretization> discretize(const ContactModel                     &model,
                                                    std::shared_ptr<const ConstrainedSpace> constrained,
-                                                   const std::vector<NonmortarSide>       &before,
+                                                   const std::vector<PairChoice>          &before,
                                                    const unsigned int cycle, Journal &journal)
   {
     SideChoice choice(model, *constrained, before, journal);
@@ -266,6 +266,6 @@ namespace Signorini
     for (unsigned int p = 0; p < pairs.size(); ++p)
       keep_piece(pairs[p], couplings[p], model.communicator());
     return std::make_unique<const Discretization>(constrained, std::move(pairs), std::move(couplings),
-                                                  choice.sides());
+                                                  choice.choices());
   }
 } // namespace Signorini

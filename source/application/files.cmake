@@ -1,6 +1,7 @@
 signorini_add_layer(application COLD
   adaptive_marks.cc
   body_evaluation.cc
+  build_meshes.cc
   certificate.cc
   checkpoints.cc
   constrained_space.cc
@@ -38,6 +39,7 @@ signorini_add_layer(application COLD
   nested_iteration.cc
   output_parameters.cc
   pair_fields.cc
+  parting_bodies.cc
   pair_maker.cc
   pair_parameters.cc
   pair_pieces.cc

@@ -11,6 +11,7 @@
 #include <signorini/application/journal.h>
 #include <signorini/application/nested_iteration.h>
 #include <signorini/application/pair_fields.h>
+#include <signorini/application/parting_bodies.h>
 #include <signorini/application/point_holds.h>
 #include <signorini/application/turning_faces.h>
 #include <signorini/discretization/elasticity.h>
@@ -145,32 +146,15 @@ namespace Signorini
         if (journal.wants_iterations())
           journal.print("cycle " + std::to_string(cycle) + ": " + std::to_string(result.cells) + " cells, " +
                         std::to_string(result.dofs) + " unknowns");
-        journal.show("contact mapping and mortar integrals");
-        last.discretization = discretize(model, space, sides, cycle, journal);
-        sides               = last.discretization->sides;
-        // Without points for that the solution shows whether it drifts.
-        const auto      unopposed = find_unopposed_motions(model, *last.discretization);
-        const bool      holds_now = !unopposed.empty() && hold_points({HoldReason::unopposed, unopposed, 0.});
-        SolveParameters how_to    = parameters.solve;
-        how_to.measure_sweeps     = how_to.measure_sweeps && cycle == refinement.n_cycles();
-        const NestedStart *from   = cycle > 0 && !holds_now ? &start : nullptr;
-        last.solution = solve_contact(model, *last.discretization, coarser, from, how_to, journal);
-        unsigned int before_holds = 0;
-        while (!last.solution.drift.motions.empty())
+        couple(cycle);
+        solve_coupled(cycle, cycle > 0 ? &start : nullptr);
+        while (part_bodies(choices, *last.discretization, last.solution, journal))
           {
-            if (!hold_points(last.solution.drift))
-              {
-                leave_drift(model, *last.discretization, last.solution, journal);
-                break;
-              }
-            before_holds += last.solution.report.iterations;
-            last.solution = solve_contact(model, *last.discretization, coarser, nullptr, how_to, journal);
+            start = {last.solution.displacement, last.solution.report.needed_interface_sweeps,
+                     last.solution.report.needed_patches};
+            couple(cycle);
+            solve_coupled(cycle, &start);
           }
-        before_holds += settle_holds(how_to);
-        if (before_holds > 0)
-          journal.note("cycle " + std::to_string(cycle) + ": " + std::to_string(before_holds) +
-                       " iterations more, before points were held.");
-        check_point_holds(model, *last.discretization, last.solution);
         const Discretization    &d      = *last.discretization;
         const ConvergenceReport &report = last.solution.report;
         last.results.converged          = last.results.converged && report.converged;
@@ -192,6 +176,44 @@ namespace Signorini
         result.times = journal.take_times();
         journal.print(describe(result, is_adaptive));
         last.results.cycles.push_back(result);
+      }
+
+      /// The contact problem on the present mesh.
+      void couple(const unsigned int cycle)
+      {
+        journal.show("contact mapping and mortar integrals");
+        last.discretization.reset();
+        last.discretization = discretize(model, space, choices, cycle, journal);
+        choices             = last.discretization->choices;
+      }
+
+      /// Holds points where contact leaves motions open.
+      /// @param from null without a start
+      void solve_coupled(const unsigned int cycle, const NestedStart *const from)
+      {
+        // Without points for that the solution shows whether it drifts.
+        const auto      unopposed = find_unopposed_motions(model, *last.discretization);
+        const bool      holds_now = !unopposed.empty() && hold_points({HoldReason::unopposed, unopposed, 0.});
+        SolveParameters how_to    = parameters.solve;
+        how_to.measure_sweeps     = how_to.measure_sweeps && cycle == refinement.n_cycles();
+        last.solution =
+            solve_contact(model, *last.discretization, coarser, holds_now ? nullptr : from, how_to, journal);
+        unsigned int before_holds = 0;
+        while (!last.solution.drift.motions.empty())
+          {
+            if (!hold_points(last.solution.drift))
+              {
+                leave_drift(model, *last.discretization, last.solution, journal);
+                break;
+              }
+            before_holds += last.solution.report.iterations;
+            last.solution = solve_contact(model, *last.discretization, coarser, nullptr, how_to, journal);
+          }
+        before_holds += settle_holds(how_to);
+        if (before_holds > 0)
+          journal.note("cycle " + std::to_string(cycle) + ": " + std::to_string(before_holds) +
+                       " iterations more, before points were held.");
+        check_point_holds(model, *last.discretization, last.solution);
       }
 
       /// False if there is no point for that.
@@ -262,7 +284,7 @@ namespace Signorini
         NestedState         &state     = checkpoints->state().nested;
         state.cycle                    = cycle;
         state.trace                    = order.trace();
-        state.sides                    = sides;
+        state.choices                  = choices;
         state.bolts                    = save_bolts(model.loads().pretensions);
         state.holds                    = model.point_holds();
         state.cycles                   = last.results.cycles;
@@ -341,7 +363,7 @@ namespace Signorini
         const CurveOrder   order(space->nodal());
         for (const std::string &note : saved.notes)
           journal.note(note);
-        sides                  = state.sides;
+        choices                = state.choices;
         last.results.cycles    = state.cycles;
         last.results.converged = state.converged;
         last.solution          = state.solution;
@@ -363,7 +385,7 @@ namespace Signorini
       void restore_solution()
       {
         const NestedState &state = checkpoints->state().nested;
-        last.discretization      = discretize(model, space, sides, state.cycle, journal);
+        last.discretization      = discretize(model, space, choices, state.cycle, journal);
         last.solution.stress =
             restore_stress(state.contact, *last.discretization, CurveOrder(space->nodal()));
         journal.take_times();
@@ -452,7 +474,7 @@ namespace Signorini
       std::shared_ptr<const ConstrainedSpace> space;
       CoarserSpaces                           coarser;
       NestedStart                             start;
-      std::vector<NonmortarSide>              sides;
+      std::vector<PairChoice>                 choices;
       std::vector<double>                     indicator;
       /// Those of the cycles before, on the current mesh, if they are to be compared.
       std::vector<Vector> earlier_displacements;
@@ -466,35 +488,5 @@ namespace Signorini
                                       Journal &journal, Checkpoints *const checkpoints)
   {
     return NestedIteration(model, parameters, journal, checkpoints).run();
-  }
-
-
-
-  NestedSolution build_meshes(ContactModel &model, const NestedParameters &parameters, Journal &journal)
-  {
-    const Refinement refinement(parameters.refinement);
-    auto             space = std::make_shared<const ConstrainedSpace>(model);
-    for (unsigned int c = 1; c <= refinement.n_cycles(); ++c)
-      if (!refinement.is_adaptive(c) &&
-          model.refine(space->nodal(), refinement.mark(model.bodies(), space->nodal(), c)))
-        {
-          model.note_movement(journal);
-          space = std::make_shared<const ConstrainedSpace>(model);
-        }
-    if (parameters.refinement.adaptive_cycles > 0)
-      journal.note("the meshes are without the adaptive cycles, which need solutions.");
-    NestedSolution result;
-    result.discretization   = discretize(model, space, {}, 0, journal);
-    const Discretization &d = *result.discretization;
-    d.partition().reinit(result.solution.displacement);
-    result.solution.displacement.update_ghost_values();
-    result.solution.stress = no_stress(d);
-    for (unsigned int p = 0; p < d.pairs.size(); ++p)
-      {
-        result.results.pairs.push_back(evaluate_pair(d, result.solution, p));
-        const auto rows = pressure_rows(model.bodies(), d, result.solution.stress, p);
-        result.results.pressure.insert(result.results.pressure.end(), rows.begin(), rows.end());
-      }
-    return result;
   }
 } // namespace Signorini

@@ -109,9 +109,9 @@ namespace Signorini
   }
 
   template <typename Archive>
-  void transfer(Archive &a, NonmortarSide &s)
+  void transfer(Archive &a, PairChoice &s)
   {
-    a(s.is_second, s.is_turned);
+    a(s.is_second, s.is_turned, s.apart_from);
   }
 
   template <typename Archive>
@@ -141,7 +141,7 @@ namespace Signorini
     {
       auto n_marked  = static_cast<std::uint64_t>(s.marked.size());
       auto n_earlier = static_cast<std::uint64_t>(s.earlier.size());
-      a(s.cycle, n_marked, s.trace, s.sides, s.bolts, s.holds, s.cycles, s.converged, n_earlier,
+      a(s.cycle, n_marked, s.trace, s.choices, s.bolts, s.holds, s.cycles, s.converged, n_earlier,
         s.has_indicator);
       a(s.solution.report, s.solution.pretensions, s.solution.n_active, s.solution.n_levels);
       s.marked.resize(n_marked);

@@ -19,7 +19,9 @@ namespace Signorini
   namespace
   {
     /// Couples pairs whose moments are still those of all that they cover.
-    std::vector<PairCoupling> claim_and_couple(std::vector<ContactPair> &pairs, const MPI_Comm comm)
+    /// @param before the choices of the mesh before; empty on the first one
+    std::vector<PairCoupling> claim_and_couple(std::vector<ContactPair>      &pairs,
+                                               const std::vector<PairChoice> &before, const MPI_Comm comm)
     {
       std::vector<ClaimedFaces> claims;
       for (ContactPair &pair : pairs)
@@ -29,13 +31,17 @@ namespace Signorini
       std::vector<PairToCouple> several;
       // Each obstacle is a body of its own.
       unsigned int obstacle = numbers::invalid_unsigned_int;
-      for (const ContactPair &pair : pairs)
-        several.push_back({{pair.nonmortar.surface, pair.mortar.surface, *pair.halo},
-                           pair.moments,
-                           static_cast<bool>(pair.prescribed_gap),
-                           pair.is_tied,
-                           pair.nonmortar.body,
-                           pair.obstacle ? obstacle-- : pair.mortar.body});
+      for (unsigned int p = 0; p < pairs.size(); ++p)
+        {
+          const ContactPair &pair = pairs[p];
+          several.push_back({{pair.nonmortar.surface, pair.mortar.surface, *pair.halo},
+                             pair.moments,
+                             static_cast<bool>(pair.prescribed_gap),
+                             pair.is_tied,
+                             pair.nonmortar.body,
+                             pair.obstacle ? obstacle-- : pair.mortar.body,
+                             before.empty() ? std::vector<unsigned int>() : before[p].apart_from});
+        }
       return couple_pairs(several, comm);
     }
 
@@ -115,12 +121,13 @@ namespace Signorini
 
 
   SideChoice::SideChoice(const ContactModel &model, const ConstrainedSpace &constrained,
-                         const std::vector<NonmortarSide> &before, Journal &journal)
+                         const std::vector<PairChoice> &before, Journal &journal)
     : model(model)
     , constrained(constrained)
     , maker(model, constrained, journal)
     , journal(journal)
     , is_first(before.empty())
+    , before(before)
     , is_for_mapping(model.pairs().size(), false)
     , others(model.pairs().size())
   {
@@ -141,7 +148,7 @@ namespace Signorini
     if (pairs.size() > 1)
       for (const ContactPair &pair : pairs)
         covered.push_back(pair.moments);
-    couplings = claim_and_couple(pairs, model.communicator());
+    couplings = claim_and_couple(pairs, before, model.communicator());
   }
 
 
@@ -153,11 +160,12 @@ namespace Signorini
 
 
 
-  std::vector<NonmortarSide> SideChoice::sides() const
+  std::vector<PairChoice> SideChoice::choices() const
   {
-    std::vector<NonmortarSide> result;
+    std::vector<PairChoice> result;
     for (unsigned int p = 0; p < pairs.size(); ++p)
-      result.push_back({prefers_second[p] != turned[p], turned[p]});
+      result.push_back({prefers_second[p] != turned[p], turned[p],
+                        is_first ? std::vector<unsigned int>() : before[p].apart_from});
     return result;
   }
 
@@ -237,7 +245,7 @@ namespace Signorini
     turned = choice;
     for (unsigned int p = 0; p < covered.size(); ++p)
       pairs[p].moments = covered[p];
-    couplings = claim_and_couple(pairs, model.communicator());
+    couplings = claim_and_couple(pairs, before, model.communicator());
   }
 
 

@@ -24,16 +24,16 @@ namespace Signorini
     /// the object.
     /// @param before the choice of a coarser mesh; empty on the first one
     SideChoice(const ContactModel &model, const ConstrainedSpace &constrained,
-               const std::vector<NonmortarSide> &before, Journal &journal);
+               const std::vector<PairChoice> &before, Journal &journal);
 
     /// Collective. Turns what is better turned: descends in what is lost. On the first mesh; on others only
     /// if the choice would be refused.
     void improve();
 
     /// By pair.
-    std::vector<NonmortarSide> sides() const;
-    std::vector<ContactPair>   pairs;
-    std::vector<PairCoupling>  couplings;
+    std::vector<PairChoice>   choices() const;
+    std::vector<ContactPair>  pairs;
+    std::vector<PairCoupling> couplings;
 
   private:
     ContactPair make(const unsigned int p, const bool is_turned);
@@ -63,6 +63,8 @@ namespace Signorini
     PairMaker               maker;
     Journal                &journal;
     const bool              is_first;
+    /// By pair, where there was one: the choice of the mesh before.
+    const std::vector<PairChoice> before;
     /// By pair: whether the second side is the nonmortar one unless it is turned, and whether it is.
     std::vector<bool> prefers_second, turned;
     /// By pair: whether it was turned because of its mapping, on this mesh.

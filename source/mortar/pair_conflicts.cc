@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Signorini authors
 
 #include "multiplier_nodes.h"
+#include "node_of_several_pairs.h"
 
 #include <signorini/algebra/sent_lists.h>
 #include <signorini/mesh/surface_normals.h>
@@ -59,21 +60,6 @@ namespace Signorini
 
   namespace
   {
-    /// That a pair touches a node on one of its sides.
-    struct Touch
-    {
-      NodeIndex    node;
-      unsigned int pair;
-      bool         is_mortar, is_tied;
-      unsigned int mortar_body;
-      /// Of the nonmortar side: whether the node may be mortar in other pairs; sum of the normals of this
-      /// rank's faces around the node with their covered areas.
-      bool    may_chain;
-      Vector3 normal;
-      /// The rank that says so; set on arrival.
-      unsigned int sender;
-    };
-
     /// Bodies from which pairs lead back to themselves, from the nonmortar to the mortar side.
     std::set<unsigned int> bodies_in_cycles(const std::vector<PairToCouple> &pairs)
     {
@@ -126,82 +112,6 @@ namespace Signorini
       return normals;
     }
 
-    /// What the pairs make of one node that they touch: which of them have it as a row, if any.
-    class NodeOfSeveralPairs
-    {
-    public:
-      /// None of them has it.
-      NodeOfSeveralPairs() = default;
-
-      NodeOfSeveralPairs(const std::vector<Touch> &touches, const SharedRowRule &rule)
-      {
-        const bool is_mortar =
-            std::any_of(touches.begin(), touches.end(), [](const Touch &touch) { return touch.is_mortar; });
-        std::map<unsigned int, Touch> sums;
-        for (const Touch &touch : touches)
-          {
-            if (touch.is_mortar)
-              continue;
-            if (is_mortar && !touch.may_chain)
-              return;
-            const auto [entry, is_new] = sums.insert({touch.pair, touch});
-            if (!is_new)
-              entry->second.normal += touch.normal;
-          }
-        // What bodies cover, and the pairs that they are mortar in.
-        std::map<unsigned int, double>                 areas;
-        std::map<unsigned int, std::set<unsigned int>> pairs;
-        for (const auto &[pair, touch] : sums)
-          {
-            areas[touch.mortar_body] += touch.normal.norm();
-            pairs[touch.mortar_body].insert(pair);
-          }
-        const auto fit = [&](const Touch &a, const Touch &b) {
-          return a.is_tied == b.is_tied && (!a.is_tied || areas.size() == 1) &&
-                 a.normal * b.normal >= rule.least_cosine * a.normal.norm() * b.normal.norm();
-        };
-        for (const auto &one : sums)
-          for (const auto &other : sums)
-            if (!fit(one.second, other.second))
-              return;
-        // Of bodies that cover as much that of the first pair.
-        unsigned int best = sums.begin()->second.mortar_body;
-        for (const auto &[pair, touch] : sums)
-          if (areas[touch.mortar_body] > rule.greater * areas[best])
-            best = touch.mortar_body;
-        owners = pairs[best];
-      }
-
-      bool is_excluded() const
-      {
-        return owners.empty();
-      }
-
-      bool is_ceded_by(const unsigned int pair) const
-      {
-        return !owners.empty() && owners.count(pair) == 0;
-      }
-
-      bool is_ceded_by_any(const std::vector<Touch> &touches) const
-      {
-        return std::any_of(touches.begin(), touches.end(),
-                           [&](const Touch &touch) { return !touch.is_mortar && is_ceded_by(touch.pair); });
-      }
-
-      /// What has become of it does not work: something else. Pairs that share the row keep it, then it is
-      /// excluded.
-      void change(const bool is_row)
-      {
-        if (!is_row || is_kept || owners.size() == 1)
-          owners.clear();
-        else
-          is_kept = true;
-      }
-
-      std::set<unsigned int> owners;
-      bool                   is_kept = false;
-    };
-
     /// The nodes that several pairs touch. They meet on some rank, whichever it is; that rank decides, the
     /// others get to know what it has decided of the nodes that they touch.
     class NodesOfSeveralPairs
@@ -216,12 +126,18 @@ namespace Signorini
         , known(pairs.size())
       {
         meet(pairs);
-        const std::set<NodeIndex> doubly_covered = meet_faces(pairs);
-        std::vector<NodeIndex>    decided;
+        const DoublyCovered    doubly_covered = meet_faces(pairs);
+        std::vector<NodeIndex> decided;
+        const auto             part = [&pairs](const unsigned int p, const unsigned int q) {
+          const auto &of_p = pairs[p].apart_from, &of_q = pairs[q].apart_from;
+          return std::count(of_p.begin(), of_p.end(), q) + std::count(of_q.begin(), of_q.end(), p) > 0;
+        };
         for (const auto &[node, some] : touches)
           {
-            nodes.emplace(node, doubly_covered.count(node) > 0 ? NodeOfSeveralPairs()
-                                                               : NodeOfSeveralPairs(some, rule));
+            nodes.emplace(
+                node, doubly_covered.by_one_body.count(node) > 0
+                          ? NodeOfSeveralPairs()
+                          : NodeOfSeveralPairs(some, rule, part, doubly_covered.by_several.count(node) == 0));
             decided.push_back(node);
           }
         tell(decided);
@@ -360,9 +276,14 @@ namespace Signorini
           }
       }
 
-      /// Collective. Of the nodes that meet here those of faces that pairs with the same mortar body cover
-      /// one over the other.
-      std::set<NodeIndex> meet_faces(const std::vector<PairToCouple> &pairs) const
+      /// Nodes of faces that pairs cover one over the other, with the same mortar body and with several.
+      struct DoublyCovered
+      {
+        std::set<NodeIndex> by_one_body, by_several;
+      };
+
+      /// Collective. Of the nodes that meet here.
+      DoublyCovered meet_faces(const std::vector<PairToCouple> &pairs) const
       {
         struct Cover
         {
@@ -370,8 +291,13 @@ namespace Signorini
           unsigned int mortar_body, pair;
           double       share;
         };
-        ListsByRank<Cover>     covers;
-        ListsByRank<NodeIndex> corners;
+        struct Corner
+        {
+          NodeIndex node;
+          bool      is_of_one_body;
+        };
+        ListsByRank<Cover>  covers;
+        ListsByRank<Corner> corners;
         for (unsigned int p = 0; p < pairs.size(); ++p)
           for (const FaceMoments &m : pairs[p].moments)
             if (!is_empty(m) && pairs[p].surfaces.halo.owns_face(m.face))
@@ -379,23 +305,33 @@ namespace Signorini
                 const FaceName name = name_of(pairs[p].surfaces.nonmortar, m.face);
                 covers[meeting_at(name[0])].push_back({name, pairs[p].mortar_body, p, m.covered / m.area});
               }
-        using SharesByPair = std::map<unsigned int, double>;
-        std::map<std::pair<FaceName, unsigned int>, SharesByPair> shares;
+        // In the order of the pairs.
+        std::map<FaceName, std::map<unsigned int, Cover>> by_face;
         for (const auto &[sender, list] : send_lists(covers, comm))
           for (const Cover &cover : list)
-            shares[{cover.face, cover.mortar_body}][cover.pair] = cover.share;
-        for (const auto &[place, by_pair] : shares)
+            by_face[cover.face][cover.pair] = cover;
+        for (const auto &[face, by_pair] : by_face)
           {
-            double sum = 0.;
-            for (const auto &[pair, share] : by_pair)
-              sum += share;
-            if (by_pair.size() > 1 && sum > rule.greater)
-              for (const NodeIndex node : place.first)
-                corners[meeting_at(node)].push_back(node);
+            double                                                  all = 0.;
+            std::map<unsigned int, std::pair<unsigned int, double>> of_body;
+            for (const auto &[pair, cover] : by_pair)
+              {
+                auto &[n_pairs, of_all] = of_body[cover.mortar_body];
+                ++n_pairs;
+                of_all += cover.share;
+                all += cover.share;
+              }
+            const bool is_of_one_body = std::any_of(of_body.begin(), of_body.end(), [this](const auto &body) {
+              return body.second.first > 1 && body.second.second > rule.greater;
+            });
+            if (is_of_one_body || (of_body.size() > 1 && all > rule.beside))
+              for (const NodeIndex node : face)
+                corners[meeting_at(node)].push_back({node, is_of_one_body});
           }
-        std::set<NodeIndex> result;
+        DoublyCovered result;
         for (const auto &[sender, list] : send_lists(corners, comm))
-          result.insert(list.begin(), list.end());
+          for (const Corner &corner : list)
+            (corner.is_of_one_body ? result.by_one_body : result.by_several).insert(corner.node);
         return result;
       }
 

@@ -23,6 +23,7 @@ import output_cases
 import random_pair_cases
 import rank_cases
 import report_cases
+import seam_cases
 import shape_cases
 import slender_cases
 import tool_cases
@@ -711,7 +712,7 @@ def surface_map(p):
 
 
 if __name__ == '__main__':
-    modules = (sys.modules[__name__], certificate_cases, checkpoint_cases, deck_cases, geometry_cases, hardening_cases, heat_cases, finished_mesh_cases, free_body_cases, load_cases, output_cases, random_pair_cases, rank_cases, report_cases, shape_cases, slender_cases,
+    modules = (sys.modules[__name__], certificate_cases, checkpoint_cases, deck_cases, geometry_cases, hardening_cases, heat_cases, finished_mesh_cases, free_body_cases, load_cases, output_cases, random_pair_cases, rank_cases, report_cases, seam_cases, shape_cases, slender_cases,
                tool_cases, true_gap_cases, verification_cases, verify_cases, whole_boundary_cases)
     case = next(getattr(m, sys.argv[2]) for m in modules if hasattr(m, sys.argv[2]))
     case(Program(sys.argv[1], int(sys.argv[3])))

@@ -156,15 +156,15 @@ namespace Step2
     ContactModel    model(MPI_COMM_WORLD, make_problem());
     Journal         journal;
     SolveParameters parameters;
-    // What is kept from mesh to mesh: the levels below, the start, which sides of pairs are nonmortar.
-    CoarserSpaces              coarser;
-    NestedStart                start;
-    std::vector<NonmortarSide> sides;
+    // What is kept from mesh to mesh: the levels below, the start, what has been decided about pairs.
+    CoarserSpaces           coarser;
+    NestedStart             start;
+    std::vector<PairChoice> choices;
     auto space = std::make_shared<const ConstrainedSpace>(model, /* with_inner_faces = */ true);
     out << "   cells     dofs   iter.  active     force   p_max    area  indicator\n";
     for (unsigned int cycle = 0; cycle < n_meshes; ++cycle)
       {
-        const auto            discretization = discretize(model, space, sides, cycle, journal);
+        const auto            discretization = discretize(model, space, choices, cycle, journal);
         const ContactSolution solution =
             solve_contact(model, *discretization, coarser, cycle > 0 ? &start : nullptr, parameters, journal);
         AssertThrow(solution.report.converged, ExcMessage(solution.report.note));
@@ -200,7 +200,7 @@ namespace Step2
         const auto rows = interpolation_rows(next->nodal(), space->nodal(), model.bodies().tetrahedra());
         start           = {next->interpolate(solution.displacement, *space, rows),
                            solution.report.needed_interface_sweeps};
-        sides           = discretization->sides;
+        choices         = discretization->choices;
         space           = next;
       }
   }

@@ -48,6 +48,11 @@ namespace Signorini
     std::vector<Rest> of_bodies;
   };
 
+  /// Collective. PairResult::approach of one pair but for the images of its contact by planes of symmetry
+  /// (length); 0 where nothing touches.
+  double approach_without_images(const Discretization &discretization, const ContactSolution &solution,
+                                 const unsigned int pair);
+
   /// Collective. Forces, areas, gaps and extrema of one pair.
   PairResult evaluate_pair(const Discretization &discretization, const ContactSolution &solution,
                            const unsigned int pair);

@@ -91,14 +91,17 @@ namespace Signorini
     GapFunction prescribed_gap;
   };
 
-  /// Which of the sides of a pair, in the order of its definition, is the nonmortar one.
-  struct NonmortarSide
+  /// What has been decided about a pair on one mesh, for the next ones.
+  struct PairChoice
   {
-    /// The second one.
+    /// Whether the second side, in the order of the definition, is the nonmortar one.
     bool is_second = false;
     /// Whether that is not the automatic choice, because less of the contact is lost this way round, or the
     /// mapping has no errors.
     bool is_turned = false;
+    /// Pairs that have the same nonmortar nodes, but whose mortar body parts from that of this one
+    /// (parting_bodies.h).
+    std::vector<unsigned int> apart_from;
   };
 
   /// The discrete contact problem on one mesh. Constant.
@@ -106,7 +109,7 @@ namespace Signorini
   {
     /// Collective. Joins the couplings of the pairs. Errors: those of join_couplings().
     Discretization(std::shared_ptr<const ConstrainedSpace> constrained, std::vector<ContactPair> pairs,
-                   std::vector<PairCoupling> couplings, std::vector<NonmortarSide> sides);
+                   std::vector<PairCoupling> couplings, std::vector<PairChoice> choices);
     /// Collective. The same surfaces and couplings on the same space with other values of its conditions.
     Discretization(const Discretization &other, std::shared_ptr<const ConstrainedSpace> constrained);
     Discretization(const Discretization &) = delete;
@@ -162,7 +165,7 @@ namespace Signorini
     std::vector<ContactPair>  pairs;
     std::vector<PairCoupling> couplings;
     /// By pair. The next mesh begins with it: what is finer there does not count any more.
-    std::vector<NonmortarSide> sides;
+    std::vector<PairChoice> choices;
 
     /// Of all pairs, joined: rows by contact node, sorted, of the nodes that are relevant to this rank.
     InterfaceCoupling coupling;
@@ -183,12 +186,12 @@ namespace Signorini
   };
 
   /// Collective. Maps and couples all pairs of a model on its mesh.
-  /// @param sides Discretization::sides of the mesh before; empty on the first one
+  /// @param choices Discretization::choices of the mesh before; empty on the first one
   /// @param cycle number of the mesh, for notes; on the first one initial overlaps are noted
   /// Errors: InputError for pairs that cannot do what they are there for (contact_checks.h).
   std::unique_ptr<const Discretization> discretize(const ContactModel                     &model,
                                                    std::shared_ptr<const ConstrainedSpace> constrained,
-                                                   const std::vector<NonmortarSide>       &sides,
+                                                   const std::vector<PairChoice>          &choices,
                                                    const unsigned int cycle, Journal &journal);
 } // namespace Signorini
 

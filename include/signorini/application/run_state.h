@@ -51,7 +51,7 @@ namespace Signorini
     /// CurveOrder::trace() of the mesh.
     double trace = 0.;
     /// As in Discretization.
-    std::vector<NonmortarSide> sides;
+    std::vector<PairChoice> choices;
     /// By bolt of the model.
     std::vector<SavedBolt> bolts;
     /// Of the model.

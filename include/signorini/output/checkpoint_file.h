@@ -22,7 +22,7 @@ namespace Signorini
   struct CheckpointHeader
   {
     /// Of the layout of files and of all that stands in them. Files with another one are refused.
-    static constexpr std::uint32_t present_format = 12;
+    static constexpr std::uint32_t present_format = 13;
 
     /// A list of `n` items of `item` bytes, `offset` bytes behind the begin of the file.
     struct Section

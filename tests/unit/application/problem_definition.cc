@@ -125,15 +125,15 @@ TEST(ProblemDefinition, IsThatOfTheText)
 // A loop of one's own, with local refinement, has the constant pressure on every mesh.
 TEST(ProblemDefinition, LoopOfOnesOwn)
 {
-  Journal                    journal;
-  ContactModel               model(MPI_COMM_WORLD, patch_test());
-  CoarserSpaces              coarser;
-  NestedStart                start;
-  std::vector<NonmortarSide> sides;
-  auto                       space = std::make_shared<const ConstrainedSpace>(model, true);
+  Journal                 journal;
+  ContactModel            model(MPI_COMM_WORLD, patch_test());
+  CoarserSpaces           coarser;
+  NestedStart             start;
+  std::vector<PairChoice> choices;
+  auto                    space = std::make_shared<const ConstrainedSpace>(model, true);
   for (unsigned int cycle = 0; cycle < 3; ++cycle)
     {
-      const auto            d = discretize(model, space, sides, cycle, journal);
+      const auto            d = discretize(model, space, choices, cycle, journal);
       const ContactSolution solution =
           solve_contact(model, *d, coarser, cycle > 0 ? &start : nullptr, {}, journal);
       EXPECT_TRUE(solution.report.converged);
@@ -149,7 +149,7 @@ TEST(ProblemDefinition, LoopOfOnesOwn)
       const auto rows = interpolation_rows(next->nodal(), space->nodal(), model.bodies().tetrahedra());
       start           = {next->interpolate(solution.displacement, *space, rows),
                          solution.report.needed_interface_sweeps};
-      sides           = d->sides;
+      choices         = d->choices;
       space           = next;
     }
 }
@@ -163,15 +163,15 @@ TEST(ProblemDefinition, NonmortarSideStays)
   ContactModel model(MPI_COMM_WORLD, patch_test());
   const auto   space = std::make_shared<const ConstrainedSpace>(model, true);
   const auto   first = discretize(model, space, {}, 0, journal);
-  ASSERT_TRUE(first->sides[0].is_second);
+  ASSERT_TRUE(first->choices[0].is_second);
   std::vector<bool> marked;
   for (const NodalSpace::Cell &cell : space->nodal().cells())
     marked.push_back(space->nodal().position(space->nodal().nodes(cell)[0])[2] > -1e-9);
   ASSERT_TRUE(model.refine(space->nodal(), marked));
   const auto second =
-      discretize(model, std::make_shared<const ConstrainedSpace>(model, true), first->sides, 1, journal);
+      discretize(model, std::make_shared<const ConstrainedSpace>(model, true), first->choices, 1, journal);
   EXPECT_GT(second->pairs[0].mortar.surface.faces.size(), first->pairs[0].mortar.surface.faces.size());
-  EXPECT_TRUE(second->sides[0].is_second);
+  EXPECT_TRUE(second->choices[0].is_second);
   EXPECT_EQ(second->pairs[0].nonmortar.body, first->pairs[0].nonmortar.body);
 }
 

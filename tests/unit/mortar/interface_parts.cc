@@ -284,8 +284,8 @@ namespace
         }
       for (unsigned int p = 0; p < 2; ++p)
         pairs.push_back(
-            {{interface.non, *mortars[p], halo}, moments[p], false, p == 1 && is_tied, 2, p * body});
-      pairs.push_back({{follower, interface.non, halo_of_follower}, moments[2], false, false, 3, 2});
+            {{interface.non, *mortars[p], halo}, moments[p], false, p == 1 && is_tied, 2, p * body, {}});
+      pairs.push_back({{follower, interface.non, halo_of_follower}, moments[2], false, false, 3, 2, {}});
       dealii::IndexSet owned(5000);
       owned.add_range(rank * 5000 / n_ranks, (rank + 1) * 5000 / n_ranks);
       return join_couplings(couple_pairs(pairs, comm), {}, NodePartition(owned, owned, comm));

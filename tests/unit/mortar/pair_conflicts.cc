@@ -11,6 +11,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
+
 namespace
 {
   using namespace FlatSurfaces;
@@ -35,22 +37,26 @@ namespace
   }
 
   /// @param has_one_body whether all mortar sides belong to one body
+  /// @param part whether their bodies do not stay where they meet
   std::vector<PairCoupling> couple_together(const std::vector<Pair> &pairs, const DroppingRule &rule = {},
-                                            const SharedRowRule     &shared_rule  = {},
-                                            const std::vector<bool> &is_tied      = {},
-                                            const bool               has_one_body = true)
+                                            const SharedRowRule     &shared_rule = {},
+                                            const std::vector<bool> &is_tied     = {},
+                                            const bool has_one_body = true, const bool part = false)
   {
     std::vector<SurfaceHalo> halos;
     for (const Pair &pair : pairs)
       halos.emplace_back(pair.non, MPI_COMM_SELF);
     std::vector<PairToCouple> several;
+    std::vector<unsigned int> all_pairs(part ? pairs.size() : 0);
+    std::iota(all_pairs.begin(), all_pairs.end(), 0);
     for (std::size_t p = 0; p < pairs.size(); ++p)
       several.push_back({{pairs[p].non, pairs[p].mor, halos[p]},
                          pairs[p].moments,
                          false,
                          p < is_tied.size() && is_tied[p],
                          body_of(pairs[p].non),
-                         has_one_body ? 1 : body_of(pairs[p].mor)});
+                         has_one_body ? 1 : body_of(pairs[p].mor),
+                         all_pairs});
     return couple_pairs(several, MPI_COMM_SELF, rule, shared_rule);
   }
 
@@ -261,14 +267,50 @@ TEST(PairConflicts, NodesOnEdgesLoseTheirMultiplier)
             24u);
 }
 
-// Different mortar bodies: the pair that covers more around a node has it, or the first one. In the other one
-// it is no column, and linear displacements pass.
-TEST(PairConflicts, NodesBelongToOneOfTwoBodies)
+// Different mortar bodies beside each other share nodes as one body would: linear displacements pass, and one
+// pressure holds all nodes, of the mortar sides too.
+TEST(PairConflicts, NodesThatTwoBodiesCarry)
 {
   for (const bool within_faces : {false, true})
     {
       const auto pairs     = within_faces ? under_two_bodies(5, 1.03) : under_two_bodies(6, 1.);
       const auto couplings = couple_together(pairs, {}, {}, {}, false);
+      EXPECT_EQ(n_shared(couplings), within_faces ? 8u : 4u);
+      const auto x      = positions(pairs);
+      const auto joined = join_couplings(couplings, {"left", "right"}, all_nodes());
+      EXPECT_EQ(joined.coupling.n_rows(), within_faces ? 24u : 28u);
+      for (std::size_t row = 0; row < joined.coupling.n_rows(); ++row)
+        {
+          Vector3 rest = x.at(joined.coupling.rows[row]) - Point<3>();
+          for (const auto *entry = joined.coupling.begin(row); entry != joined.coupling.end(row); ++entry)
+            rest -= entry->weight * (x.at(entry->node) - Point<3>());
+          EXPECT_LT(rest.norm(), 1e-12);
+        }
+      std::map<NodeIndex, double> rest;
+      for (std::size_t p = 0; p < 2; ++p)
+        {
+          const auto forces =
+              compute_contact_forces(pairs[p].non, pairs[p].mor, couplings[p], couplings[p].normals);
+          for (const auto &f : forces.nonmortar.nodes)
+            rest[f.node] -= f.force[2];
+          for (const auto &f : forces.mortar.nodes)
+            rest[f.node] += f.force[2];
+          for (const auto &[node, load] : covered_loads(pairs[p].non, pairs[p].mor))
+            rest[node] -= load;
+        }
+      for (const auto &[node, force] : rest)
+        EXPECT_NEAR(force, 0., 1e-14) << node;
+    }
+}
+
+// If they part, the pair that covers more around a node has it, or the first one. In the other one it is no
+// column, and linear displacements pass.
+TEST(PairConflicts, NodesBelongToOneOfTwoBodies)
+{
+  for (const bool within_faces : {false, true})
+    {
+      const auto pairs     = within_faces ? under_two_bodies(5, 1.03) : under_two_bodies(6, 1.);
+      const auto couplings = couple_together(pairs, {}, {}, {}, false, true);
       EXPECT_EQ(n_shared(couplings), 0u);
       for (const PairCoupling &pair : couplings)
         {
@@ -321,7 +363,7 @@ TEST(PairConflicts, NodesThatTheirPairCannotHave)
       pairs[0].non, [](const Point<3> &x) { return std::abs(x[0] - .8) < 1e-9 && x[1] == 0.; }, FixedMask(4));
   for (const bool is_tied : {false, true})
     {
-      const auto couplings = couple_together(pairs, {}, {}, {is_tied, is_tied}, false);
+      const auto couplings = couple_together(pairs, {}, {}, {is_tied, is_tied}, false, true);
       EXPECT_EQ(n_shared(couplings), 0u);
       EXPECT_EQ(join_couplings(couplings, {}, all_nodes()).coupling.n_rows(), is_tied ? 16u : 23u);
       EXPECT_EQ(couplings[1].r_nodes.size(), is_tied ? 4u : 1u);
@@ -342,6 +384,8 @@ TEST(PairConflicts, FacesCoveredTwice)
   };
   EXPECT_EQ(n_rows({left, left}, true), 0u);
   EXPECT_EQ(n_rows({left, other_left}, false), 16u);
+  // One body behind the other one is not beside it.
+  EXPECT_EQ(n_shared(couple_together({left, other_left}, {}, {}, {}, false)), 0u);
   // Of seven columns four are lost; the next one is the wide pair's, the one after it thinly covered.
   EXPECT_EQ(n_rows({left, wide}, true), 4u);
   EXPECT_EQ(n_rows({left, wide}, false), 20u);
@@ -356,7 +400,7 @@ TEST(PairConflicts, CededNodesBesideHangingOnes)
   // Both ends of the edge with the hanging vertex, of the four nodes between the bodies.
   for (const bool has_one_body : {true, false})
     {
-      const auto couplings = couple_together(pairs, {}, {}, {}, has_one_body);
+      const auto couplings = couple_together(pairs, {}, {}, {}, has_one_body, !has_one_body);
       EXPECT_EQ(n_shared(couplings), has_one_body ? 4u : 0u);
       EXPECT_EQ(join_couplings(couplings, {}, all_nodes()).coupling.n_rows(), has_one_body ? 29u : 27u);
     }
