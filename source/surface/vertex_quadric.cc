@@ -180,9 +180,11 @@ namespace Signorini
     q.normal = normal / normal.norm();
     q.v      = axis;
     q.d = q.e = 0.;
-    Eigen::Matrix<double, Eigen::Dynamic, 2> a(n, 2);
-    Eigen::VectorXd                          b(n);
-    double                                   last = std::numeric_limits<double>::max();
+    // Slope, curvature, and by how much that changes, which slopes of a symmetric curve would be taken for.
+    const Eigen::Index n_unknowns = n > 3 ? 3 : 2;
+    Eigen::MatrixXd    a(n, n_unknowns);
+    Eigen::VectorXd    b(n);
+    double             last = std::numeric_limits<double>::max();
     for (unsigned int step = 0; step < n_steps; ++step)
       {
         q.u = cross_product_3d(q.v, q.normal);
@@ -192,12 +194,14 @@ namespace Signorini
             const double       weight = 1. / x.norm_square();
             a(i, 0)                   = weight * (x * q.u);
             a(i, 1)                   = .5;
+            if (n_unknowns > 2)
+              a(i, 2) = x * q.u;
             b[i]                      = weight * (x * q.normal);
           }
-        const Eigen::ColPivHouseholderQR<Eigen::Matrix<double, Eigen::Dynamic, 2>> qr(a);
-        if (qr.rank() < 2)
+        const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(a);
+        if (qr.rank() < n_unknowns)
           return false;
-        const Eigen::Vector2d x       = qr.solve(b);
+        const Eigen::VectorXd x       = qr.solve(b);
         const double          heights = (b - x[0] * a.col(0)).norm(), turn = std::abs(x[0]);
         q.c         = x[1] / size;
         q.left_over = (b - a * x).norm();
@@ -212,7 +216,7 @@ namespace Signorini
     // As many as with five unknowns; rows beside each other tell the same, two of them count.
     const auto n_neighbours = static_cast<Eigen::Index>(neighbours.size());
     q.n_checks =
-        static_cast<unsigned int>(std::max<Eigen::Index>(0, std::min(n_neighbours - 5, 2 * (n - 2))));
+        static_cast<unsigned int>(std::max<Eigen::Index>(0, std::min(n_neighbours - 5, 2 * (n - n_unknowns))));
     q.left_over *= 2. / (size * std::sqrt(std::max(1., static_cast<double>(q.n_checks))));
     return true;
   }
