@@ -196,7 +196,7 @@ namespace Signorini
             a(i, 1)                   = .5;
             if (n_unknowns > 2)
               a(i, 2) = x * q.u;
-            b[i]                      = weight * (x * q.normal);
+            b[i] = weight * (x * q.normal);
           }
         const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(a);
         if (qr.rank() < n_unknowns)
@@ -215,8 +215,8 @@ namespace Signorini
     q.u = cross_product_3d(q.v, q.normal);
     // As many as with five unknowns; rows beside each other tell the same, two of them count.
     const auto n_neighbours = static_cast<Eigen::Index>(neighbours.size());
-    q.n_checks =
-        static_cast<unsigned int>(std::max<Eigen::Index>(0, std::min(n_neighbours - 5, 2 * (n - n_unknowns))));
+    q.n_checks              = static_cast<unsigned int>(
+        std::max<Eigen::Index>(0, std::min(n_neighbours - 5, 2 * (n - n_unknowns))));
     q.left_over *= 2. / (size * std::sqrt(std::max(1., static_cast<double>(q.n_checks))));
     return true;
   }
