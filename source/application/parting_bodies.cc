@@ -93,7 +93,8 @@ namespace Signorini
           least    = std::min(least, one.value);
           approach = std::max(approach, approaches[one.pair]);
         }
-      if (-least <= rule.depth * approach)
+      const double largest = *std::max_element(approaches.begin(), approaches.end());
+      if (approach <= rule.idle * largest || -least <= rule.depth * approach)
         return;
       for (const Opening &a : openings)
         for (const Opening &b : openings)

@@ -66,9 +66,8 @@ namespace Signorini
     struct SideRule
     {
       /// Of what a pair covers: less than this is no reason to swap sides, which then are so on all finer
-      /// meshes. A plate under two blocks beside each other loses 5 % of one of them, and the pressure is
-      /// wrong there by a fifth. Two torn edges at the rim of a hole are less, too: a bolted joint whose
-      /// sides were swapped for them presses on the rim, verdict NO.
+      /// meshes. Two torn edges at the rim of a hole are less: a bolted joint whose sides were swapped for
+      /// them presses on the rim, verdict NO.
       double least_share = .02;
       /// Of the loss of the pairs that are swapped, what that has to save.
       double least_gain = .1;

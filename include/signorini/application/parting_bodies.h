@@ -14,8 +14,12 @@ namespace Signorini
   /// When two bodies that meet under a node do not carry it together (doc/algorithm.md, several pairs).
   struct PartingRule
   {
-    /// How deep the node lies in one of them, relative to what contact does (PairResult::approach).
+    /// How deep the node lies in one of them, relative to what contact does (PairResult::approach). Two
+    /// blocks under one whose moduli differ by up to ten do not come near it, one that is pulled back exceeds
+    /// it.
     double depth = .2;
+    /// Pairs where contact does less than this part of what the largest does carry nothing but rounding.
+    double idle = 1e-6;
   };
 
   /// Collective. Looks at the rows that pairs with different mortar bodies share: they hold the node at the
