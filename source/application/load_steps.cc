@@ -6,6 +6,7 @@
 #include <signorini/algebra/input_error.h>
 #include <signorini/application/journal.h>
 #include <signorini/application/load_steps.h>
+#include <signorini/application/parting_bodies.h>
 #include <signorini/application/point_holds.h>
 #include <signorini/application/pretension.h>
 #include <signorini/mesh/expression.h>
@@ -113,6 +114,11 @@ namespace Signorini
             if (!converged)
               journal.note("the step t = " + Patterns::Tools::to_string(times[k]) + " was not solved: " +
                            solution.report.note + ". The steps after it are left out, but for the last.");
+            for (const PartedPairs &parted : find_parted_bodies(*discretization, solution))
+              journal.note("warning: load step t = " + Patterns::Tools::to_string(times[k]) + ": " +
+                           describe_parted(parted, *discretization) +
+                           " then, though it does in the end: the nodes between them are held at the mean. "
+                           "Compute that step alone.");
             observe(static_cast<unsigned int>(k), *discretization, solution);
             if (checkpoints != nullptr && checkpoints->are_wanted())
               save(*checkpoints);

@@ -11,8 +11,7 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
-#include <tuple>
+#include <utility>
 
 namespace Signorini
 {
@@ -20,23 +19,49 @@ namespace Signorini
 
   namespace
   {
-    /// How far a node is from the mortar body of one pair after deformation (length).
+    /// How far a node is from the mortar body of one pair after deformation (length), with the weight of that
+    /// pair in the row (area).
     struct Opening
     {
       NodeIndex    node;
       unsigned int pair;
+      double       value, weight;
+    };
+
+    /// How deep a node lies in the body of one pair (length), out of which another one goes, or lies less
+    /// deep in.
+    struct Depth
+    {
+      unsigned int pair, other;
       double       value;
     };
 
-    /// Two pairs.
-    struct Couple
+    /// The deepest of each two pairs.
+    class Depths
     {
-      unsigned int first, second;
-
-      bool operator<(const Couple &other) const
+    public:
+      void add(const Depth &depth)
       {
-        return std::tie(first, second) < std::tie(other.first, other.second);
+        double &value = values[{depth.pair, depth.other}];
+        value         = std::max(value, depth.value);
       }
+
+      std::vector<Depth> list() const
+      {
+        std::vector<Depth> result;
+        for (const auto &[pairs, value] : values)
+          result.push_back({pairs.first, pairs.second, value});
+        return result;
+      }
+
+      double of(const unsigned int pair, const unsigned int other) const
+      {
+        const auto entry = values.find({pair, other});
+        return entry != values.end() ? entry->second : 0.;
+      }
+
+    private:
+      std::map<std::pair<unsigned int, unsigned int>, double> values;
     };
 
     bool have_one_mortar_body(const ContactPair &a, const ContactPair &b)
@@ -78,39 +103,41 @@ namespace Signorini
           Vector3 jump = value(coupling.rows[i]);
           for (const auto *entry = coupling.begin(i); entry != coupling.end(i); ++entry)
             jump -= entry->weight * value(entry->node);
-          result.push_back({coupling.rows[i], p, pair.gaps[i] - pair.normals[i] * jump});
+          result.push_back({coupling.rows[i], p, pair.gaps[i] - pair.normals[i] * jump, coupling.weight[i]});
         }
       return result;
     }
 
-    /// The couples of one node that differ by more than they may.
-    void add_apart(std::set<Couple> &apart, const std::vector<Opening> &openings, const Discretization &d,
-                   const std::vector<double> &approaches, const PartingRule &rule)
+    /// Those of one node whose openings differ by more than they may. What a pair says that covers a sliver
+    /// is an extrapolation over a whole face: each counts with twice its share, or once.
+    void add_depths(Depths &depths, std::vector<Opening> openings, const Discretization &d,
+                    const std::vector<double> &approaches, const PartingRule &rule)
     {
-      double least = 0., approach = 0.;
+      double all = 0., approach = 0.;
       for (const Opening &one : openings)
         {
-          least    = std::min(least, one.value);
+          all += one.weight;
           approach = std::max(approach, approaches[one.pair]);
         }
-      const double largest = *std::max_element(approaches.begin(), approaches.end());
-      if (approach <= rule.idle * largest || -least <= rule.depth * approach)
+      if (approach <= rule.idle * *std::max_element(approaches.begin(), approaches.end()))
         return;
+      for (Opening &one : openings)
+        one.value *= std::min(1., 2. * one.weight / all);
       for (const Opening &a : openings)
         for (const Opening &b : openings)
-          if (b.value - a.value > rule.depth * approach &&
+          if (-a.value > rule.depth * approach && b.value - a.value > rule.depth * approach &&
               !have_one_mortar_body(d.pairs[a.pair], d.pairs[b.pair]))
-            apart.insert({std::min(a.pair, b.pair), std::max(a.pair, b.pair)});
+            depths.add({a.pair, b.pair, -a.value});
     }
   } // namespace
 
 
 
-  bool part_bodies(std::vector<PairChoice> &choices, const Discretization &d, const ContactSolution &solution,
-                   Journal &journal, const PartingRule &rule)
+  std::vector<PartedPairs> find_parted_bodies(const Discretization &d, const ContactSolution &solution,
+                                              const PartingRule &rule)
   {
     if (!solution.report.converged || !solution.drift.motions.empty())
-      return false;
+      return {};
     const MPI_Comm       comm = d.nodal().communicator();
     ListsByRank<Opening> sent;
     std::vector<double>  approaches(d.pairs.size(), 0.);
@@ -125,21 +152,42 @@ namespace Signorini
     for (const auto &[sender, list] : send_lists(sent, comm))
       for (const Opening &opening : list)
         met[opening.node].push_back(opening);
-    std::set<Couple> mine;
+    Depths mine, all;
     for (const auto &[node, openings] : met)
-      add_apart(mine, openings, d, approaches, rule);
-    std::set<Couple> apart;
-    for (const Couple &couple :
-         gather_lists(std::vector<Couple>(mine.begin(), mine.end()), comm, Receivers::all))
-      apart.insert(couple);
-    for (const auto &[p, q] : apart)
+      add_depths(mine, openings, d, approaches, rule);
+    for (const Depth &depth : gather_lists(mine.list(), comm, Receivers::all))
+      all.add(depth);
+    std::vector<PartedPairs> result;
+    for (unsigned int p = 0; p < d.pairs.size(); ++p)
+      for (unsigned int q = 0; q < d.pairs.size(); ++q)
+        if (const double depth = all.of(p, q), of_other = all.of(q, p);
+            depth > of_other || (depth > 0. && depth == of_other && p < q))
+          result.push_back({p, q});
+    return result;
+  }
+
+
+
+  std::string describe_parted(const PartedPairs &parted, const Discretization &d)
+  {
+    return "pairs " + d.pairs[parted.stays].name + " and " + d.pairs[parted.yields].name +
+           ": what they touch does not stay beside each other under \"" +
+           d.pairs[parted.stays].nonmortar.name + "\"";
+  }
+
+
+
+  bool part_bodies(std::vector<PairChoice> &choices, const Discretization &d, const ContactSolution &solution,
+                   Journal &journal, const PartingRule &rule)
+  {
+    const std::vector<PartedPairs> parted = find_parted_bodies(d, solution, rule);
+    for (const PartedPairs &pairs : parted)
       {
-        choices[p].apart_from.push_back(q);
-        journal.note("pairs " + d.pairs[p].name + " and " + d.pairs[q].name +
-                     ": what they touch does not stay beside each other under \"" +
-                     d.pairs[p].nonmortar.name + "\"; each node there is carried by one of them (" +
-                     std::to_string(solution.report.iterations) + " iterations before that was seen).");
+        choices[pairs.yields].yields_to.push_back(pairs.stays);
+        journal.note(describe_parted(pairs, d) + "; the nodes between them are those of " +
+                     d.pairs[pairs.stays].name + " (" + std::to_string(solution.report.iterations) +
+                     " iterations before that was seen).");
       }
-    return !apart.empty();
+    return !parted.empty();
   }
 } // namespace Signorini

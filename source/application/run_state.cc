@@ -111,7 +111,7 @@ namespace Signorini
   template <typename Archive>
   void transfer(Archive &a, PairChoice &s)
   {
-    a(s.is_second, s.is_turned, s.apart_from);
+    a(s.is_second, s.is_turned, s.yields_to);
   }
 
   template <typename Archive>

@@ -37,10 +37,10 @@ namespace Signorini
     /// None of them has it.
     NodeOfSeveralPairs() = default;
 
-    /// @param part whether the bodies of two pairs part
+    /// @param yields whether the body of a pair parts from that of another one, which gets the node then
     /// @param are_beside whether different bodies cover nothing one over the other around the node
     template <typename F>
-    NodeOfSeveralPairs(const std::vector<Touch> &touches, const SharedRowRule &rule, const F &part,
+    NodeOfSeveralPairs(const std::vector<Touch> &touches, const SharedRowRule &rule, const F &yields,
                        const bool are_beside)
     {
       const bool is_mortar =
@@ -72,16 +72,25 @@ namespace Signorini
         for (const auto &other : sums)
           if (!fit(one.second, other.second))
             return;
+      const auto yields_here = [&](const unsigned int body) {
+        for (const unsigned int pair : pairs[body])
+          for (const auto &other : sums)
+            if (yields(pair, other.first))
+              return true;
+        return false;
+      };
       // Of bodies that cover as much that of the first pair.
       unsigned int best = sums.begin()->second.mortar_body;
       for (const auto &[pair, touch] : sums)
-        if (areas[touch.mortar_body] > rule.greater * areas[best])
+        if (const bool is_better = !yields_here(touch.mortar_body), was_better = !yields_here(best);
+            is_better != was_better ? is_better : areas[touch.mortar_body] > rule.greater * areas[best])
           best = touch.mortar_body;
       owners = pairs[best];
       if (are_beside)
         for (const auto &one : sums)
-          if (std::none_of(owners.begin(), owners.end(),
-                           [&](const unsigned int owner) { return part(one.first, owner); }))
+          if (std::none_of(owners.begin(), owners.end(), [&](const unsigned int owner) {
+                return yields(one.first, owner) || yields(owner, one.first);
+              }))
             owners.insert(one.first);
     }
 

@@ -128,16 +128,15 @@ namespace Signorini
         meet(pairs);
         const DoublyCovered    doubly_covered = meet_faces(pairs);
         std::vector<NodeIndex> decided;
-        const auto             part = [&pairs](const unsigned int p, const unsigned int q) {
-          const auto &of_p = pairs[p].apart_from, &of_q = pairs[q].apart_from;
-          return std::count(of_p.begin(), of_p.end(), q) + std::count(of_q.begin(), of_q.end(), p) > 0;
+        const auto             yields = [&pairs](const unsigned int pair, const unsigned int to) {
+          return std::count(pairs[pair].yields_to.begin(), pairs[pair].yields_to.end(), to) > 0;
         };
         for (const auto &[node, some] : touches)
           {
-            nodes.emplace(
-                node, doubly_covered.by_one_body.count(node) > 0
-                          ? NodeOfSeveralPairs()
-                          : NodeOfSeveralPairs(some, rule, part, doubly_covered.by_several.count(node) == 0));
+            nodes.emplace(node, doubly_covered.by_one_body.count(node) > 0
+                                    ? NodeOfSeveralPairs()
+                                    : NodeOfSeveralPairs(some, rule, yields,
+                                                         doubly_covered.by_several.count(node) == 0));
             decided.push_back(node);
           }
         tell(decided);

@@ -99,9 +99,9 @@ namespace Signorini
     /// Whether that is not the automatic choice, because less of the contact is lost this way round, or the
     /// mapping has no errors.
     bool is_turned = false;
-    /// Pairs that have the same nonmortar nodes, but whose mortar body parts from that of this one
+    /// Pairs whose mortar bodies part from that of this one, and that get the nonmortar nodes where they meet
     /// (parting_bodies.h).
-    std::vector<unsigned int> apart_from;
+    std::vector<unsigned int> yields_to;
   };
 
   /// The discrete contact problem on one mesh. Constant.

@@ -7,6 +7,7 @@
 #include <signorini/application/contact_solve.h>
 #include <signorini/application/journal.h>
 
+#include <string>
 #include <vector>
 
 namespace Signorini
@@ -14,19 +15,33 @@ namespace Signorini
   /// When two bodies that meet under a node do not carry it together (doc/algorithm.md, several pairs).
   struct PartingRule
   {
-    /// How deep the node lies in one of them, relative to what contact does (PairResult::approach). Two
-    /// blocks under one whose moduli differ by up to ten do not come near it, one that is pulled back exceeds
-    /// it.
+    /// How deep the node lies in one of them, relative to what contact does (PairResult::approach). What a
+    /// thinly covering pair says of that is an extrapolation and counts for less. Two blocks under one whose
+    /// moduli differ by three (with prescribed displacements, or on coarse meshes) or by more than ten may
+    /// come near it; one that is pulled back is beyond it.
     double depth = .2;
     /// Pairs where contact does less than this part of what the largest does carry nothing but rounding.
     double idle = 1e-6;
   };
 
+  /// Two pairs whose mortar bodies do not stay beside each other.
+  struct PartedPairs
+  {
+    /// Numbers of the pair in whose body the nodes lie deeper, which they press on, and of the other one.
+    unsigned int stays, yields;
+  };
+
   /// Collective. Looks at the rows that pairs with different mortar bodies share: they hold the node at the
   /// mean of these bodies, which is in neither of them as long as both stay where they meet, but not where
-  /// they slide past each other. Adds to PairChoice::apart_from of the pairs for which it does not hold, with
-  /// a note. Returns whether there are any: the problem has to be coupled and solved again then. Not of a
-  /// solution that has not converged.
+  /// they slide past each other. Nothing of a solution that has not converged.
+  std::vector<PartedPairs> find_parted_bodies(const Discretization  &discretization,
+                                              const ContactSolution &solution, const PartingRule &rule = {});
+
+  /// For notes.
+  std::string describe_parted(const PartedPairs &parted, const Discretization &discretization);
+
+  /// Collective. Adds them to PairChoice::yields_to, with a note. Returns whether there are any: the problem
+  /// has to be coupled and solved again then.
   bool part_bodies(std::vector<PairChoice> &choices, const Discretization &discretization,
                    const ContactSolution &solution, Journal &journal, const PartingRule &rule = {});
 } // namespace Signorini

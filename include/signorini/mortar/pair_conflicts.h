@@ -37,8 +37,8 @@ namespace Signorini
     bool prescribed_gap, is_tied;
     /// Number of the body on each side; for an obstacle one that no body and no other obstacle has.
     unsigned int nonmortar_body, mortar_body;
-    /// Pairs whose mortar bodies part from that of this one where they meet under a node.
-    std::vector<unsigned int> apart_from;
+    /// Pairs whose mortar bodies part from that of this one, and that get the nodes under which they meet.
+    std::vector<unsigned int> yields_to;
   };
 
   /// Collective. couple() of several pairs, so that join_couplings() cannot fail. A node that is mortar in
@@ -46,7 +46,8 @@ namespace Signorini
   /// body is nonmortar and mortar in a cycle of pairs: then it is a row in none. So is one that is nonmortar
   /// in several if they do not look the same way there (SharedRowRule), are not all tied or all in contact,
   /// are tied to different bodies, or cover a face twice with one body. Else it belongs to the pairs with the
-  /// mortar body that covers most around it (the first of equal ones), and to those whose mortar bodies lie
+  /// mortar body that covers most around it (the first of equal ones; none that yields to another one there),
+  /// and to those whose mortar bodies lie
   /// beside that one and each other and do not part from them: they share the row. If one of them has it, all
   /// do, however thinly they cover it. The others cede the node; the weight of the row has what they cover.
   /// It is a row in none if that does not work out (hanging vertices beside ceded nodes).
