@@ -156,7 +156,8 @@ namespace Step2
     ContactModel    model(MPI_COMM_WORLD, make_problem());
     Journal         journal;
     SolveParameters parameters;
-    // What is kept from mesh to mesh: the levels below, the start, what has been decided about pairs.
+    // What is kept from mesh to mesh: the levels below, the start, what has been decided about pairs. (With
+    // several bodies beside each other on one, part_bodies() looks whether they stay so in a solution.)
     CoarserSpaces           coarser;
     NestedStart             start;
     std::vector<PairChoice> choices;

@@ -16,9 +16,8 @@ namespace Signorini
   struct PartingRule
   {
     /// How deep the node lies in one of them, relative to what contact does (PairResult::approach). What a
-    /// thinly covering pair says of that is an extrapolation and counts for less. Two blocks under one whose
-    /// moduli differ by three (with prescribed displacements, or on coarse meshes) or by more than ten may
-    /// come near it; one that is pulled back is beyond it.
+    /// thinly covering pair says of that is an extrapolation and counts for less. Two blocks on which one is
+    /// pressed, moduli from 1:100 to 50:1, do not part on three meshes; one that is pulled back does.
     double depth = .2;
     /// Pairs where contact does less than this part of what the largest does carry nothing but rounding.
     double idle = 1e-6;
