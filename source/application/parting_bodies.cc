@@ -9,6 +9,8 @@
 #include <signorini/application/nodal_sums.h>
 #include <signorini/application/parting_bodies.h>
 
+#include <deal.II/base/symmetric_tensor.h>
+
 #include <algorithm>
 #include <map>
 #include <utility>
@@ -20,48 +22,66 @@ namespace Signorini
   namespace
   {
     /// How far a node is from the mortar body of one pair after deformation (length), with the weight of that
-    /// pair in the row (area).
+    /// pair in the row (area), and the outward normal.
     struct Opening
     {
       NodeIndex    node;
       unsigned int pair;
       double       value, weight;
+      Vector3      normal;
     };
 
-    /// How deep a node lies in the body of one pair (length), out of which another one goes, or lies less
-    /// deep in.
-    struct Depth
+    /// What the nodes that two pairs share say of the shift between their bodies: by how much more a node is
+    /// open to the first one than to the second is n·shift, in the sense of least squares.
+    struct ShiftSums
     {
       unsigned int pair, other;
-      double       value;
-    };
+      /// How many of them lie too deep in one of the bodies.
+      double                  n_deep = 0.;
+      SymmetricTensor<2, dim> normals;
+      Vector3                 differences;
 
-    /// The deepest of each two pairs.
-    class Depths
-    {
-    public:
-      void add(const Depth &depth)
+      void add(const ShiftSums &sums)
       {
-        double &value = values[{depth.pair, depth.other}];
-        value         = std::max(value, depth.value);
+        n_deep += sums.n_deep;
+        normals += sums.normals;
+        differences += sums.differences;
       }
 
-      std::vector<Depth> list() const
+      /// The smallest one where normals leave directions open.
+      Vector3 shift() const
       {
-        std::vector<Depth> result;
-        for (const auto &[pairs, value] : values)
-          result.push_back({pairs.first, pairs.second, value});
+        constexpr double least = 1e-3;
+        const auto       axes  = eigenvectors(normals);
+        Vector3          result;
+        for (const auto &[value, axis] : axes)
+          if (value > least * axes[0].first)
+            result += (axis * differences) / value * axis;
+        return result;
+      }
+    };
+
+    /// Those of all couples of pairs.
+    class Shifts
+    {
+    public:
+      void add(const ShiftSums &sums)
+      {
+        const auto [entry, is_new] = couples.insert({{sums.pair, sums.other}, sums});
+        if (!is_new)
+          entry->second.add(sums);
+      }
+
+      std::vector<ShiftSums> list() const
+      {
+        std::vector<ShiftSums> result;
+        for (const auto &couple : couples)
+          result.push_back(couple.second);
         return result;
       }
 
-      double of(const unsigned int pair, const unsigned int other) const
-      {
-        const auto entry = values.find({pair, other});
-        return entry != values.end() ? entry->second : 0.;
-      }
-
     private:
-      std::map<std::pair<unsigned int, unsigned int>, double> values;
+      std::map<std::pair<unsigned int, unsigned int>, ShiftSums> couples;
     };
 
     bool have_one_mortar_body(const ContactPair &a, const ContactPair &b)
@@ -103,15 +123,16 @@ namespace Signorini
           Vector3 jump = value(coupling.rows[i]);
           for (const auto *entry = coupling.begin(i); entry != coupling.end(i); ++entry)
             jump -= entry->weight * value(entry->node);
-          result.push_back({coupling.rows[i], p, pair.gaps[i] - pair.normals[i] * jump, coupling.weight[i]});
+          result.push_back({coupling.rows[i], p, pair.gaps[i] - pair.normals[i] * jump, coupling.weight[i],
+                            pair.normals[i]});
         }
       return result;
     }
 
-    /// Those of one node whose openings differ by more than they may. What a pair says that covers a sliver
-    /// is an extrapolation over a whole face: each counts with twice its share, or once.
-    void add_depths(Depths &depths, std::vector<Opening> openings, const Discretization &d,
-                    const std::vector<double> &approaches, const PartingRule &rule)
+    /// What one node says. What a pair says that covers a sliver is an extrapolation over a whole face: each
+    /// counts with twice its share, or once.
+    void add_node(Shifts &shifts, const std::vector<Opening> &openings, const Discretization &d,
+                  const std::vector<double> &approaches, const PartingRule &rule)
     {
       double all = 0., approach = 0.;
       for (const Opening &one : openings)
@@ -121,13 +142,20 @@ namespace Signorini
         }
       if (approach <= rule.idle * *std::max_element(approaches.begin(), approaches.end()))
         return;
-      for (Opening &one : openings)
-        one.value *= std::min(1., 2. * one.weight / all);
+      const auto counts = [all](const Opening &one) { return std::min(1., 2. * one.weight / all); };
       for (const Opening &a : openings)
         for (const Opening &b : openings)
-          if (-a.value > rule.depth * approach && b.value - a.value > rule.depth * approach &&
-              !have_one_mortar_body(d.pairs[a.pair], d.pairs[b.pair]))
-            depths.add({a.pair, b.pair, -a.value});
+          if (a.pair < b.pair && !have_one_mortar_body(d.pairs[a.pair], d.pairs[b.pair]))
+            {
+              const double of_a = counts(a) * a.value, of_b = counts(b) * b.value,
+                           weight = counts(a) * counts(b);
+              ShiftSums sums{a.pair, b.pair, 0., weight * symmetrize(outer_product(a.normal, a.normal)),
+                             weight * (a.value - b.value) * a.normal};
+              if (-std::min(of_a, of_b) > rule.depth * approach &&
+                  std::abs(of_a - of_b) > rule.depth * approach)
+                sums.n_deep = 1.;
+              shifts.add(sums);
+            }
     }
   } // namespace
 
@@ -152,17 +180,15 @@ namespace Signorini
     for (const auto &[sender, list] : send_lists(sent, comm))
       for (const Opening &opening : list)
         met[opening.node].push_back(opening);
-    Depths mine, all;
+    Shifts mine, all;
     for (const auto &[node, openings] : met)
-      add_depths(mine, openings, d, approaches, rule);
-    for (const Depth &depth : gather_lists(mine.list(), comm, Receivers::all))
-      all.add(depth);
+      add_node(mine, openings, d, approaches, rule);
+    for (const ShiftSums &sums : gather_lists(mine.list(), comm, Receivers::all))
+      all.add(sums);
     std::vector<PartedPairs> result;
-    for (unsigned int p = 0; p < d.pairs.size(); ++p)
-      for (unsigned int q = 0; q < d.pairs.size(); ++q)
-        if (const double depth = all.of(p, q), of_other = all.of(q, p);
-            depth > of_other || (depth > 0. && depth == of_other && p < q))
-          result.push_back({p, q});
+    for (const ShiftSums &sums : all.list())
+      if (const Vector3 shift = sums.shift(); sums.n_deep > 0. && shift.norm() > 0.)
+        result.push_back({sums.pair, {sums.other, shift}});
     return result;
   }
 
@@ -170,9 +196,9 @@ namespace Signorini
 
   std::string describe_parted(const PartedPairs &parted, const Discretization &d)
   {
-    return "pairs " + d.pairs[parted.stays].name + " and " + d.pairs[parted.yields].name +
+    return "pairs " + d.pairs[parted.pair].name + " and " + d.pairs[parted.from.other].name +
            ": what they touch does not stay beside each other under \"" +
-           d.pairs[parted.stays].nonmortar.name + "\"";
+           d.pairs[parted.pair].nonmortar.name + "\"";
   }
 
 
@@ -183,10 +209,9 @@ namespace Signorini
     const std::vector<PartedPairs> parted = find_parted_bodies(d, solution, rule);
     for (const PartedPairs &pairs : parted)
       {
-        choices[pairs.yields].yields_to.push_back(pairs.stays);
-        journal.note(describe_parted(pairs, d) + "; the nodes between them are those of " +
-                     d.pairs[pairs.stays].name + " (" + std::to_string(solution.report.iterations) +
-                     " iterations before that was seen).");
+        choices[pairs.pair].partings.push_back(pairs.from);
+        journal.note(describe_parted(pairs, d) + "; each node between them is carried by one of them (" +
+                     std::to_string(solution.report.iterations) + " iterations before that was seen).");
       }
     return !parted.empty();
   }

@@ -109,9 +109,15 @@ namespace Signorini
   }
 
   template <typename Archive>
+  void transfer(Archive &a, PartingPair &p)
+  {
+    a(p.other, p.shift);
+  }
+
+  template <typename Archive>
   void transfer(Archive &a, PairChoice &s)
   {
-    a(s.is_second, s.is_turned, s.yields_to);
+    a(s.is_second, s.is_turned, s.partings);
   }
 
   template <typename Archive>

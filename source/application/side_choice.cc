@@ -40,7 +40,7 @@ namespace Signorini
                              pair.is_tied,
                              pair.nonmortar.body,
                              pair.obstacle ? obstacle-- : pair.mortar.body,
-                             before.empty() ? std::vector<unsigned int>() : before[p].yields_to});
+                             before.empty() ? std::vector<PartingPair>() : before[p].partings});
         }
       return couple_pairs(several, comm);
     }
@@ -164,7 +164,7 @@ namespace Signorini
     std::vector<PairChoice> result;
     for (unsigned int p = 0; p < pairs.size(); ++p)
       result.push_back({prefers_second[p] != turned[p], turned[p],
-                        is_first ? std::vector<unsigned int>() : before[p].yields_to});
+                        is_first ? std::vector<PartingPair>() : before[p].partings});
     return result;
   }
 

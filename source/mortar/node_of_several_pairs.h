@@ -30,6 +30,48 @@ namespace Signorini
 
 
 
+  /// Which pairs have mortar bodies that part.
+  class Partings
+  {
+  public:
+    /// Both must outlive the object.
+    Partings(const std::vector<PairToCouple> &pairs, const SharedRowRule &rule)
+      : pairs(pairs)
+      , rule(rule)
+    {
+    }
+
+    bool part(const unsigned int pair, const unsigned int other) const
+    {
+      return shift(pair, other).norm() > 0.;
+    }
+
+    /// Whether a node with an outward normal (of any length) is more open to the body of a pair than to that
+    /// of another one, from which it parts.
+    bool yields(const unsigned int pair, const unsigned int other, const Vector3 &normal) const
+    {
+      const Vector3 by = shift(pair, other);
+      return normal * by > rule.along * normal.norm() * by.norm();
+    }
+
+  private:
+    Vector3 shift(const unsigned int pair, const unsigned int other) const
+    {
+      for (const PartingPair &one : pairs[pair].partings)
+        if (one.other == other)
+          return one.shift;
+      for (const PartingPair &one : pairs[other].partings)
+        if (one.other == pair)
+          return -one.shift;
+      return {};
+    }
+
+    const std::vector<PairToCouple> &pairs;
+    const SharedRowRule             &rule;
+  };
+
+
+
   /// What the pairs make of one node that they touch: which of them have it as a row, if any.
   class NodeOfSeveralPairs
   {
@@ -37,10 +79,8 @@ namespace Signorini
     /// None of them has it.
     NodeOfSeveralPairs() = default;
 
-    /// @param yields whether the body of a pair parts from that of another one, which gets the node then
     /// @param are_beside whether different bodies cover nothing one over the other around the node
-    template <typename F>
-    NodeOfSeveralPairs(const std::vector<Touch> &touches, const SharedRowRule &rule, const F &yields,
+    NodeOfSeveralPairs(const std::vector<Touch> &touches, const SharedRowRule &rule, const Partings &partings,
                        const bool are_beside)
     {
       const bool is_mortar =
@@ -72,10 +112,13 @@ namespace Signorini
         for (const auto &other : sums)
           if (!fit(one.second, other.second))
             return;
+      Vector3 normal;
+      for (const auto &one : sums)
+        normal += one.second.normal;
       const auto yields_here = [&](const unsigned int body) {
         for (const unsigned int pair : pairs[body])
           for (const auto &other : sums)
-            if (yields(pair, other.first))
+            if (partings.yields(pair, other.first, normal))
               return true;
         return false;
       };
@@ -88,9 +131,8 @@ namespace Signorini
       owners = pairs[best];
       if (are_beside)
         for (const auto &one : sums)
-          if (std::none_of(owners.begin(), owners.end(), [&](const unsigned int owner) {
-                return yields(one.first, owner) || yields(owner, one.first);
-              }))
+          if (std::none_of(owners.begin(), owners.end(),
+                           [&](const unsigned int owner) { return partings.part(one.first, owner); }))
             owners.insert(one.first);
     }
 

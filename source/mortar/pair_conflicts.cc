@@ -128,14 +128,12 @@ namespace Signorini
         meet(pairs);
         const DoublyCovered    doubly_covered = meet_faces(pairs);
         std::vector<NodeIndex> decided;
-        const auto             yields = [&pairs](const unsigned int pair, const unsigned int to) {
-          return std::count(pairs[pair].yields_to.begin(), pairs[pair].yields_to.end(), to) > 0;
-        };
+        const Partings         partings(pairs, rule);
         for (const auto &[node, some] : touches)
           {
             nodes.emplace(node, doubly_covered.by_one_body.count(node) > 0
                                     ? NodeOfSeveralPairs()
-                                    : NodeOfSeveralPairs(some, rule, yields,
+                                    : NodeOfSeveralPairs(some, rule, partings,
                                                          doubly_covered.by_several.count(node) == 0));
             decided.push_back(node);
           }

@@ -9,6 +9,7 @@
 #include <signorini/application/constrained_space.h>
 #include <signorini/discretization/basis_transformation.h>
 #include <signorini/mesh/contact_surface.h>
+#include <signorini/mortar/pair_conflicts.h>
 #include <signorini/mortar/pair_coupling.h>
 #include <signorini/surface/contact_mapping.h>
 
@@ -99,9 +100,8 @@ namespace Signorini
     /// Whether that is not the automatic choice, because less of the contact is lost this way round, or the
     /// mapping has no errors.
     bool is_turned = false;
-    /// Pairs whose mortar bodies part from that of this one, and that get the nonmortar nodes where they meet
-    /// (parting_bodies.h).
-    std::vector<unsigned int> yields_to;
+    /// Pairs whose mortar bodies part from that of this one; each two are in one of them (parting_bodies.h).
+    std::vector<PartingPair> partings;
   };
 
   /// The discrete contact problem on one mesh. Constant.

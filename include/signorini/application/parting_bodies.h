@@ -26,8 +26,9 @@ namespace Signorini
   /// Two pairs whose mortar bodies do not stay beside each other.
   struct PartedPairs
   {
-    /// Numbers of the pair in whose body the nodes lie deeper, which they press on, and of the other one.
-    unsigned int stays, yields;
+    /// The number of the first one; the second one, with the shift between them.
+    unsigned int pair;
+    PartingPair  from;
   };
 
   /// Collective. Looks at the rows that pairs with different mortar bodies share: they hold the node at the
@@ -39,7 +40,7 @@ namespace Signorini
   /// For notes.
   std::string describe_parted(const PartedPairs &parted, const Discretization &discretization);
 
-  /// Collective. Adds them to PairChoice::yields_to, with a note. Returns whether there are any: the problem
+  /// Collective. Adds them to PairChoice::partings, with a note. Returns whether there are any: the problem
   /// has to be coupled and solved again then.
   bool part_bodies(std::vector<PairChoice> &choices, const Discretization &discretization,
                    const ContactSolution &solution, Journal &journal, const PartingRule &rule = {});

@@ -25,6 +25,19 @@ namespace Signorini
     /// Parts of a face that several bodies cover add up to this at most where they lie beside each other: the
     /// borders of curved ones overlap a little.
     double beside = 1.1;
+    /// Where bodies that part move along the surface, up to this sine, a node is as open to one as to the
+    /// other.
+    double along = .05;
+  };
+
+  /// Another pair with the same nonmortar nodes, whose mortar body does not stay beside that of this one.
+  struct PartingPair
+  {
+    /// Its number.
+    unsigned int other;
+    /// A node with the outward normal n is open to the body of this pair by n·shift more than to that of the
+    /// other one (length).
+    Vector3 shift;
   };
 
   /// One pair among several.
@@ -37,8 +50,8 @@ namespace Signorini
     bool prescribed_gap, is_tied;
     /// Number of the body on each side; for an obstacle one that no body and no other obstacle has.
     unsigned int nonmortar_body, mortar_body;
-    /// Pairs whose mortar bodies part from that of this one, and that get the nodes under which they meet.
-    std::vector<unsigned int> yields_to;
+    /// Those whose mortar bodies part from that of this one; each two in one of them.
+    std::vector<PartingPair> partings;
   };
 
   /// Collective. couple() of several pairs, so that join_couplings() cannot fail. A node that is mortar in
@@ -46,11 +59,11 @@ namespace Signorini
   /// body is nonmortar and mortar in a cycle of pairs: then it is a row in none. So is one that is nonmortar
   /// in several if they do not look the same way there (SharedRowRule), are not all tied or all in contact,
   /// are tied to different bodies, or cover a face twice with one body. Else it belongs to the pairs with the
-  /// mortar body that covers most around it (the first of equal ones; none that yields to another one there),
-  /// and to those whose mortar bodies lie
-  /// beside that one and each other and do not part from them: they share the row. If one of them has it, all
-  /// do, however thinly they cover it. The others cede the node; the weight of the row has what they cover.
-  /// It is a row in none if that does not work out (hanging vertices beside ceded nodes).
+  /// mortar body that covers most around it (the first of equal ones; of bodies that part that to which it is
+  /// less open), and to those whose mortar bodies lie beside that one and each other and do not part from
+  /// them: they share the row. If one of them has it, all do, however thinly they cover it. The others cede
+  /// the node; the weight of the row has what they cover. It is a row in none if that does not work out
+  /// (hanging vertices beside ceded nodes).
   std::vector<PairCoupling> couple_pairs(const std::vector<PairToCouple> &pairs, const MPI_Comm communicator,
                                          const DroppingRule  &rule        = {},
                                          const SharedRowRule &shared_rule = {});

@@ -11,8 +11,6 @@
 
 #include <gtest/gtest.h>
 
-#include <numeric>
-
 namespace
 {
   using namespace FlatSurfaces;
@@ -47,8 +45,8 @@ namespace
     for (const Pair &pair : pairs)
       halos.emplace_back(pair.non, MPI_COMM_SELF);
     std::vector<PairToCouple> several;
-    std::vector<unsigned int> all_pairs(part ? pairs.size() : 0);
-    std::iota(all_pairs.begin(), all_pairs.end(), 0);
+    // Along x: nodes are as open to the one as to the other.
+    const std::vector<PartingPair> second(part ? 1 : 0, PartingPair{1, Vector3({1., 0., 0.})});
     for (std::size_t p = 0; p < pairs.size(); ++p)
       several.push_back({{pairs[p].non, pairs[p].mor, halos[p]},
                          pairs[p].moments,
@@ -56,7 +54,7 @@ namespace
                          p < is_tied.size() && is_tied[p],
                          body_of(pairs[p].non),
                          has_one_body ? 1 : body_of(pairs[p].mor),
-                         all_pairs});
+                         p == 0 ? second : std::vector<PartingPair>()});
     return couple_pairs(several, MPI_COMM_SELF, rule, shared_rule);
   }
 
