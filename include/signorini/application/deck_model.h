@@ -75,6 +75,7 @@ namespace Signorini
   /// Loads on a surface or on elements.
   struct DeckSurfaceLoad
   {
+    /// On which one.
     const DeckSurface *surface = nullptr;
     /// P or TRVEC: with the surface what a later step replaces.
     std::string kind;
@@ -163,6 +164,7 @@ namespace Signorini
   struct DeckPretension
   {
     /// Sides of elements inside of the bolt.
+    /// On which one.
     const DeckSurface *surface = nullptr;
     unsigned int       node    = Deck::none;
     /// Zero for the normal of the surface.
