@@ -164,7 +164,6 @@ namespace Signorini
   struct DeckPretension
   {
     /// Sides of elements inside of the bolt.
-    /// On which one.
     const DeckSurface *surface = nullptr;
     unsigned int       node    = Deck::none;
     /// Zero for the normal of the surface.
