@@ -131,8 +131,11 @@ namespace Signorini
       owners = pairs[best];
       if (are_beside)
         for (const auto &one : sums)
-          if (std::none_of(owners.begin(), owners.end(),
-                           [&](const unsigned int owner) { return partings.part(one.first, owner); }))
+          if (std::none_of(owners.begin(), owners.end(), [&](const unsigned int owner) {
+                const Vector3 &a = one.second.normal, &b = sums.at(owner).normal;
+                return partings.part(one.first, owner) ||
+                       (one.second.mortar_body != best && a * b < rule.flat_cosine * a.norm() * b.norm());
+              }))
             owners.insert(one.first);
     }
 

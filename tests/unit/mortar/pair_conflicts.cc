@@ -261,6 +261,8 @@ TEST(PairConflicts, NodesOnEdgesLoseTheirMultiplier)
   for (Point<3> &x : pairs[1].non.mesh.vertices)
     x[2] += .5 * std::max(x[0] - 1., 0.);
   EXPECT_EQ(n_shared(couple_together(pairs)), 4u);
+  // But no seam that two bodies share.
+  EXPECT_EQ(n_shared(couple_together(pairs, {}, {}, {}, false)), 0u);
   EXPECT_EQ(join_couplings(couple_together(pairs, {}, SharedRowRule{.95}), {}, all_nodes()).coupling.n_rows(),
             24u);
 }
