@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Signorini authors
 
+#include <signorini/algebra/dense_matrix.h>
 #include <signorini/algebra/gathered_lists.h>
 #include <signorini/algebra/interface_rows.h>
 #include <signorini/algebra/node_request.h>
@@ -52,11 +53,19 @@ namespace Signorini
       Vector3 shift() const
       {
         constexpr double least = 1e-3;
-        const auto       axes  = eigenvectors(normals);
-        Vector3          result;
-        for (const auto &[value, axis] : axes)
-          if (value > least * axes[0].first)
-            result += (axis * differences) / value * axis;
+        Eigen::Matrix3d  matrix;
+        for (unsigned int i = 0; i < dim; ++i)
+          for (unsigned int j = 0; j < dim; ++j)
+            matrix(i, j) = normals[i][j];
+        const SymmetricEigen eigen = symmetric_eigen(matrix);
+        Vector3              result;
+        for (unsigned int k = 0; k < dim; ++k)
+          if (eigen.values[k] > least * eigen.values[dim - 1])
+            {
+              const Eigen::Vector3d axis = eigen.vectors.col(k);
+              const Vector3         direction({axis[0], axis[1], axis[2]});
+              result += (direction * differences) / eigen.values[k] * direction;
+            }
         return result;
       }
     };
