@@ -180,7 +180,8 @@ namespace Signorini
   Point<3> SmoothShape::project(const Point<3> &p) const
   {
     const SurfaceFeet::Foot foot = feet.find(p);
-    return is_curved(foot.triangle) ? foot.point + surface->offset(foot.triangle, foot.weights) : foot.point;
+    return foot.point + (everywhere ? surface->offset(foot.triangle, foot.weights)
+                                    : surface->believed_offset(foot.triangle, foot.weights));
   }
 
 

@@ -21,20 +21,27 @@ namespace Signorini
   namespace
   {
     Tensor<1, 3> offset_of(const SmoothSurface::Patch &p, const SurfaceMesh &surface,
-                           const unsigned int triangle, const std::array<double, 3> &weights)
+                           const unsigned int triangle, const std::array<double, 3> &weights,
+                           const std::array<bool, 3> &is_straight = {{false, false, false}})
     {
       if (p.is_flat)
         return Tensor<1, 3>();
       const auto  &corners = surface.triangles[triangle];
-      Tensor<1, 3> x, normal;
+      Tensor<1, 3> normal;
       for (unsigned int a = 0; a < 3; ++a)
-        {
-          x += weights[a] * surface.vertices[corners[a]];
-          normal += weights[a] * p.normals[a];
-        }
-      double height = 0.;
+        normal += weights[a] * p.normals[a];
+      double height = is_straight[0] || is_straight[1] || is_straight[2]
+                          ? 0.
+                          : p.bubble * weights[0] * weights[1] * weights[2];
       for (unsigned int a = 0; a < 3; ++a)
-        height += .5 * weights[a] * ((surface.vertices[corners[a]] - x) * p.normals[a]);
+        for (unsigned int i = 1; i < 3; ++i)
+          {
+            const unsigned int b = (a + i) % 3;
+            if (is_straight[i == 1 ? a : b])
+              continue;
+            height += .5 * weights[a] * weights[b] * (1. + weights[a] - weights[b]) *
+                      ((surface.vertices[corners[a]] - surface.vertices[corners[b]]) * p.normals[a]);
+          }
       const double length = normal.norm();
       return length > 0. ? 2. * height / (length * (1. + length)) * normal : Tensor<1, 3>();
     }
@@ -94,6 +101,7 @@ namespace Signorini
                   }
               finish(patches[t], t, fit, fits.arc_of(t));
             }
+        find_ends(patches, wanted);
       }
 
     private:
@@ -195,13 +203,27 @@ namespace Signorini
           turn_frame(quadric, nearest);
       }
 
+      void find_ends(std::vector<SmoothSurface::Patch> &patches, const std::vector<bool> &wanted) const
+      {
+        for (unsigned int e = 0; e < topology.edges.size(); ++e)
+          if (!is_cut[e])
+            for (unsigned int side = 0; side < 2; ++side)
+              {
+                const unsigned int t     = topology.edge_triangles[e][side],
+                                   other = topology.edge_triangles[e][1 - side];
+                if (wanted[t] && wanted[other] && patches[t].is_smooth && !patches[other].is_smooth)
+                  patches[t].ends_at_edge[topology.local_edge(t, e)] = true;
+              }
+      }
+
       /// @param arc what is known to be the true surface
       void finish(SmoothSurface::Patch &patch, const unsigned int t, const TriangleFit &fit,
                   const std::optional<PlacedArc> &arc) const
       {
         for (unsigned int i = 0; i < 3; ++i)
           patch.normals[i] = fit.corners[i].normal;
-        double curvature = 0., longest = 0., typical = 0., residual = 0.;
+        patch.bubble     = bubble_of(t, fit);
+        double curvature = 0., longest = 0., typical = 0., residual = 0., disagreement = 0.;
         for (unsigned int i = 0; i < 3; ++i)
           {
             // Heights of the middle of an edge: from the normals at its ends and from either curvature.
@@ -211,8 +233,11 @@ namespace Signorini
             const double by_normals = edge * (b.normal - a.normal) / 8., by_a = -a.along(edge) / 8.,
                          by_b = -b.along(edge) / 8.;
             patch.height      = std::max(patch.height, std::abs(by_normals));
-            patch.doubt =
-                std::max({patch.doubt, std::abs(by_a - by_b), std::abs(by_normals - .5 * (by_a + by_b))});
+            disagreement =
+                std::max({disagreement, std::abs(by_a - by_b), std::abs(by_normals - .5 * (by_a + by_b))});
+            const double rise_a = -(edge * a.normal), rise_b = edge * b.normal;
+            patch.doubt = std::max({patch.doubt, std::abs(by_a - .5 * rise_a + .25 * rise_b),
+                                    std::abs(by_b - .5 * rise_b + .25 * rise_a)});
             // An edge along which the surface is straight has no height, however long it is.
             typical   = std::max({typical, a.magnitude_along(edge) / 8., b.magnitude_along(edge) / 8.});
             curvature = std::max(curvature, std::abs(a.largest_curvature()));
@@ -221,12 +246,30 @@ namespace Signorini
           }
         // Curvatures at both ends of an edge differ on cones and tori.
         if (arc)
-          patch.doubt = distance_from(*arc, patch, t);
+          patch.doubt = disagreement = distance_from(*arc, patch, t);
         patch.is_smooth = fit.is_complete && residual <= rule.largest_residual &&
-                          patch.doubt <= rule.largest_disagreement * curvature * longest * longest / 8.;
+                          std::max(disagreement, patch.doubt) <=
+                              rule.largest_disagreement * curvature * longest * longest / 8.;
         patch.doubt = std::max(patch.doubt, residual * typical);
         if (!fit.is_complete)
           patch.doubt = std::max(patch.doubt, patch.height);
+      }
+
+      /// What the curvatures at the corners say of the middle, beside the normals there: a function of third
+      /// degree that vanishes on the edges has none of these.
+      double bubble_of(const unsigned int t, const TriangleFit &fit) const
+      {
+        double result = 0.;
+        for (unsigned int i = 0; i < 3; ++i)
+          {
+            const unsigned int j = (i + 1) % 3, k = (i + 2) % 3;
+            const auto        &v    = mesh.triangles[t];
+            const Tensor<1, 3> next = mesh.vertices[v[j]] - mesh.vertices[v[i]],
+                               last = mesh.vertices[v[k]] - mesh.vertices[v[i]];
+            result += fit.corners[i].form(next, last) +
+                      .5 * (next * (fit.corners[j].normal - fit.corners[i].normal));
+          }
+        return result / 3.;
       }
 
       /// Of a patch, at its middle and those of its edges.
@@ -269,5 +312,14 @@ namespace Signorini
   Tensor<1, 3> SmoothSurface::offset(const unsigned int triangle, const std::array<double, 3> &weights) const
   {
     return offset_of(patches[triangle], surface, triangle, weights);
+  }
+
+
+
+  Tensor<1, 3> SmoothSurface::believed_offset(const unsigned int           triangle,
+                                              const std::array<double, 3> &weights) const
+  {
+    const Patch &p = patches[triangle];
+    return p.is_smooth ? offset_of(p, surface, triangle, weights, p.ends_at_edge) : Tensor<1, 3>();
   }
 } // namespace Signorini

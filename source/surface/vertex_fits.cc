@@ -292,7 +292,37 @@ namespace Signorini
 
 
 
-  void VertexFits::fit_exactly(Quadric &quadric, const unsigned int piece_vertex)
+  void VertexFits::fit_end_of_curve(Quadric &quadric, const unsigned int piece_vertex,
+                                    const Tensor<1, 3> &straight, const unsigned int n_rings)
+  {
+    if (pieces.vertices[piece_vertex].is_closed)
+      return;
+    for (unsigned int rings = n_rings; rings <= rule.rings_at_ends; ++rings)
+      {
+        const std::vector<Tensor<1, 3>> points = ways(piece_vertex, neighbours(piece_vertex, rings));
+        if (places_across(points, straight).size() < rule.places_at_ends)
+          continue;
+        if (Quadric farther = quadric;
+            rings > n_rings && fit_extruded(farther, points, straight) && farther.residual <= rule.goes_on)
+          quadric = farther;
+        return;
+      }
+  }
+
+
+
+  void VertexFits::fit_changing_curvature(Quadric &quadric, const unsigned int piece_vertex)
+  {
+    const unsigned int n_rings = pieces.vertices[piece_vertex].is_closed ? 2 : 3;
+    if (Quadric cubic = quadric; fit_cubic(cubic, ways(piece_vertex, neighbours(piece_vertex, n_rings))) &&
+                                 cubic.n_checks > rule.least_checks &&
+                                 cubic.left_over <= rule.cubic_leaves * quadric.left_over)
+      quadric = cubic;
+  }
+
+
+
+  bool VertexFits::fit_exactly(Quadric &quadric, const unsigned int piece_vertex)
   {
     const bool is_closed = pieces.vertices[piece_vertex].is_closed;
     if (is_closed)
@@ -300,7 +330,7 @@ namespace Signorini
                                     sphere.residual <= rule.exact && sphere.n_checks >= rule.least_checks)
         {
           quadric = sphere;
-          return;
+          return true;
         }
     const auto take_arc = [&](const std::vector<Tensor<1, 3>> &points) {
       Quadric     start = quadric;
@@ -312,8 +342,10 @@ namespace Signorini
       arcs[piece_vertex] = arc;
       return true;
     };
-    if (take_arc(ways(piece_vertex, neighbours(piece_vertex, is_closed ? 2 : 3))) || !is_closed)
-      return;
+    if (take_arc(ways(piece_vertex, neighbours(piece_vertex, is_closed ? 2 : 3))))
+      return true;
+    if (!is_closed)
+      return false;
     // Two rings reach beyond a fillet of few faces, those of two neighbours on it may not.
     const std::vector<unsigned int> ring = neighbours(piece_vertex, 1);
     for (const unsigned int other : ring)
@@ -324,8 +356,9 @@ namespace Signorini
           std::sort(both.begin(), both.end());
           both.erase(std::unique(both.begin(), both.end()), both.end());
           if (take_arc(ways(piece_vertex, both)))
-            return;
+            return true;
         }
+    return false;
   }
 
 
@@ -355,8 +388,10 @@ namespace Signorini
         if (straight.norm() > 0. ? !fit_extruded(found, points, straight) : !fit(found, points))
           continue;
         quadric = found;
-        if (straight.norm() == 0. && quadric.residual > rule.exact)
-          fit_exactly(quadric, piece_vertex);
+        if (straight.norm() > 0.)
+          fit_end_of_curve(quadric, piece_vertex, straight, n_rings);
+        else if (quadric.residual > rule.exact && !fit_exactly(quadric, piece_vertex))
+          fit_changing_curvature(quadric, piece_vertex);
         return true;
       }
     return false;

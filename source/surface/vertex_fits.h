@@ -60,8 +60,14 @@ namespace Signorini
     bool           is_fitted(const unsigned int piece_vertex);
     bool           fit_vertex(Quadric &quadric, const unsigned int piece_vertex);
     /// Takes a sphere, a cone or a torus in place of a fit that leaves something over, if it leaves nothing
-    /// over.
-    void fit_exactly(Quadric &quadric, const unsigned int piece_vertex);
+    /// over. Returns whether it did.
+    bool fit_exactly(Quadric &quadric, const unsigned int piece_vertex);
+    /// Takes a fit with terms of third degree in its place, if that leaves much less over.
+    void fit_changing_curvature(Quadric &quadric, const unsigned int piece_vertex);
+    /// At the end of a curve, which neighbours lie on one side of, takes a fit to more of them than those of
+    /// some rings, if the curve goes on smoothly.
+    void fit_end_of_curve(Quadric &quadric, const unsigned int piece_vertex,
+                          const dealii::Tensor<1, 3> &straight, const unsigned int n_rings);
     /// Without itself.
     std::vector<unsigned int> neighbours(const unsigned int piece_vertex, const unsigned int n_rings) const;
     /// The vectors to others.

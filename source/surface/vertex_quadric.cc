@@ -157,9 +157,58 @@ namespace Signorini
 
 
 
-  bool fit_extruded(Quadric &q, const std::vector<Tensor<1, 3>> &neighbours, const Tensor<1, 3> &axis)
+  bool fit_cubic(Quadric &q, const std::vector<Tensor<1, 3>> &neighbours)
   {
-    constexpr unsigned int n_steps = 20;
+    constexpr unsigned int n_steps    = 20;
+    constexpr Eigen::Index n_unknowns = 9;
+    const auto             n          = static_cast<Eigen::Index>(neighbours.size());
+    if (n <= n_unknowns)
+      return false;
+    double size = 0.;
+    for (const auto &x : neighbours)
+      size = std::max(size, x.norm());
+    Eigen::MatrixXd a(n, n_unknowns);
+    Eigen::VectorXd b(n);
+    double          last = std::numeric_limits<double>::max();
+    for (unsigned int step = 0; step < n_steps; ++step)
+      {
+        const double curvature = size * q.largest_curvature();
+        for (Eigen::Index i = 0; i < n; ++i)
+          {
+            const Tensor<1, 3> x = neighbours[i] / size;
+            const double       s = x * q.u, t = x * q.v, z = x * q.normal, weight = 1. / x.norm_square();
+            a.row(i) << s, t, .5 * s * s, s * t, .5 * t * t, s * s * s, s * s * t, s * t * t, t * t * t;
+            a.row(i) *= weight;
+            b[i] = weight * (z - .5 * curvature * z * z);
+          }
+        Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(a);
+        qr.setThreshold(1e-3);
+        if (qr.rank() < n_unknowns)
+          return false;
+        const Eigen::VectorXd x = qr.solve(b);
+        const double turn = std::hypot(x[0], x[1]), heights = (b - a.leftCols<2>() * x.head<2>()).norm();
+        const double change =
+            turn + std::abs(x[2] - size * q.c) + std::abs(x[3] - size * q.d) + std::abs(x[4] - size * q.e);
+        q.c         = x[2] / size;
+        q.d         = x[3] / size;
+        q.e         = x[4] / size;
+        q.left_over = (b - a * x).norm();
+        q.residual  = heights > 0. ? q.left_over / heights : 0.;
+        turn_frame(q, q.normal - x[0] * q.u - x[1] * q.v);
+        if (change < 1e-13 || (step > 2 && change > .7 * last))
+          break;
+        last = change;
+      }
+    q.n_checks = static_cast<unsigned int>(n - n_unknowns);
+    q.left_over *= 2. / (size * std::sqrt(std::max(1., static_cast<double>(q.n_checks))));
+    return true;
+  }
+
+
+
+  std::vector<Tensor<1, 3>> places_across(const std::vector<Tensor<1, 3>> &neighbours,
+                                          const Tensor<1, 3>              &axis)
+  {
     // What lies beside each other along the axis is the same point of the curve, but for digits that files
     // leave out: those of cells a thousand times longer than wide.
     constexpr double          same = 1e-3;
@@ -173,6 +222,18 @@ namespace Signorini
           std::none_of(points.begin(), points.end(),
                        [&](const Tensor<1, 3> &other) { return (other - across).norm() <= same * size; }))
         points.push_back(across);
+    return points;
+  }
+
+
+
+  bool fit_extruded(Quadric &q, const std::vector<Tensor<1, 3>> &neighbours, const Tensor<1, 3> &axis)
+  {
+    constexpr unsigned int          n_steps = 20;
+    const std::vector<Tensor<1, 3>> points  = places_across(neighbours, axis);
+    double                          size    = 0.;
+    for (const Tensor<1, 3> &x : points)
+      size = std::max(size, x.norm());
     const auto         n      = static_cast<Eigen::Index>(points.size());
     const Tensor<1, 3> normal = q.normal - (q.normal * axis) * axis;
     if (n < 2 || !(normal.norm() > 0.))
@@ -181,7 +242,8 @@ namespace Signorini
     q.v      = axis;
     q.d = q.e = 0.;
     // Slope, curvature, and by how much that changes, which slopes of a symmetric curve would be taken for.
-    const Eigen::Index n_unknowns = n > 3 ? 3 : 2;
+    // Where there are more places than the four of cells in rows these lie anywhere.
+    const Eigen::Index n_unknowns = n > 7 ? 5 : n > 5 ? 4 : n > 3 ? 3 : 2;
     Eigen::MatrixXd    a(n, n_unknowns);
     Eigen::VectorXd    b(n);
     double             last = std::numeric_limits<double>::max();
@@ -194,8 +256,8 @@ namespace Signorini
             const double       weight = 1. / x.norm_square();
             a(i, 0)                   = weight * (x * q.u);
             a(i, 1)                   = .5;
-            if (n_unknowns > 2)
-              a(i, 2) = x * q.u;
+            for (Eigen::Index k = 2; k < n_unknowns; ++k)
+              a(i, k) = std::pow(x * q.u, k - 1);
             b[i] = weight * (x * q.normal);
           }
         const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(a);

@@ -32,11 +32,18 @@ namespace Signorini
       return mean < 0. ? mean - difference : mean + difference;
     }
 
+    /// The bilinear form of two vectors from the vertex.
+    double form(const dealii::Tensor<1, 3> &x, const dealii::Tensor<1, 3> &y) const
+    {
+      const double s = x * u, t = x * v;
+      return s * (c * (y * u) + d * (y * v)) + t * (d * (y * u) + e * (y * v)) +
+             largest_curvature() * (x * normal) * (y * normal);
+    }
+
     /// The quadratic form of a vector from the vertex.
     double along(const dealii::Tensor<1, 3> &x) const
     {
-      const double s = x * u, t = x * v, z = x * normal;
-      return c * s * s + 2. * d * s * t + e * t * t + largest_curvature() * z * z;
+      return form(x, x);
     }
 
     /// The quadratic form with the magnitudes of the principal curvatures.
@@ -69,8 +76,16 @@ namespace Signorini
   /// turns the frame to the normal found until it rests. Returns false if they do not determine one.
   bool fit(Quadric &q, const std::vector<dealii::Tensor<1, 3>> &neighbours);
 
+  /// The same with terms of third degree beside, from the quadratic surface that has been fitted: what the
+  /// curvature changes by is not taken for a slope.
+  bool fit_cubic(Quadric &q, const std::vector<dealii::Tensor<1, 3>> &neighbours);
+
+  /// Vectors without their parts along an axis, each place once and that of the vertex not.
+  std::vector<dealii::Tensor<1, 3>> places_across(const std::vector<dealii::Tensor<1, 3>> &neighbours,
+                                                  const dealii::Tensor<1, 3>              &axis);
+
   /// The same for points of a surface that is straight along an axis: no curvature along it, and a normal
-  /// across it, whatever the points leave open.
+  /// across it, whatever the points leave open. Up to fifth degree across, as far as there are places.
   bool fit_extruded(Quadric &q, const std::vector<dealii::Tensor<1, 3>> &neighbours,
                     const dealii::Tensor<1, 3> &axis);
 

@@ -15,8 +15,8 @@ namespace Signorini
   {
     /// What the quadratic surfaces at the corners of a triangle may leave over, relative to the heights of
     /// the neighbours (root mean squares), for the triangle to count as a piece of a smooth surface; and the
-    /// disagreement of the estimates of a height, relative to the height that the largest curvature there
-    /// gives. Both are nothing on spheres and cylinders. With these limits all triangles of spheres and
+    /// disagreement of the estimates of a height, also with the patch, relative to what the largest curvature
+    /// there gives. Both are nothing on spheres and cylinders. With these limits all triangles of spheres and
     /// cylinders of six cells across pass, and less than a quarter where noise is as large as the heights of
     /// facets (tests/unit/surface/smooth_surface.cc); on the bones of a knee the residual is 0.11 (median).
     double largest_residual     = .1;
@@ -40,6 +40,15 @@ namespace Signorini
     /// left over less than 1e-8, and five by chance that left over 1e-3; of a stem of an implant 1200 left
     /// over 1e-5 to 1e-3, and gaps were wrong.
     double exact_arc = 1e-5;
+    /// Which part of what a quadratic surface leaves over one of third degree may leave over at most to be
+    /// taken. Of noise as large as the heights of facets it leaves .83; with it patches over ellipsoids,
+    /// waves and other free surfaces are 3 to 15 times nearer to these.
+    double cubic_leaves = .5;
+    /// At the end of a curve that is extruded: how many places along it a fit needs, the rings of neighbours
+    /// that may be asked for them, and the residual up to which the curve goes on so far. Ellipses of 64
+    /// faces are met 4 to 14 times better at ends than with two places.
+    unsigned int places_at_ends = 4, rings_at_ends = 4;
+    double       goes_on = .01;
     /// What a quadratic surface leaves over at most where a torus or cone is looked for: 0.22 on coarse ones.
     double may_be_arc = .3;
     /// Triangles that lie in one plane up to this share of their size are flat: noise of files with eight
@@ -60,15 +69,18 @@ namespace Signorini
   /// The smooth surface that a triangulated one stands for: a curved patch over each triangle, through its
   /// vertices, from their normals:
   ///
-  ///   offset(x) = 1/(1 + |N|) sum_a w_a ((x_a - x)·n_a) N/|N| ,  x = sum_a w_a x_a ,  N = sum_a w_a n_a ,
+  ///   offset(x) = 2 H / (|N| (1 + |N|)) N ,  x = sum_a w_a x_a ,  N = sum_a w_a n_a ,
+  ///   H = sum_{a != b} w_a w_b (1 + w_a - w_b) ((x_a - x_b)·n_a) / 2 + B w_1 w_2 w_3    (doc/algorithm.md,
+  ///   (19)),
   ///
-  /// exact on spheres and cylinders (where x - centre = R N, the sum is R (1 - |N|²) and the height R (1 -
-  /// |N|)), of fourth order on quadratic surfaces, nothing on flat ones, continuous across edges but at
-  /// creases and where exact surfaces meet. Normals come from a quadratic surface through each vertex, fitted
-  /// to two rings of neighbours, which is exact on spheres, cylinders, cones and tori; where the curvature
-  /// jumps, as where a fillet goes over into a sphere, to one through a vertex nearby on the same side.
-  /// Creases, and the borders of flat parts, are borders of the smooth pieces and keep a normal on either
-  /// side.
+  /// exact on spheres and cylinders (where x - centre = R N, 2 H is R (1 - |N|²) and the height R (1 - |N|)),
+  /// of fourth order where the normals are exact, nothing on flat ones, continuous across edges but at
+  /// creases and where exact surfaces meet. B is what the curvatures at the corners say. Normals come from a
+  /// quadratic surface through each vertex, fitted to two rings of neighbours, which is exact on spheres,
+  /// cylinders, cones and tori, with terms of third degree where these leave much less over; where the
+  /// curvature jumps, as where a fillet goes over into a sphere, to one through a vertex nearby on the same
+  /// side. Creases, and the borders of flat parts, are borders of the smooth pieces and keep a normal on
+  /// either side.
   class SmoothSurface
   {
   public:
@@ -77,6 +89,9 @@ namespace Signorini
     {
       /// Unit normals at the corners, those of this side of creases.
       std::array<dealii::Tensor<1, 3>, 3> normals;
+      /// B, of the third degree: a 27th of it is the height in the middle beyond that by the normals
+      /// (length).
+      double bubble = 0.;
       /// Largest height of the patch over the triangle (length).
       double height = 0.;
       /// By how much the estimates of the height disagree (length): those of the curvatures at either end of
@@ -85,6 +100,9 @@ namespace Signorini
       double doubt = 0.;
       /// Whether the mesh itself shows that it stands for a smooth surface here.
       bool is_smooth = false;
+      /// By edge, from corner i to the next one: whether the triangle beyond it does not, so that what is
+      /// believed is straight there.
+      std::array<bool, 3> ends_at_edge = {{false, false, false}};
       /// Whether the triangle belongs to a flat part, which stays as it is.
       bool is_flat = false;
     };
@@ -113,6 +131,10 @@ namespace Signorini
     /// From the point with given barycentric coordinates to the curved patch (length), whether the triangle
     /// is believed to be smooth or not.
     dealii::Tensor<1, 3> offset(const unsigned int triangle, const std::array<double, 3> &weights) const;
+
+    /// The same where the triangle is believed to be smooth, nothing elsewhere: continuous between both.
+    dealii::Tensor<1, 3> believed_offset(const unsigned int           triangle,
+                                         const std::array<double, 3> &weights) const;
 
   private:
     SurfaceMesh        surface;

@@ -111,6 +111,96 @@ TEST(SmoothSurface, HasOrderThreeOnSmoothSurfaces)
 
 
 
+// Curvature that changes is not taken for a slope, neither in the normals nor between the corners; and the
+// doubt is of the size of the error.
+TEST(SmoothSurface, FreeSurfaces)
+{
+  using Function  = std::function<double(const Point<3> &)>;
+  const auto near = [](const Function &f) {
+    return [f](const Point<3> &x) {
+      constexpr double step = 1e-5;
+      Tensor<1, 3>     gradient;
+      for (unsigned int k = 0; k < 3; ++k)
+        {
+          Point<3> before = x, behind = x;
+          before[k] -= step;
+          behind[k] += step;
+          gradient[k] = (f(behind) - f(before)) / (2. * step);
+        }
+      return f(x) / gradient.norm();
+    };
+  };
+  struct Case
+  {
+    TestSurfaces::Shape shape;
+    Function            distance;
+    /// Largest error relative to that of facets, in rows and not.
+    std::array<double, 2> error;
+  };
+  const std::vector<Case> cases = {
+      {[](const double s, const double t) {
+         const Tensor<1, 3> d({s - .5, t - .3, .6});
+         return Point<3>(5. * d[0] / d.norm(), 3. * d[1] / d.norm(), 2. * d[2] / d.norm());
+       },
+       near([](const Point<3> &x) {
+         return std::sqrt(x[0] * x[0] / 25. + x[1] * x[1] / 9. + x[2] * x[2] / 4.) - 1.;
+       }),
+       {{.009, .007}}},
+      {[](const double s, const double t) {
+         return Point<3>(s, t, .1 * std::sin(4. * s) * std::cos(3. * t));
+       },
+       near([](const Point<3> &x) { return x[2] - .1 * std::sin(4. * x[0]) * std::cos(3. * x[1]); }),
+       {{.06, .04}}},
+      {[](const double s, const double t) {
+         const double r = 1. + .15 * std::sin(3. * t);
+         return Point<3>(r * std::cos(1.2 * s), r * std::sin(1.2 * s), t);
+       },
+       near([](const Point<3> &x) { return std::hypot(x[0], x[1]) - 1. - .15 * std::sin(3. * x[2]); }),
+       {{.015, .015}}},
+      {[](const double s, const double t) {
+         return Point<3>(5. * std::cos(1.57 * s - .3), 3. * std::sin(1.57 * s - .3), 5. * t);
+       },
+       near([](const Point<3> &x) { return std::hypot(x[0] / 5., x[1] / 3.) - 1.; }),
+       {{.035, .035}}}};
+  for (std::size_t c = 0; c < cases.size(); ++c)
+    for (const unsigned int i : {0, 1})
+      {
+        const SmoothSurface surface      = smooth(bent(16, .2 * i, cases[c].shape));
+        const auto [facets, patches]     = heights(surface, cases[c].distance);
+        const SurfaceMesh &mesh          = surface.mesh();
+        double             largest_doubt = 0.;
+        EXPECT_LT(patches, cases[c].error[i] * facets) << c << ' ' << i;
+        for (unsigned int t = 0; t < mesh.triangles.size(); ++t)
+          {
+            double error = 0.;
+            for (const auto &w : samples)
+              error =
+                  std::max(error, std::abs(cases[c].distance(evaluate(mesh, t, w) + surface.offset(t, w))));
+            // Where fits agree by chance, as one-sided ones at ends of curves, a doubt may be small.
+            EXPECT_LT(error, 3. * surface.patch(t).doubt + .01 * facets) << c << ' ' << i << ' ' << t;
+            largest_doubt = std::max(largest_doubt, surface.patch(t).doubt);
+          }
+        EXPECT_LT(largest_doubt, 8. * patches) << c << ' ' << i;
+      }
+}
+
+
+
+// An ellipse extruded by one cell, to its ends: two places beside a vertex would not do.
+TEST(SmoothSurface, EndsOfCurves)
+{
+  const TestSurfaces::FlatGrid grid = TestSurfaces::flat_grid(16, 1);
+  SurfaceMesh                  mesh;
+  for (const auto &[s, t] : grid.vertices)
+    mesh.vertices.push_back({5. * std::cos(1.57 * s - .3), 3. * std::sin(1.57 * s - .3), .5 * t});
+  mesh.triangles = grid.triangles;
+  const auto [facets, patches] =
+      heights(smooth(mesh), [](const Point<3> &x) { return (std::hypot(x[0] / 5., x[1] / 3.) - 1.) * 3.; });
+  EXPECT_LT(patches, .02 * facets);
+}
+
+
+
 // Two rows of vertices: straight from row to row.
 TEST(SmoothSurface, StripsOfOneCell)
 {
@@ -438,6 +528,42 @@ TEST(SmoothSurface, KnowsHowWellItKnows)
   // The doubt is of the size of what is really wrong.
   for (unsigned int t = 0; t < rough.mesh().triangles.size(); ++t)
     EXPECT_LT(rough.patch(t).doubt, 3. * h * h);
+}
+
+
+
+// Where facets stand for a rough part, the smooth part beside it goes down to them.
+TEST(SmoothSurface, BelievedPartsGoDownToFacets)
+{
+  std::mt19937                           random(5);
+  std::uniform_real_distribution<double> noise(-1., 1.);
+  constexpr unsigned int                 n       = 16;
+  const SmoothSurface                    surface = smooth(bent(n, .2, [&](const double s, const double t) {
+    const Point<3> x = on_sphere(s, t);
+    return s < .5 ? x : x + .5 / (n * n) * noise(random) * Tensor<1, 3>(x);
+  }));
+  const SurfaceTopology                  topology(surface.mesh().triangles, surface.mesh().vertices.size());
+  unsigned int                           n_ends = 0, n_inside = 0;
+  for (unsigned int e = 0; e < topology.edges.size(); ++e)
+    if (!topology.is_border(e))
+      {
+        std::array<Tensor<1, 3>, 2> offsets;
+        for (unsigned int side = 0; side < 2; ++side)
+          {
+            const unsigned int    t                     = topology.edge_triangles[e][side];
+            std::array<double, 3> middle                = {{.5, .5, .5}};
+            middle[(topology.local_edge(t, e) + 2) % 3] = 0.;
+            offsets[side]                               = surface.believed_offset(t, middle);
+          }
+        EXPECT_LT((offsets[0] - offsets[1]).norm(), 1e-14) << e;
+        const auto &[one, other] = topology.edge_triangles[e];
+        if (surface.patch(one).is_smooth != surface.patch(other).is_smooth)
+          ++n_ends;
+        else if (surface.patch(one).is_smooth && offsets[0].norm() > .1 / (8 * n * n))
+          ++n_inside;
+      }
+  EXPECT_GT(n_ends, n);
+  EXPECT_GT(n_inside, 8 * n);
 }
 
 
