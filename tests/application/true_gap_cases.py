@@ -328,3 +328,39 @@ def fillets(p):
                 check(pair['gap_doubt'] < 1e-5 and pair['initial_penetration'] < 1e-5, f'{size}, {side}: {pair}')
                 loads.append(pair['load'])
             near(loads[0], loads[1], .01, f'{size}: load by either side')
+
+
+ELLIPSES = '''set Bodies        = shaft, ring
+set Contact pairs = fit
+subsection Body shaft
+  set Mesh          = ellipses.msh
+  set Volumes       = shaft
+  set Young modulus = 210000
+  set Dirichlet     = shaft ends: (*, *, 0)
+end
+subsection Body ring
+  set Mesh          = ellipses.msh
+  set Volumes       = ring
+  set Young modulus = 70000
+  set Dirichlet     = ring ends: (*, *, 0); outside: (0, 0, *)
+end
+subsection Pair fit
+  set First  = shaft: skin
+  set Second = ring: bore
+end
+'''
+
+
+def elliptic_fit(p):
+    """Refining a fit of surfaces that are neither spheres nor cylinders resolves no ripples of the start mesh. By a start mesh four times as fine
+    pressures are 223 to 263 around the ends of the long axis; refined ripples made them 131 to 315."""
+    with tempfile.TemporaryDirectory() as folder:
+        path, out = os.path.join(folder, 'ellipses.prm'), os.path.join(folder, 'out')
+        with open(path, 'w') as f:
+            f.write(ELLIPSES)
+        make_mesh(os.path.join(TOP, 'tests', 'application', 'ellipses.geo'), os.path.join(folder, 'ellipses.msh'))
+        s = p.solve(path, 'Refinement/Initial global levels=2', keep=out)
+        pressures = [r['pressure'] for r in read_pressure(os.path.join(out, 'pressure.csv')) if abs(r['x']) > 9.3]
+        print(f'{len(pressures)} nodes: {min(pressures)} to {max(pressures)}, doubt {s["pairs"][0]["gap_doubt"]}')
+        check(min(pressures) > 217. and s['pairs'][0]['max_pressure'] < 270., f'pressures from {min(pressures)} to {max(pressures)}')
+        check(s['certificate']['contact_conditions_hold'], f'{s["certificate"]["objections"]}')
