@@ -186,6 +186,42 @@ TEST(SmoothSurface, FreeSurfaces)
 
 
 
+// All around an ellipse: cubics between the corners, and curves of higher degree where vertices lie anywhere
+// along it.
+TEST(SmoothSurface, EllipticCylinders)
+{
+  constexpr unsigned int n_around = 64, n_layers = 4;
+  const auto             distance = [](const Point<3> &x) {
+    const double f = std::hypot(x[0] / 5., x[1] / 3.);
+    return (f - 1.) * f / std::hypot(x[0] / 25., x[1] / 9.);
+  };
+  for (const double jitter : {0., .2})
+    {
+      std::mt19937                           random(5);
+      std::uniform_real_distribution<double> noise(-jitter, jitter);
+      SurfaceMesh                            mesh;
+      for (unsigned int j = 0; j <= n_layers; ++j)
+        for (unsigned int i = 0; i < n_around; ++i)
+          {
+            const double inner = j > 0 && j < n_layers ? 1. : 0.,
+                         angle = (i + inner * noise(random)) * 2. * M_PI / n_around;
+            mesh.vertices.emplace_back(5. * std::cos(angle), 3. * std::sin(angle),
+                                       .4 * (j + inner * noise(random)));
+          }
+      for (unsigned int j = 0; j < n_layers; ++j)
+        for (unsigned int i = 0; i < n_around; ++i)
+          {
+            const unsigned int a = j * n_around + i, b = j * n_around + (i + 1) % n_around;
+            mesh.triangles.push_back({{a, b, b + n_around}});
+            mesh.triangles.push_back({{a, b + n_around, a + n_around}});
+          }
+      const auto [facets, patches] = heights(smooth(mesh), distance);
+      EXPECT_LT(patches, (jitter > 0. ? .015 : .0015) * facets) << patches << ' ' << facets;
+    }
+}
+
+
+
 // An ellipse extruded by one cell, to its ends: two places beside a vertex would not do.
 TEST(SmoothSurface, EndsOfCurves)
 {
