@@ -198,7 +198,9 @@ namespace Signorini
   {
     const unsigned int          triangle = feet.find(p).triangle;
     const SmoothSurface::Patch &patch    = surface->patch(triangle);
-    return is_curved(triangle) ? patch.doubt : std::max(patch.doubt, patch.height);
+    const auto                 &ends     = patch.ends_at_edge;
+    const bool goes_down = !everywhere && std::find(ends.begin(), ends.end(), true) != ends.end();
+    return is_curved(triangle) && !goes_down ? patch.doubt : std::max(patch.doubt, patch.height);
   }
 
 

@@ -242,8 +242,7 @@ namespace Signorini
     q.v      = axis;
     q.d = q.e = 0.;
     // Slope, curvature, and by how much that changes, which slopes of a symmetric curve would be taken for.
-    // Where there are more places than the four of cells in rows these lie anywhere.
-    const Eigen::Index n_unknowns = n > 7 ? 5 : n > 5 ? 4 : n > 3 ? 3 : 2;
+    const Eigen::Index n_unknowns = n > 3 ? 3 : 2;
     Eigen::MatrixXd    a(n, n_unknowns);
     Eigen::VectorXd    b(n);
     double             last = std::numeric_limits<double>::max();
@@ -256,8 +255,8 @@ namespace Signorini
             const double       weight = 1. / x.norm_square();
             a(i, 0)                   = weight * (x * q.u);
             a(i, 1)                   = .5;
-            for (Eigen::Index k = 2; k < n_unknowns; ++k)
-              a(i, k) = std::pow(x * q.u, k - 1);
+            if (n_unknowns > 2)
+              a(i, 2) = x * q.u;
             b[i] = weight * (x * q.normal);
           }
         const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(a);

@@ -84,8 +84,8 @@ namespace Signorini
   std::vector<dealii::Tensor<1, 3>> places_across(const std::vector<dealii::Tensor<1, 3>> &neighbours,
                                                   const dealii::Tensor<1, 3>              &axis);
 
-  /// The same for points of a surface that is straight along an axis: no curvature along it, and a normal
-  /// across it, whatever the points leave open. Up to fifth degree across, as far as there are places.
+  /// fit() for points of a surface that is straight along an axis: no curvature along it, and a normal across
+  /// it, whatever the points leave open; with terms of third degree across from four places on.
   bool fit_extruded(Quadric &q, const std::vector<dealii::Tensor<1, 3>> &neighbours,
                     const dealii::Tensor<1, 3> &axis);
 

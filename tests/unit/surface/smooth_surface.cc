@@ -186,12 +186,14 @@ TEST(SmoothSurface, FreeSurfaces)
 
 
 
-// All around an ellipse: cubics between the corners, and curves of higher degree where vertices lie anywhere
-// along it.
+// All around an ellipse, with vertices in rows and anywhere: cubics between the corners.
 TEST(SmoothSurface, EllipticCylinders)
 {
-  constexpr unsigned int n_around = 64, n_layers = 4;
-  const auto             distance = [](const Point<3> &x) {
+  constexpr unsigned int n_around = 64, n_layers = 8;
+  // Away from the ends.
+  const auto distance = [](const Point<3> &x) {
+    if (std::abs(x[2] - .2 * n_layers) > .7)
+      return 0.;
     const double f = std::hypot(x[0] / 5., x[1] / 3.);
     return (f - 1.) * f / std::hypot(x[0] / 25., x[1] / 9.);
   };
@@ -216,7 +218,7 @@ TEST(SmoothSurface, EllipticCylinders)
             mesh.triangles.push_back({{a, b + n_around, a + n_around}});
           }
       const auto [facets, patches] = heights(smooth(mesh), distance);
-      EXPECT_LT(patches, (jitter > 0. ? .015 : .0015) * facets) << patches << ' ' << facets;
+      EXPECT_LT(patches, (jitter > 0. ? .007 : .0015) * facets) << patches << ' ' << facets;
     }
 }
 
