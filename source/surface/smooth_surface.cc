@@ -203,6 +203,7 @@ namespace Signorini
           turn_frame(quadric, nearest);
       }
 
+      /// Edges of believed patches beyond which facets are what is believed.
       void find_ends(std::vector<SmoothSurface::Patch> &patches, const std::vector<bool> &wanted) const
       {
         for (unsigned int e = 0; e < topology.edges.size(); ++e)

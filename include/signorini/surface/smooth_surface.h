@@ -94,9 +94,10 @@ namespace Signorini
       double bubble = 0.;
       /// Largest height of the patch over the triangle (length).
       double height = 0.;
-      /// By how much the estimates of the height disagree (length): those of the curvatures at either end of
-      /// an edge, found from different neighbourhoods (or from one, that of a vertex nearby, where a surface
-      /// goes over into another one), and that of the normals.
+      /// By how much it may be wrong (length): how far the curvatures at either end of an edge, found from
+      /// different neighbourhoods (or from one, that of a vertex nearby, where a surface goes over into
+      /// another one), are from those that it has there, as heights of the middle; what the fits leave over.
+      /// On cones and tori the distance from these.
       double doubt = 0.;
       /// Whether the mesh itself shows that it stands for a smooth surface here.
       bool is_smooth = false;
