@@ -47,6 +47,21 @@ namespace Signorini
 
   namespace
   {
+    double largest_distance(const std::vector<Tensor<1, 3>> &points)
+    {
+      double result = 0.;
+      for (const Tensor<1, 3> &x : points)
+        result = std::max(result, x.norm());
+      return result;
+    }
+
+    /// What is left over as a curvature, of a fit in units of `size`.
+    void set_checks(Quadric &q, const Eigen::Index n_checks, const double size)
+    {
+      q.n_checks = static_cast<unsigned int>(n_checks);
+      q.left_over *= 2. / (size * std::sqrt(std::max(1., static_cast<double>(n_checks))));
+    }
+
     /// Solves for the two slopes and the three curvatures of a quadratic surface. Two rows of vertices, a
     /// strip of one cell, leave the curvature across them open: it is nothing. Returns false if the values
     /// leave more open, or something else.
@@ -103,9 +118,7 @@ namespace Signorini
     const Eigen::Index     n       = static_cast<Eigen::Index>(neighbours.size());
     if (n < 5)
       return false;
-    double size = 0.;
-    for (const auto &x : neighbours)
-      size = std::max(size, x.norm());
+    const double                             size = largest_distance(neighbours);
     Eigen::Matrix<double, Eigen::Dynamic, 5> a(n, 5);
     Eigen::VectorXd                          b(n);
     double curvature = 0., bend_before = 0., last = std::numeric_limits<double>::max();
@@ -150,8 +163,7 @@ namespace Signorini
     q.c /= size;
     q.d /= size;
     q.e /= size;
-    q.n_checks = static_cast<unsigned int>(n - 5);
-    q.left_over *= 2. / (size * std::sqrt(std::max(1., static_cast<double>(q.n_checks))));
+    set_checks(q, n - 5, size);
     return true;
   }
 
@@ -164,9 +176,7 @@ namespace Signorini
     const auto             n          = static_cast<Eigen::Index>(neighbours.size());
     if (n <= n_unknowns)
       return false;
-    double size = 0.;
-    for (const auto &x : neighbours)
-      size = std::max(size, x.norm());
+    const double    size = largest_distance(neighbours);
     Eigen::MatrixXd a(n, n_unknowns);
     Eigen::VectorXd b(n);
     double          last = std::numeric_limits<double>::max();
@@ -199,8 +209,7 @@ namespace Signorini
           break;
         last = change;
       }
-    q.n_checks = static_cast<unsigned int>(n - n_unknowns);
-    q.left_over *= 2. / (size * std::sqrt(std::max(1., static_cast<double>(q.n_checks))));
+    set_checks(q, n - n_unknowns, size);
     return true;
   }
 
@@ -231,11 +240,9 @@ namespace Signorini
   {
     constexpr unsigned int          n_steps = 20;
     const std::vector<Tensor<1, 3>> points  = places_across(neighbours, axis);
-    double                          size    = 0.;
-    for (const Tensor<1, 3> &x : points)
-      size = std::max(size, x.norm());
-    const auto         n      = static_cast<Eigen::Index>(points.size());
-    const Tensor<1, 3> normal = q.normal - (q.normal * axis) * axis;
+    const double                    size    = largest_distance(points);
+    const auto                      n       = static_cast<Eigen::Index>(points.size());
+    const Tensor<1, 3>              normal  = q.normal - (q.normal * axis) * axis;
     if (n < 2 || !(normal.norm() > 0.))
       return false;
     q.normal = normal / normal.norm();
@@ -276,9 +283,7 @@ namespace Signorini
     q.u = cross_product_3d(q.v, q.normal);
     // As many as with five unknowns; rows beside each other tell the same, two of them count.
     const auto n_neighbours = static_cast<Eigen::Index>(neighbours.size());
-    q.n_checks              = static_cast<unsigned int>(
-        std::max<Eigen::Index>(0, std::min(n_neighbours - 5, 2 * (n - n_unknowns))));
-    q.left_over *= 2. / (size * std::sqrt(std::max(1., static_cast<double>(q.n_checks))));
+    set_checks(q, std::max<Eigen::Index>(0, std::min(n_neighbours - 5, 2 * (n - n_unknowns))), size);
     return true;
   }
 
