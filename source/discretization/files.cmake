@@ -1,28 +1,31 @@
 signorini_add_layer(discretization
-  background_levels.cc background_octree.cc basis_transformation.cc
-  boundary_conditions.cc
+  background_levels.cc
+  background_octree.cc
+  basis_transformation.cc
   coarse_contact.cc
-  condition_frame.cc
-  elasticity.cc
-  elasticity_pattern.cc
   distributed_background_levels.cc
   eigenstrain.cc
+  elasticity.cc
+  elasticity_pattern.cc
   element.cc
   error_indicator.cc
   exact_error.cc
   expanded_cell.cc
-  face_conditions.cc
   hexahedron.cc
   interpolation_exchange.cc
   level_hierarchy.cc
   level_spaces.cc
+  nodal_stress.cc
+  transformed_rows.cc
+  vertex_expansion.cc
+  COLD
+  boundary_conditions.cc
+  condition_frame.cc
+  face_conditions.cc
   load_parameters.cc
   motion_description.cc
-  nodal_stress.cc
   node_conditions.cc
   rigid_faces.cc
   rigid_support.cc
   shear_free_planes.cc
-  transformed_rows.cc
-  vertex_expansion.cc
 )

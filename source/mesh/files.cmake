@@ -1,14 +1,36 @@
 signorini_add_layer(mesh
-  abaqus_input.cc
   bodies.cc
+  body_movement.cc
+  boundary_shape.cc
+  coarser_meshes.cc
+  facing_parts.cc
+  forest_closure.cc
+  forest_ghosts.cc
+  forest_pieces.cc
+  forest_vertices.cc
+  late_vertices.cc
+  nodal_space.cc
+  node_movement.cc
+  refinement.cc
+  surface_creases.cc
+  surface_extraction.cc
+  surface_normals.cc
+  surface_piece.cc
+  surface_sight.cc
+  tetrahedral_forest.cc
+  tetrahedron_bisection.cc
+  triangulated_shape.cc
+  true_shape.cc
+  vertex_history.cc
+  volume_mesh.cc
+  way_out.cc
+  COLD
+  abaqus_input.cc
   body_definition.cc
   body_elements.cc
-  body_movement.cc
   body_parameters.cc
   body_parts.cc
   body_shapes.cc
-  boundary_shape.cc
-  coarser_meshes.cc
   curve_order.cc
   deck.cc
   deck_elements.cc
@@ -17,35 +39,14 @@ signorini_add_layer(mesh
   deck_text.cc
   expression.cc
   extruded_mesh.cc
-  facing_parts.cc
-  forest_closure.cc
-  forest_ghosts.cc
-  forest_pieces.cc
-  forest_vertices.cc
   generated_mesh.cc
   gmsh_file.cc
-  late_vertices.cc
   material.cc
   mesh_input.cc
-  nodal_space.cc
-  node_movement.cc
   quadratic_tetrahedron.cc
-  refinement.cc
   separate_process.cc
-  start_nodes.cc
   size_limit.cc
-  surface_creases.cc
-  surface_extraction.cc
+  start_nodes.cc
   surface_file.cc
-  surface_normals.cc
-  surface_piece.cc
-  surface_sight.cc
   symmetry_planes.cc
-  tetrahedral_forest.cc
-  tetrahedron_bisection.cc
-  triangulated_shape.cc
-  true_shape.cc
-  vertex_history.cc
-  volume_mesh.cc
-  way_out.cc
 )
