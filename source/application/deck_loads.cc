@@ -8,7 +8,7 @@
 #include "deck_series.h"
 
 #include <signorini/algebra/input_error.h>
-#include <signorini/mesh/cell_shape.h>
+#include <signorini/discretization/element.h>
 
 #include <algorithm>
 
@@ -398,38 +398,15 @@ namespace Signorini
       static std::vector<std::pair<unsigned int, double>> nodal_volumes(const VolumeMesh       &mesh,
                                                                         const VolumeMesh::Cell &cell)
       {
+        const Element                                element(mesh, cell);
         std::vector<std::pair<unsigned int, double>> result;
-        const auto                                   x = mesh.corners(cell);
         for (unsigned int v = 0; v < cell.n_vertices; ++v)
           result.emplace_back(cell.vertices[v], 0.);
-        if (cell.n_vertices == CellShape::tetrahedron)
+        for (unsigned int q = 0; q < element.n_points(); ++q)
           {
-            const double volume = std::abs(cross_product_3d(x[1] - x[0], x[2] - x[0]) * (x[3] - x[0])) / 6.;
-            for (auto &entry : result)
-              entry.second = volume / 4.;
-            return result;
-          }
-        // Gauss points of order three, two in each direction.
-        const double gauss[2] = {.5 - .5 / std::sqrt(3.), .5 + .5 / std::sqrt(3.)};
-        for (unsigned int q = 0; q < 8; ++q)
-          {
-            const double           p[3] = {gauss[q & 1], gauss[q >> 1 & 1], gauss[q >> 2 & 1]};
-            std::array<double, 8>  shape;
-            std::array<Vector3, 3> edges;
-            for (unsigned int v = 0; v < 8; ++v)
-              {
-                double f[3], d[3];
-                for (unsigned int c = 0; c < 3; ++c)
-                  {
-                    f[c] = (v >> c & 1) ? p[c] : 1. - p[c];
-                    d[c] = (v >> c & 1) ? 1. : -1.;
-                  }
-                shape[v] = f[0] * f[1] * f[2];
-                for (unsigned int c = 0; c < 3; ++c)
-                  edges[c] += d[c] * f[(c + 1) % 3] * f[(c + 2) % 3] * Vector3(x[v]);
-              }
-            const double volume = std::abs(cross_product_3d(edges[0], edges[1]) * edges[2]) / 8.;
-            for (unsigned int v = 0; v < 8; ++v)
+            const double volume = std::abs(element.volume_element(q).first);
+            const auto   shape  = element.shape_at_point(q);
+            for (unsigned int v = 0; v < cell.n_vertices; ++v)
               result[v].second += volume * shape[v];
           }
         return result;

@@ -38,9 +38,6 @@ namespace Signorini
     {
       return bins[(static_cast<std::size_t>(bin[2]) * n_bins[1] + bin[1]) * n_bins[0] + bin[0]];
     }
-    /// Coordinates on the reference cell. False for a cell without a volume.
-    bool to_reference(std::array<double, 3> &xi, const VolumeMesh::Cell &cell,
-                      const dealii::Point<3> &p) const;
 
     VolumeMesh                             mesh;
     dealii::Point<3>                       low, high;

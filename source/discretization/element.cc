@@ -34,6 +34,15 @@ namespace Signorini
 
 
 
+  Element::Element(const VolumeMesh &mesh, const VolumeMesh::Cell &cell)
+    : n(cell.n_vertices)
+  {
+    for (unsigned int v = 0; v < n; ++v)
+      corners[v] = mesh.vertices[cell.vertices[v]];
+  }
+
+
+
   Point<3> Element::centre() const
   {
     Point<3> sum;

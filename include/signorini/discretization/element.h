@@ -21,6 +21,8 @@ namespace Signorini
     Element() = default;
     /// A copy of the corners of a cell of the space.
     Element(const NodalSpace &space, const NodalSpace::Cell &cell);
+    /// The same of a cell of a mesh.
+    Element(const VolumeMesh &mesh, const VolumeMesh::Cell &cell);
 
     /// 4 or 8.
     unsigned int n_vertices() const
