@@ -248,6 +248,9 @@ namespace Signorini
         // Curvatures at both ends of an edge differ on cones and tori.
         if (arc)
           patch.doubt = disagreement = distance_from(*arc, patch, t);
+        // Where the curvature changes steadily the patch has it at both ends: the ends need not agree.
+        if (patch.doubt <= rule.agrees * disagreement)
+          disagreement = patch.doubt;
         patch.is_smooth = fit.is_complete && residual <= rule.largest_residual &&
                           std::max(disagreement, patch.doubt) <=
                               rule.largest_disagreement * curvature * longest * longest / 8.;

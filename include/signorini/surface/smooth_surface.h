@@ -21,6 +21,9 @@ namespace Signorini
     /// facets (tests/unit/surface/smooth_surface.cc); on the bones of a knee the residual is 0.11 (median).
     double largest_residual     = .1;
     double largest_disagreement = .35;
+    /// Part of a disagreement of curvatures beside which what the patch has at its ends is none: it takes
+    /// what changes along it.
+    double agrees = .1;
     /// Residual up to which a fit is the surface itself: vertices of spheres and cylinders from CAD lie on
     /// them to 1e-5 of the heights of coarse facets and better. Such fits hold as far as vertices lie on
     /// them.
