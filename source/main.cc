@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Signorini authors
 
 #include <signorini/algebra/input_error.h>
+#include <signorini/application/free_bodies.h>
 #include <signorini/application/problem_description.h>
 #include <signorini/application/problem_identity.h>
 #include <signorini/application/run_problem.h>
@@ -161,6 +162,9 @@ namespace
         describe(description, model, *discretize(model, space, {}, 0, journal));
         if (is_root)
           print(description.str());
+        // What the run says first, here with all of the above to look at.
+        Journal silent;
+        check_free_parts(model, space->free_parts, parameters.solve.solver.method, silent);
         return 0;
       }
     const std::vector<double> times  = file.load_steps();

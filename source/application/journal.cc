@@ -7,11 +7,18 @@
 
 namespace Signorini
 {
+  std::string note_line(const std::string &remark)
+  {
+    return (remark.rfind("warning: ", 0) == 0 ? "" : "note: ") + remark;
+  }
+
+
+
   void Journal::note(const std::string &text)
   {
     if (std::find(remarks.begin(), remarks.end(), text) != remarks.end())
       return;
     remarks.push_back(text);
-    print("note: " + text);
+    print(note_line(text));
   }
 } // namespace Signorini

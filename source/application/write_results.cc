@@ -7,6 +7,7 @@
 #include <signorini/algebra/input_error.h>
 #include <signorini/application/body_evaluation.h>
 #include <signorini/application/deck_results.h>
+#include <signorini/application/journal.h>
 #include <signorini/application/nodal_sums.h>
 #include <signorini/application/pair_fields.h>
 #include <signorini/application/write_report.h>
@@ -236,7 +237,7 @@ namespace Signorini
       write_file(path + "signorini.log", [&](std::ostream &o) {
         o << version_text() << "\n";
         for (const std::string &note : results.notes)
-          o << "note: " << note << "\n";
+          o << note_line(note) << "\n";
         write_table(o, results);
         print_certificate(o, results);
         print_final_words(o, results);

@@ -468,3 +468,6 @@ def check_says(p):
     check(run.returncode == 0 and 'ends at a plane across' in run.stdout, f'--check, half a stamp: {run.stdout}{run.stderr}')
     run = p.call('--check', PATCH_TEST, '--set', 'Body upper/Dirichlet=')
     check('body upper: the constraints leave 6 rigid motion(s) free' in run.stdout, f'--check: {run.stdout}')
+    run = p.call('--check', PATCH_TEST, '--set', 'Body upper/Dirichlet=', '--set', 'Body lower/Dirichlet=', '--set', 'Pair interface/Contact=tied')
+    check(run.returncode == 1 and 'no boundary of what moves belongs to a contact pair' in run.stderr and 'rigid motion(s) free' in run.stdout,
+          f'--check, nothing holds: {run.returncode} {run.stdout}{run.stderr}')

@@ -15,6 +15,9 @@
 
 namespace Signorini
 {
+  /// A remark as a line for people: warnings say themselves what they are.
+  std::string note_line(const std::string &remark);
+
   /// What a run tells: lines and progress on the terminal, notes that are kept for the results, and times.
   class Journal
   {
