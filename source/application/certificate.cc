@@ -125,11 +125,12 @@ namespace Signorini
 
 
 
-  bool has_lost_edges_near(const ContactPair &pair, const PairCoupling &coupling,
-                           const std::vector<unsigned char> &active)
+  std::size_t lost_edge_near(const ContactPair &pair, const PairCoupling &coupling,
+                             const std::vector<unsigned char> &active)
   {
+    std::size_t result = pair.lost_edges.size();
     if (pair.lost_edges.empty())
-      return false;
+      return result;
     const ContactSurface         &mortar = pair.mortar.surface;
     std::map<NodeIndex, Point<3>> positions;
     for (unsigned int v = 0; v < mortar.vertex_node.size(); ++v)
@@ -142,11 +143,12 @@ namespace Signorini
           for (const auto *entry = coupling.coupling.begin(row); entry != coupling.coupling.end(row); ++entry)
             if (const auto column = positions.find(entry->node); column != positions.end())
               reach = std::max(reach, here.distance(column->second));
-          for (const ContactPair::LostEdge &edge : pair.lost_edges)
-            if (edge.middle.distance(here) < .5 * edge.length + reach)
-              return true;
+          for (std::size_t e = 0; e < result; ++e)
+            if (const ContactPair::LostEdge &edge = pair.lost_edges[e];
+                edge.middle.distance(here) < .5 * edge.length + reach)
+              result = e;
         }
-    return false;
+    return result;
   }
 
 
@@ -156,7 +158,7 @@ namespace Signorini
     /// Errors of a mapping where bodies touch.
     struct ErrorsInContact
     {
-      /// In words; empty if there are none.
+      /// In words, with the place of one; empty if there are none.
       std::string text;
       /// Their area, and the pressure on it (area, force); infinite if pieces are lost whose area is not
       /// known.
@@ -193,15 +195,25 @@ namespace Signorini
       {
         std::size_t number;
         double      area, force;
+        /// The least of its vertices.
+        std::array<double, 3> place;
+      };
+      const auto &x           = pair.nonmortar.surface.mesh.vertices;
+      const auto  coordinates = [&](const unsigned int v) {
+        return std::array<double, 3>{{x[v][0], x[v][1], x[v][2]}};
       };
       std::vector<Error> places;
       for (const ContactPair::WrongPlace &place : pair.wrong_places)
         if (touches(place.vertices))
           {
             double largest = 0.;
+            auto   least   = coordinates(place.vertices[0]);
             for (const unsigned int v : place.vertices)
-              largest = std::max(largest, pressure[v]);
-            places.push_back({place.number, place.area, largest * place.area});
+              {
+                largest = std::max(largest, pressure[v]);
+                least   = std::min(least, coordinates(v));
+              }
+            places.push_back({place.number, place.area, largest * place.area, least});
           }
       // Several ranks may know of one, each of some of its vertices.
       std::map<std::size_t, Error> errors;
@@ -209,18 +221,28 @@ namespace Signorini
         {
           Error &error = errors.insert({one.number, one}).first->second;
           error.force  = std::max(error.force, one.force);
+          error.place  = std::min(error.place, one.place);
         }
       ErrorsInContact result;
+      Point<3>        place;
+      double          largest = -1.;
       for (const auto &[number, error] : errors)
         {
           result.area += error.area;
           result.force += error.force;
+          if (error.force > largest)
+            place = Point<3>(error.place[0], error.place[1], error.place[2]);
+          largest = std::max(largest, error.force);
         }
-      if (Utilities::MPI::max(static_cast<int>(has_lost_edges_near(pair, d.couplings[p], active)),
-                              d.nodal().communicator()) > 0)
-        result.area = std::numeric_limits<double>::infinity();
+      const std::size_t lost =
+          Utilities::MPI::min(lost_edge_near(pair, d.couplings[p], active), d.nodal().communicator());
+      if (lost < pair.lost_edges.size())
+        {
+          result.area = std::numeric_limits<double>::infinity();
+          place       = pair.lost_edges[lost].middle;
+        }
       if (result.area > 0.)
-        result.text = describe_errors(report);
+        result.text = describe_errors(report) + ", here at " + place_text(place);
       return result;
     }
 

@@ -9,11 +9,11 @@
 
 namespace Signorini
 {
-  /// Whether a mortar edge without an image is nearer to an active node of this rank than two of its faces,
-  /// or than the farthest mortar node that it couples.
+  /// The first of the mortar edges without an image that is nearer to an active node of this rank than two of
+  /// its faces, or than the farthest mortar node that it couples; their number if none is.
   /// @param active by row of the coupling
-  bool has_lost_edges_near(const ContactPair &pair, const PairCoupling &coupling,
-                           const std::vector<unsigned char> &active);
+  std::size_t lost_edge_near(const ContactPair &pair, const PairCoupling &coupling,
+                             const std::vector<unsigned char> &active);
 
   /// When a result is certified. Set so that every example and every test with a right result passes, and the
   /// wrong ones of `application/wrong_results` do not.

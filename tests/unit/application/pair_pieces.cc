@@ -148,7 +148,7 @@ TEST(LostEdges, AreSeenNearTheContact)
     ContactPair pair;
     pair.mortar     = whole.mortar;
     pair.lost_edges = {{Point<3>(x, .5, 0.), length}};
-    const bool here = has_lost_edges_near(pair, coupling, active);
+    const bool here = lost_edge_near(pair, coupling, active) == 0;
     return dealii::Utilities::MPI::max(static_cast<int>(here), MPI_COMM_WORLD) == 1;
   };
   // Faces of 1/8 and 1/7.
