@@ -188,19 +188,19 @@ namespace Signorini
 
 
 
-  double gap_doubt(const ContactSurface &nonmortar, const ContactSurface &mortar, const OverlayTriangle &cell)
+  double gap_doubt(const SurfaceValues &nonmortar, const ContactSurface &mortar, const OverlayTriangle &cell)
   {
-    const SurfaceValues non(nonmortar);
-    double              unused = 0.;
+    const ContactSurface &non    = nonmortar.contact_surface();
+    double                unused = 0.;
     for (const std::array<double, 3> &sample : samples)
       {
         const auto w = compose(cell.nonmortar, sample);
         unused       = std::max(
                   unused, std::abs((unused_offset(mortar, cell.mortar_triangle, compose(cell.mortar, sample)) -
-                              unused_offset(nonmortar, cell.nonmortar_triangle, w)) *
-                                   non.normal(cell.nonmortar_triangle, w)));
+                              unused_offset(non, cell.nonmortar_triangle, w)) *
+                                   nonmortar.normal(cell.nonmortar_triangle, w)));
       }
-    return unused + doubt_of(nonmortar, cell.nonmortar_triangle) + doubt_of(mortar, cell.mortar_triangle);
+    return unused + doubt_of(non, cell.nonmortar_triangle) + doubt_of(mortar, cell.mortar_triangle);
   }
 
 
@@ -267,7 +267,7 @@ namespace Signorini
             at_centre = gap;
           }
         if (has_corner(nonmortar, cell.nonmortar_triangle, contact.doubted))
-          doubts.add(cell.nonmortar_triangle, std::abs(cell.share()), gap_doubt(nonmortar, mortar, cell),
+          doubts.add(cell.nonmortar_triangle, std::abs(cell.share()), gap_doubt(non, mortar, cell),
                      at_centre.value_or(least.value()));
         under_load.add(cell.nonmortar_triangle,
                        std::abs(cell.share()) * triangle_area(nonmortar.mesh, cell.nonmortar_triangle),
@@ -286,10 +286,11 @@ namespace Signorini
                           const std::vector<OverlayTriangle> &overlay, const std::vector<bool> &is_near,
                           const MPI_Comm communicator)
   {
-    double largest = 0.;
+    const SurfaceValues non(nonmortar);
+    double              largest = 0.;
     for (const OverlayTriangle &cell : overlay)
       if (has_corner(nonmortar, cell.nonmortar_triangle, is_near))
-        largest = std::max(largest, gap_doubt(nonmortar, mortar, cell));
+        largest = std::max(largest, gap_doubt(non, mortar, cell));
     return Utilities::MPI::max(largest, communicator);
   }
 

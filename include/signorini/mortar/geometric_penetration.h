@@ -166,8 +166,7 @@ namespace Signorini
   /// By how much the gap of a triangle may be wrong (length): what the shapes of both sides do not know of
   /// themselves, and the heights over facets that a user wants to stand for the surface; the largest of seven
   /// points.
-  double gap_doubt(const ContactSurface &nonmortar, const ContactSurface &mortar,
-                   const OverlayTriangle &cell);
+  double gap_doubt(const SurfaceValues &nonmortar, const ContactSurface &mortar, const OverlayTriangle &cell);
 
   /// The same for a rigid partner: of the nonmortar surface alone.
   double gap_doubt(const ContactSurface &nonmortar, const unsigned int triangle);

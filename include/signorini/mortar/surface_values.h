@@ -54,6 +54,12 @@ namespace Signorini
     /// @param sharp_vertices those whose normal is that of none of the faces around them; none if empty
     explicit SurfaceValues(const ContactSurface &surface, std::vector<bool> sharp_vertices = {});
 
+    /// What it is about.
+    const ContactSurface &contact_surface() const
+    {
+      return surface;
+    }
+
     /// The point with given barycentric coordinates, on the facet.
     dealii::Point<3> point(const unsigned int triangle, const std::array<double, 3> &weights) const;
 
