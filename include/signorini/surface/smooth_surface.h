@@ -21,8 +21,9 @@ namespace Signorini
     /// facets (tests/unit/surface/smooth_surface.cc); on the bones of a knee the residual is 0.11 (median).
     double largest_residual     = .1;
     double largest_disagreement = .35;
-    /// Part of a disagreement of curvatures beside which what the patch has at its ends is none: it takes
-    /// what changes along it.
+    /// Curvatures at the ends of an edge may differ if the patch has both of them, up to this part of their
+    /// difference. Of 50,656 triangles of 58 surfaces 49,194 are believed with 0, 49,884, 50,071, 50,185 and
+    /// 50,218 with .05, .1, .2 and .5; with noise as many with all of these.
     double agrees = .1;
     /// Residual up to which a fit is the surface itself: vertices of spheres and cylinders from CAD lie on
     /// them to 1e-5 of the heights of coarse facets and better. Such fits hold as far as vertices lie on
